@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-// `code`: that of the program, which stays where it tells of something else.
+// `code`: the program's exit code. It is kept if it reports another failure.
 static void check(int code, void* nothing) {
   (void)nothing;
   if (fflush(stdout) == 0 && ferror(stdout) == 0) return;

@@ -1,4 +1,4 @@
-# What the tests of programs from outside share; to be sourced. `work` is a folder of their own, removed at the end.
+# Shared parts of the tests of programs; to be sourced. `work` is a separate folder, removed at the end.
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

@@ -1,4 +1,4 @@
-# The folders of ROOT are layers: each includes only itself and those below it, so that there are no cycles.
+# The folders of ROOT are layers. Each includes only itself and the layers below it, so there are no cycles.
 #   cmake -D ROOT=<folder> -D LAYERS="base;model:base;…" [-D PREFIX=ode/] [-D REFUSED=effects/] -P layers.cmake
 # LAYERS: each folder, with those below it after a colon, separated by "|". PREFIX: what stands before the folder in an include.
 # REFUSED: what no layer may include. Files beside the folders may include all.

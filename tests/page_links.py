@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fails where a page of the repository links to a file, or to a heading of a page, that is not there: page_links.py FOLDER."""
+"""Fails if a page of the repository links to a missing file or heading: page_links.py FOLDER."""
 import pathlib
 import re
 import subprocess

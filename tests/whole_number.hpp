@@ -7,7 +7,7 @@
 
 namespace supernormal::test {
 
-/// The number that a text is, from 0; -1 where it is none.
+/// The whole number in a text, from 0; -1 if the text is no such number.
 inline int whole_number(const char* text) {
   int value = 0;
   const char* const end = text + std::strlen(text);

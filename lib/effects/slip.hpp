@@ -1,4 +1,4 @@
-// The slip of a contact that a step without friction would bring. Friction opposes it.
+// The slip of a contact after a step without friction. Friction opposes it.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "supernormal/impact/motion.hpp"
 
-#include "impact/turning.hpp"
+#include "impact/body_rotation.hpp"
 
 namespace supernormal {
 

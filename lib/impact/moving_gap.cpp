@@ -22,11 +22,11 @@ Vector3 centre_of(const Motion& motion) { return motion.pose.position + motion.p
 
 }  // namespace
 
-MovingGap::MovingGap(const Motion& motion1, const Motion& motion2, const Turning& turning1, const Turning& turning2)
+MovingGap::MovingGap(const Motion& motion1, const Motion& motion2, const BodyRotation& rotation1, const BodyRotation& rotation2)
     : motion1_(motion1),
       motion2_(motion2),
-      turning1_(turning1),
-      turning2_(turning2),
+      rotation1_(rotation1),
+      rotation2_(rotation2),
       centre1_(centre_of(motion1)),
       centre_offset_((motion2.pose.position - motion1.pose.position) + motion2.pose.rotation * motion2.centre -
                      motion1.pose.rotation * motion1.centre),
@@ -35,8 +35,8 @@ MovingGap::MovingGap(const Motion& motion1, const Motion& motion2, const Turning
 double MovingGap::rounding(double t) const { return kRounding * (terms() + t * fastest()); }
 
 double MovingGap::known_until(double rounding, double horizon) const {
-  const double way = std::max(0.0, rounding / kRounding - terms());
-  return way < horizon * fastest() ? way / fastest() : horizon;
+  const double displacement = std::max(0.0, rounding / kRounding - terms());
+  return displacement < horizon * fastest() ? displacement / fastest() : horizon;
 }
 
 double MovingGap::rate(const Proximity& proximity, double t) const {
@@ -44,13 +44,13 @@ double MovingGap::rate(const Proximity& proximity, double t) const {
   const bool has_contact = proximity.status != Status::Apart;
   const Vector3 point1 = has_contact ? proximity.contact : proximity.point1;
   const Vector3 point2 = has_contact ? proximity.contact : proximity.point2;
-  const Vector3 turning1 = motion1_.angular_velocity.cross(point1);
-  const Vector3 turning2 = motion2_.angular_velocity.cross(point2 - offset(t));
-  return proximity.normal.dot(velocity_ + turning2 - turning1);
+  const Vector3 by_rotation1 = motion1_.angular_velocity.cross(point1);
+  const Vector3 by_rotation2 = motion2_.angular_velocity.cross(point2 - offset(t));
+  return proximity.normal.dot(velocity_ + by_rotation2 - by_rotation1);
 }
 
 MovingPair::MovingPair(const Shape& shape1, const Motion& motion1, const Shape& shape2, const Motion& motion2, Solver solver)
-    : MovingGap(motion1, motion2, Turning(shape1, motion1), Turning(shape2, motion2)),
+    : MovingGap(motion1, motion2, BodyRotation(shape1, motion1), BodyRotation(shape2, motion2)),
       shape1_(shape1),
       shape2_(shape2),
       solver_(solver),
@@ -101,7 +101,7 @@ Proximity MovingPair::evaluate(const Vector3& n, double t) {
 double MovingPair::terms() const { return offset(0).norm() + reach(); }
 
 double MovingPair::balls_meet(double horizon) const {
-  if (!is_turning()) return 0;
+  if (!is_rotating()) return 0;
   const double radius = reach() + rounding(horizon);
   const double c = offset(0).squaredNorm() - radius * radius;
   const double b = offset(0).dot(velocity());
@@ -113,11 +113,11 @@ double MovingPair::balls_meet(double horizon) const {
 }
 
 bool MovingPair::is_parting(double t) const {
-  return is_turning() && offset(t).dot(velocity()) >= 0 && offset(t).norm() > reach() + rounding(t);
+  return is_rotating() && offset(t).dot(velocity()) >= 0 && offset(t).norm() > reach() + rounding(t);
 }
 
 MovingOverPlane::MovingOverPlane(const Shape& shape, const Motion& motion, const Vector3& plane_normal, double plane_offset)
-    : MovingGap(motion, kAtRest, Turning(shape, motion), Turning(shape, kAtRest)),
+    : MovingGap(motion, kAtRest, BodyRotation(shape, motion), BodyRotation(shape, kAtRest)),
       shape_(shape),
       plane_normal_(plane_normal),
       plane_offset_(plane_offset) {}
@@ -133,7 +133,7 @@ double MovingOverPlane::terms() const { return first_centre1().norm() + reach() 
 
 bool MovingOverPlane::is_parting(double t) const {
   const double height = plane_normal_.dot(origin(t)) - plane_offset_;
-  return is_turning() && plane_normal_.dot(velocity()) <= 0 && height > reach() + rounding(t);
+  return is_rotating() && plane_normal_.dot(velocity()) <= 0 && height > reach() + rounding(t);
 }
 
 }  // namespace supernormal

@@ -1,7 +1,7 @@
 // The gap of two bodies in steady motion, as a function of time.
 #pragma once
 
-#include "impact/turning.hpp"
+#include "impact/body_rotation.hpp"
 #include "supernormal/proximity/proximity.hpp"
 
 namespace supernormal {
@@ -10,7 +10,7 @@ namespace supernormal {
 /// and does not rotate. So a common velocity and the distance from the origin cost no digits.
 class MovingGap {
  public:
-  MovingGap(const Motion& motion1, const Motion& motion2, const Turning& turning1, const Turning& turning2);
+  MovingGap(const Motion& motion1, const Motion& motion2, const BodyRotation& rotation1, const BodyRotation& rotation2);
   MovingGap(const MovingGap&) = delete;
   MovingGap(MovingGap&&) = delete;
   MovingGap& operator=(const MovingGap&) = delete;
@@ -43,13 +43,14 @@ class MovingGap {
   double rate(const Proximity& proximity, double t) const;
 
   /// Upper bound of the rate of any gap, m/s.
-  double fastest() const { return velocity_.norm() + turning1_.fastest() + turning2_.fastest(); }
+  double fastest() const { return velocity_.norm() + rotation1_.fastest() + rotation2_.fastest(); }
 
-  bool is_turning() const { return turning1_.is_turning() || turning2_.is_turning(); }
+  bool is_rotating() const { return rotation1_.is_rotating() || rotation2_.is_rotating(); }
 
-  /// The bound K of README.md, m/s^2, for a normal that rotates from n by `angle` (rad) with the angular velocity `turn` (rad/s).
-  double bound(const Vector3& n, double angle, double turn) const {
-    return 2 * turn * velocity_.norm() + turning1_.bound(n, angle, turn) + turning2_.bound(n, angle, turn);
+  /// The bound K of README.md, m/s^2, for a normal that rotates from n by `angle` (rad) with the angular velocity `normal_rate`
+  /// (rad/s).
+  double bound(const Vector3& n, double angle, double normal_rate) const {
+    return 2 * normal_rate * velocity_.norm() + rotation1_.bound(n, angle, normal_rate) + rotation2_.bound(n, angle, normal_rate);
   }
 
   /// The origin of the results at time t.
@@ -61,7 +62,7 @@ class MovingGap {
   const Motion& motion1() const { return motion1_; }
   const Motion& motion2() const { return motion2_; }
   const Vector3& first_centre1() const { return centre1_; }  // m; centre of body 1 at time 0
-  double reach() const { return turning1_.reach() + turning2_.reach(); }
+  double reach() const { return rotation1_.reach() + rotation2_.reach(); }
 
   /// From the centre of body 1 to the centre of body 2, m.
   Vector3 offset(double t) const { return centre_offset_ + t * velocity_; }
@@ -75,7 +76,7 @@ class MovingGap {
  private:
   const Motion& motion1_;
   const Motion& motion2_;
-  const Turning turning1_, turning2_;
+  const BodyRotation rotation1_, rotation2_;
   Vector3 centre1_;
   Vector3 centre_offset_;
   Vector3 velocity_;

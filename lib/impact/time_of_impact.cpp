@@ -156,7 +156,7 @@ class ImpactSearch {
     const double left = end_ - t_;
     const double a = now_.gap - rounding_;
     const double rate = gap_.rate(now_, t_);
-    if (!gap_.is_turning()) return advance_straight(a, rate, left);
+    if (!gap_.is_rotating()) return advance_straight(a, rate, left);
     if (a >= gap_.fastest() * left) return move_to_end(gap_.evaluate(now_.normal, end_));
     const double K = gap_.bound(now_.normal, 0, is_rotating_ ? rotation_.angle : 0);
     const double stride = longest_stride(a, rate, K, left);

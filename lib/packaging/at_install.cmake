@@ -1,6 +1,7 @@
-# What lib/packaging/install.cmake leaves to `cmake --install` itself, which alone knows the prefix. Where the loader looks of itself, nothing tells
-# programs where the libraries are, as Debian's policy asks; from any other prefix programs start without LD_LIBRARY_PATH. Takes
-# SUPERNORMAL_LIBDIR and SUPERNORMAL_INCLUDEDIR, relative to the prefix or absolute, and SUPERNORMAL_ARCHITECTURE, Debian's name of it.
+# Functions of lib/packaging/install.cmake that run in `cmake --install`, because only it knows the prefix. In folders that the loader
+# searches by default, no file tells programs where the libraries are, as Debian's policy requires. From any other prefix programs start
+# without LD_LIBRARY_PATH. Takes SUPERNORMAL_LIBDIR and SUPERNORMAL_INCLUDEDIR, relative to the prefix or absolute, and
+# SUPERNORMAL_ARCHITECTURE, Debian's name of it.
 cmake_path(ABSOLUTE_PATH SUPERNORMAL_LIBDIR BASE_DIRECTORY "${CMAKE_INSTALL_PREFIX}" NORMALIZE OUTPUT_VARIABLE supernormal_full_libdir)
 set(supernormal_loader_looks_there OFF)
 if(supernormal_full_libdir MATCHES "^(/usr)?/lib(32|64|x32)?(/${SUPERNORMAL_ARCHITECTURE})?/?$")

@@ -10,11 +10,11 @@
 
 namespace supernormal {
 
-/// Up to three boundary points of a body, projected along a line with direction v. There are two states. Either the points surround
-/// the line, which then passes through the body for certain. Or they leave a sector of directions free, in which it may pass beside
-/// the body.
+/// Up to three boundary points of a body, projected along a line with direction v. There are two states. If the points surround the
+/// line, it passes through the body for certain. Otherwise they leave a sector of directions free, in which the line may pass
+/// beside the body.
 ///
-/// When they surround the line, their triangle lies in the body. So its intersection with the line is an upper bound on the entry.
+/// If they surround the line, their triangle lies in the body. So its intersection with the line is an upper bound on the entry.
 /// The portal is from Snethen, "Xenocollide", Game Programming Gems 7, 2008; the bounds are from cutting-plane methods.
 class Portal {
  public:

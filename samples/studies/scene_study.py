@@ -1,4 +1,4 @@
-"""What the studies of scenes share: they write scenes from a template, run each with several seeds, and keep means with errors.
+"""Shared parts of the studies of scenes: write scenes from a template, run each with several seeds, and keep means with errors.
 
 A run whose results are in place is not run again, so a study that was stopped goes on where it was, and more seeds cost only
 themselves.
@@ -20,7 +20,7 @@ PROGRAM = ROOT / "build/release/samples/falling_particles/falling_particles"
 
 
 class Study:
-    """Scenes that differ in what `values` of run() says, under `out/studies/<name>/`."""
+    """Scenes with different `values` of run(), under `out/studies/<name>/`."""
 
     def __init__(self, folder, description, seeds=3):
         self.folder = pathlib.Path(folder).resolve().parent
@@ -37,7 +37,7 @@ class Study:
         self.out.mkdir(parents=True, exist_ok=True)
 
     def run(self, case, seed, values, template="scene.toml.in", catalogue="grains.toml.in"):
-        """The folder with the results of one scene, or None where it was not run; `case` names it."""
+        """The folder with the results of one scene, or None if it was not run; `case` names it."""
         name = f"{case}_{seed}"
         values = {**values, "seed": seed, "catalogue": f"{name}.grains.toml"}
         texts = {
@@ -61,7 +61,7 @@ class Study:
         return results
 
     def go_its_way(self, scene):
-        """The text of a scene with what --look-ahead and --step-factor ask for."""
+        """The text of a scene with the changes of --look-ahead and --step-factor."""
         if self.arguments.step_factor != 1:
             scene = at_step(scene, self.arguments.step_factor)
         return looking_ahead(scene) if self.arguments.look_ahead else scene
@@ -83,36 +83,36 @@ class Study:
 
 
 def way_of(arguments):
-    """What --look-ahead and --step-factor add to the name of a folder: runs of different ways do not replace one another."""
+    """The suffix of a folder for --look-ahead and --step-factor, so that runs with different options do not replace one another."""
     step = "" if arguments.step_factor == 1 else f"_step{arguments.step_factor:g}"
     return ("_ahead" if arguments.look_ahead else "") + step
 
 
 def at_step(scene, factor):
-    """Another time step. Whatever else the scene has to do with steps stays: intervals are to be multiples of the new one."""
+    """Another time step. Everything else stays, so intervals must be multiples of the new step."""
     return re.sub(r"(?m)^step = (\S+)", lambda step: f"step = {factor * float(step[1]):g}", scene, count=1)
 
 
 def looking_ahead(scene):
-    """Contacts before overlap, in place of the two sections that help contacts after it."""
+    """Contacts before overlap, in place of the two sections for plain contacts."""
     for section in ("surface_layer", "max_correcting_velocity"):
         scene = re.sub(rf"(?m)^\[{section}\]\n(.+\n)*\n?", "", scene)
     return scene + "\n[speculative_contacts]\n"
 
 
 def processor_time():
-    """s, of all programs that have run."""
+    """s; of all programs that have run."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
 
 def time_file(results):
-    """Holds the processor time of the run: beside its results, which the program replaces as a whole."""
+    """The file with the processor time of the run, beside the results, which the program replaces as a whole."""
     return results.with_name(results.name + ".processor_s")
 
 
 def is_complete(results):
-    """Whether a run was there, and not stopped on its way."""
+    """Whether there is a run that was not interrupted."""
     return (results / "summary.toml").exists() and not read_summary(results)["run"]["interrupted"]
 
 
@@ -125,7 +125,7 @@ def format_cell(cell):
 
 
 def read_table(path):
-    """A CSV file as a list of dictionaries of numbers, where a cell is one."""
+    """A CSV file as a list of dictionaries. Cells with numbers become numbers."""
     with path.open(newline="") as file:
         return [{key: to_number(cell) for key, cell in row.items()} for row in csv.DictReader(file)]
 
@@ -155,7 +155,7 @@ def health(runs):
 
 
 def deepest_in_median_frame(results):
-    """Relative to the smallest half-axis: what a bed has while it moves, without the blow of grains that arrive."""
+    """The overlap of a moving bed, relative to the smallest half-axis, without the impacts of arriving grains."""
     depths = [line["deepest_contact_m"] for line in read_table(results / "state.csv")]
     return statistics.median(depth for depth in depths if depth > 0) / read_summary(results)["end"]["smallest_half_axis"]
 
@@ -166,7 +166,7 @@ def mean(values):
 
 
 def standard_error(values):
-    """Of the mean of independent values; not a number for one of them."""
+    """The standard error of the mean of independent values; NaN for a single value."""
     values = list(values)
     if len(values) < 2:
         return math.nan
@@ -180,7 +180,7 @@ def deviation(values):
 
 
 def pooled_deviation(groups):
-    """Of values about the means of their groups, as if all groups scattered alike: few seeds say little of each group's own scatter."""
+    """The scatter of values about the means of their groups, taken as equal for all groups, because few seeds do not determine it for each group."""
     freedom = sum(len(group) - 1 for group in groups)
     if freedom == 0:
         return math.nan
@@ -188,6 +188,6 @@ def pooled_deviation(groups):
 
 
 def superball_half_axis(exponent, diameter):
-    """Of |x|^p + |y|^p + |z|^p = a^p with the volume of a sphere of that diameter, in its unit."""
+    """The half-axis a of |x|^p + |y|^p + |z|^p = a^p with the volume of a sphere of this diameter, in its unit."""
     volume = 8 * math.gamma(1 + 1 / exponent) ** 3 / math.gamma(1 + 3 / exponent)
     return (math.pi / 6 / volume) ** (1 / 3) * diameter

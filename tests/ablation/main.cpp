@@ -1,4 +1,4 @@
-// Changes one constant of the solver at a time (lib/proximity/tuning.hpp) and prints what that costs, over fixed sets of pairs.
+// Changes one constant of the solver at a time (lib/proximity/tuning.hpp) and prints the cost over fixed sets of pairs.
 //
 //     ablation [--pairs 3000] [--samples 20000] [--only name] [--list]
 #include <CLI/CLI.hpp>
@@ -14,7 +14,7 @@
 namespace supernormal::ablation {
 namespace {
 
-/// One constant and what it is changed to: the value that switches its mechanism off, where there is one, and others.
+/// One constant and the values that replace it: the value that switches its mechanism off, if there is one, and others.
 struct Trial {
   const char* name;
   std::variant<double Tuning::*, int Tuning::*> constant;
@@ -58,7 +58,7 @@ void print_header() {
   std::printf("\n");
 }
 
-/// Puts the value in place of a constant as long as it lives.
+/// Replaces a constant by the value as long as it lives.
 class Changed {
  public:
   Changed(const Trial& trial, double value) : before_(kTuning) {

@@ -23,11 +23,11 @@ using samples::HardCase;
 // Kinds of random pairs.
 constexpr int kSmooth = 0, kKinked = 1, kNoHessian = 2;
 
-constexpr double kDeepest = 0.3;  // of the smallest half-extent: the overlap along a normal, which is the depth or more
+constexpr double kDeepest = 0.3;  // of the smallest half-extent: the overlap along a normal, a lower bound of the depth
 
 constexpr std::uint64_t kSeed = 77;
 
-constexpr int kProofEvaluations = 5000;  // a pair whose maximum is not proved within so many counts as never missed
+constexpr int kProofEvaluations = 5000;  // a pair whose maximum is not proved within this limit counts as never missed
 constexpr double kMissed = 1e-6;         // of the smallest half-extent
 
 /// Calls function(k, counts of the calling thread) for k < count on two threads.

@@ -1,4 +1,4 @@
-// What the solver answers to fixed sets of pairs: the figures that an ablation compares.
+// The solver's answers to fixed sets of pairs: the figures that an ablation compares.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace supernormal::ablation {
 struct Counts {
   long queries = 0;
   long evaluations = 0;  ///< of the gap function
-  long unconverged = 0;  ///< answers that say so, to the default tolerance or a looser one
+  long unconverged = 0;  ///< answers reported as such, at the default tolerance or a looser one
   long missed = 0;       ///< converged, but more than 1e-6 of the smallest half-extent below the proved maximum
   long violations = 0;   ///< of the contract of an answer (tests/soak)
 
@@ -25,7 +25,7 @@ struct Figures {
   Counts catalogue;   ///< the hard cases
   Counts smooth;      ///< random superellipsoids of every class, overlapped by up to 30 %
   Counts kinked;      ///< the same against boxes, cylinders, capsules and polytopes
-  Counts no_hessian;  ///< superellipsoids again, by support function and boundary point alone
+  Counts no_hessian;  ///< superellipsoids again, with only support function and boundary point
   Counts soak;        ///< the soak's mix
   Counts sharp;       ///< the soak's sharp mix
 };
@@ -33,7 +33,7 @@ struct Figures {
 /// The sets, drawn once, with the proved maxima of the random pairs.
 class Measurement {
  public:
-  /// `pairs`: of the random sets, each; `samples`: of the soak's mixes, each.
+  /// `pairs`: the size of each random set. `samples`: the size of each mix of the soak.
   Measurement(int pairs, int samples);
 
   Figures measure() const;

@@ -1,8 +1,8 @@
-# A Slurm cluster of this machine alone, without systemd; to be sourced. Everything of it lies in a folder of its own, also the socket and
-# the key of munge, so that it is nobody else's cluster.
+# A Slurm cluster of this machine alone, without systemd; to be sourced. All its files are in a separate folder, also the socket and
+# the key of munge, so it does not disturb another cluster.
 
-# start_slurm FOLDER: starts munged, slurmctld and slurmd, and returns when the node takes jobs. The folder's name has to be short: the path
-# of a socket is.
+# start_slurm FOLDER: starts munged, slurmctld and slurmd, and returns when the node accepts jobs. The folder's name must be short, because the path
+# of a socket must be.
 start_slurm() {
   slurm_folder=$(realpath "$1")
   mkdir -p "$slurm_folder"/{state,spool,log}
@@ -11,7 +11,7 @@ start_slurm() {
   munged --force --key-file="$slurm_folder/munge.key" --socket="$slurm_folder/munge.socket" --pid-file="$slurm_folder/munged.pid" \
     --log-file="$slurm_folder/log/munged.log" --seed-file="$slurm_folder/munge.seed"
   local ports
-  # The system names two ports that nobody listens to.
+  # The system returns two unused ports.
   read -ra ports < <(python3 -c 'import socket
 sockets = [socket.socket() for _ in range(2)]
 for each in sockets: each.bind(("127.0.0.1", 0))
@@ -32,7 +32,7 @@ SlurmctldPidFile=$slurm_folder/slurmctld.pid
 SlurmdPidFile=$slurm_folder/slurmd.pid
 SlurmctldLogFile=$slurm_folder/log/slurmctld.log
 SlurmdLogFile=$slurm_folder/log/slurmd.log
-# Neither cgroups nor a mail program are in a container.
+# A container has neither cgroups nor a mail program.
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
 MailProg=/bin/true

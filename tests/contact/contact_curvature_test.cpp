@@ -38,7 +38,7 @@ TEST_CASE("at the ends of its axes an ellipsoid has the radii a^2/c and b^2/c") 
   }
 }
 
-TEST_CASE("the curvatures of two bodies add, turned as they are") {
+TEST_CASE("the curvatures of two rotated bodies add") {
   const Ellipsoid body(Vector3(2, 1, 1));
   Pose turned;
   turned.rotation = Eigen::AngleAxisd(std::acos(0.0), Vector3::UnitZ()).toRotationMatrix();
@@ -51,7 +51,7 @@ TEST_CASE("the curvatures of two bodies add, turned as they are") {
   CHECK(std::abs(parallel.larger - 2) < 1e-12);
 }
 
-TEST_CASE("a flat face has no curvature and an edge a large one") {
+TEST_CASE("a flat face has curvature 0 and an edge a large curvature") {
   const Superellipsoid box(Vector3(1, 1, 1), 50, 50);
   CHECK(find_curvature(box, {}, Vector3::UnitZ()).norm() < 1e-9);
   const Matrix3 edge = find_curvature(box, {}, Vector3(1, 0, 1).normalized());

@@ -13,13 +13,13 @@ using namespace supernormal::test;
 
 namespace {
 
-/// A contact whose ellipse has the half-axes 1 and b, under a pressure of 1 in its middle, on bodies of modulus 1: Johnson, section
-/// 3.3.
+/// A contact with an ellipse of half-axes 1 and b, under a pressure of 1 in its middle, on bodies of modulus 1: Johnson,
+/// section 3.3.
 struct Ellipse {
   explicit Ellipse(double b) {
     const double e = std::sqrt(1 - b * b);
     const double K = std::comp_ellint_1(e), E = std::comp_ellint_2(e);
-    const double A = b / (e * e) * (K - E), B = b / (e * e) * (E / (b * b) - K);  // half of the relative curvatures
+    const double A = b / (e * e) * (K - E), B = b / (e * e) * (E / (b * b) - K);  // half of the relative curvature along each axis
     const double force = 2.0 / 3 * std::numbers::pi * b;
     const double round_depth = std::cbrt(9.0 / 16 * force * force * 2 * std::sqrt(A * B));
     ratio = B / A;
@@ -28,7 +28,7 @@ struct Ellipse {
   double ratio, correction;
 };
 
-/// The velocity (of 1) after an impact of a unit mass on F = x^(3/2) with the damper of ratio b, by short Euler steps.
+/// The rebound velocity of an impact of a unit mass at velocity 1 on F = x^(3/2) with the damper of ratio b, by short Euler steps.
 double rebound(double b) {
   constexpr double kStep = 1e-6;
   double x = 0, v = 1;
@@ -43,7 +43,7 @@ double rebound(double b) {
 
 }  // namespace
 
-TEST_CASE("Hertz: the correction of elliptic contacts is that of the elliptic integrals") {
+TEST_CASE("Hertz: the correction of elliptic contacts agrees with the elliptic integrals") {
   CHECK(hertz_correction(1) == 1);
   for (const double axes : {0.95, 0.6, 0.2, 0.03, 0.001}) {
     const Ellipse ellipse(axes);
@@ -52,7 +52,7 @@ TEST_CASE("Hertz: the correction of elliptic contacts is that of the elliptic in
   }
 }
 
-TEST_CASE("Hertz: an impact with the damping of a restitution ends with it") {
+TEST_CASE("Hertz: an impact with the damping for a restitution rebounds with it") {
   CHECK(hertz_damping_ratio(1) == 0);
   for (const double restitution : {0.05, 0.3, 0.6, 0.9, 0.99}) {
     CAPTURE(restitution);

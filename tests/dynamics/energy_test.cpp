@@ -1,4 +1,4 @@
-// Tests that no energy comes out of nothing: bodies tumble, slide, roll and rest for long.
+// Tests that bodies gain no energy when they tumble, slide, roll and rest for a long time.
 #include <doctest/doctest.h>
 
 #include "support/ode_world.hpp"
@@ -17,8 +17,8 @@ TEST_CASE("tumbling bodies do not gain energy from a plane with friction in 1e5 
     dBodyID body = nullptr;
     double start = 0, least = 0, risen = 0;
   };
-  // A rolling body gains and loses energy in proportion to the step, as ODE's integrator does (the ellipsoid 0.5 % here and 4 %
-  // with steps of 2 ms); the flat ones come to rest.
+  // A rolling body gains and loses energy in proportion to the step, because of ODE's integrator (the ellipsoid 0.5 % here, and 4 %
+  // with steps of 2 ms). The flat bodies come to rest.
   std::array<Tumbler, 5> tumblers = {{{1.5, 0.01}, {2, 0.01}, {3, 0.01}, {8, 2e-4}, {20, 2e-4}}};
   Random random(7);
   for (std::size_t i = 0; i < tumblers.size(); ++i) {

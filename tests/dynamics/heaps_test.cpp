@@ -1,4 +1,4 @@
-// Tests with many bodies on one another: a wall and a pile come to rest, and nothing sinks, creeps or gains energy.
+// Tests with many bodies on one another. A wall and a pile come to rest, and no body sinks, creeps or gains energy.
 #include <doctest/doctest.h>
 
 #include "support/ode_world.hpp"
@@ -7,7 +7,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// Sets ODE's auto-disable as samples/studies/README.md recommends it: thresholds of the bodies' size, over the mean of ten steps.
+/// Sets ODE's auto-disable as samples/studies/README.md recommends: thresholds for the bodies' size, over the mean of ten steps.
 void let_sleep(const World& world, double size) {
   dWorldSetAutoDisableFlag(world.id(), 1);
   dWorldSetAutoDisableAverageSamplesCount(world.id(), 10);
@@ -24,8 +24,8 @@ struct Watch {
   bool asleep = false;
 };
 
-/// Steps until all bodies sleep, at most for the time `patience`, s.
-Watch settle(World& world, const std::vector<dBodyID>& bodies, double dt, double patience) {
+/// Steps until all bodies sleep, at most for the time `timeout`, s.
+Watch settle(World& world, const std::vector<dBodyID>& bodies, double dt, double timeout) {
   const auto energy_of_all = [&] {
     double sum = 0;
     for (const dBodyID body : bodies) sum += energy(body);
@@ -33,7 +33,7 @@ Watch settle(World& world, const std::vector<dBodyID>& bodies, double dt, double
   };
   const double start = energy_of_all();
   Watch watch{start, start};
-  while (!watch.asleep && watch.steps * dt < patience) {
+  while (!watch.asleep && watch.steps * dt < timeout) {
     world.quick_step(dt);
     ++watch.steps;
     const double now = energy_of_all();
@@ -47,7 +47,7 @@ Watch settle(World& world, const std::vector<dBodyID>& bodies, double dt, double
 
 }  // namespace
 
-TEST_CASE("a wall of 50 bricks stands and sleeps as soon as one of dBoxes") {
+TEST_CASE("a wall of 50 bricks stands, and falls asleep as soon as a wall of dBoxes") {
   const double a = 0.1;
   const double b = 0.06;
   const double c = 0.04;
@@ -78,7 +78,7 @@ TEST_CASE("a wall of 50 bricks stands and sleeps as soon as one of dBoxes") {
     CHECK(watch.gained < 1e-3 * watch.start);
     CHECK(watch.deepest < 0.005 * c);
     for (std::size_t i = 0; i < bricks.size(); ++i) {
-      // The gaps of 0.1 mm between the courses have closed, and nothing else has moved.
+      // The gaps of 0.1 mm between the courses have closed, and no brick has moved otherwise.
       const auto course = static_cast<int>(i) / 5;
       const Vec moved = to_vec(dBodyGetPosition(bricks[i])) - start[i];
       CHECK(std::hypot(moved[0], moved[1]) < 0.01 * c);

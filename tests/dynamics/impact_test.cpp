@@ -1,4 +1,4 @@
-// Impacts without friction: the impulse acts along the exact normal, through the exact contact point.
+// Impacts without friction. The impulse acts along the exact normal, through the exact contact point.
 #include <doctest/doctest.h>
 
 #include "support/ode_world.hpp"
@@ -14,7 +14,7 @@ void make_elastic(World& world) {
   dWorldSetGravity(world.id(), 0, 0, 0);
   dWorldSetCFM(world.id(), 0);
   dWorldSetQuickStepNumIterations(world.id(), 60);  // converges to rounding
-  dWorldSetERP(world.id(), 0);                      // only the bounce: no push out of the overlap in addition
+  dWorldSetERP(world.id(), 0);                      // only the bounce, without a push out of the overlap
 }
 
 struct Totals {
@@ -22,8 +22,8 @@ struct Totals {
   double energy = 0;        ///< J
 };
 
-/// The poses are arguments, because a step changes velocities first and then moves the bodies: its impulse is at the poses before
-/// it.
+/// The poses are arguments, because a step first changes velocities and then moves the bodies. Its impulse acts at the poses before
+/// the step.
 Totals totals(const std::array<dBodyID, 2>& bodies) {
   Totals sum;
   for (const dBodyID body : bodies) {
@@ -52,7 +52,7 @@ void set_pose(dBodyID body, const Pose& pose) {
   dBodySetQuaternion(body, pose.quaternion.data());
 }
 
-/// Places body 2 where it overlaps body 1 by a thousandth, and lets both move towards one another.
+/// Places body 2 where it overlaps body 1 by a thousandth, and moves both towards each other.
 void bring_together(Random& random, dGeomID geom1, dGeomID geom2) {
   for (const dGeomID geom : {geom1, geom2}) {
     random.turn(geom);
@@ -75,9 +75,9 @@ void bring_together(Random& random, dGeomID geom1, dGeomID geom2) {
 
 }  // namespace
 
-TEST_CASE("frictionless elastic drop on a plane at 1 m/s") {
-  // tests/data/README.md: "tilted about y: (0.5,0.3,0.25; 2,2) at 15 deg: v_z after 0.3620502923 m/s, |omega| 3.7286342504
-  // rad/s; (0.5,0.3,0.25; 4,4) at 15 deg: -0.0222325084, 3.4155393160." Without gravity nothing turns in flight, so this holds
+TEST_CASE("a frictionless elastic drop on a plane at 1 m/s has the published velocities") {
+  // tests/data/README.md: "tilted about y: (0.5,0.3,0.25; 2,2) at 15 deg: v_z after 0.3620502923 m/s, |omega| 3.7286342504 rad/s;
+  // (0.5,0.3,0.25; 4,4) at 15 deg: -0.0222325084, 3.4155393160." Without gravity the body does not rotate in flight, so this holds
   // for any time step and depth.
   struct Case {
     double exponent;

@@ -1,4 +1,4 @@
-// Tests on an inclined plane: bodies that are not round rest up to a limit, round ones roll down as fast as their inertia allows.
+// Tests on an inclined plane. Bodies that are not round rest up to a limit. Round bodies roll down as fast as their inertia allows.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -11,9 +11,9 @@ using namespace supernormal::test;
 
 namespace {
 
-/// The angle (rad) by which a superellipsoid with a = c has turned about y after some seconds on an incline (rad) that it cannot
-/// slide down. It is put down with its face on the incline; heavily damped, it rolls from one equilibrium into the next, if there
-/// is one: the greatest incline is the greatest angle between a normal of the section and its contact point.
+/// The angle (rad) by which a superellipsoid with a = c has rotated about y after some seconds on an incline (rad) on which it
+/// cannot slide. It starts with its face on the incline. With strong damping it rolls from one equilibrium into the next, if there
+/// is one. The greatest incline is the greatest angle between a normal of the section and its contact point.
 double turned_on_incline(double exponent, double incline) {
   OdeSession session;
   World world;
@@ -27,7 +27,7 @@ double turned_on_incline(double exponent, double incline) {
   dBodySetPosition(body, dReal(-a * std::sin(incline)), 0, dReal(a * std::cos(incline)));
   dBodySetLinearDampingThreshold(body, 0);
   dBodySetAngularDampingThreshold(body, 0);
-  dBodySetAngularDamping(body, dReal(0.05));  // share of the velocity that each step takes away
+  dBodySetAngularDamping(body, dReal(0.05));  // fraction of the velocity that each step removes
   double turned = 0;
   for (int step = 0; step < 40000 && turned < std::numbers::pi; ++step) {
     world.quick_step(1e-3);
@@ -43,7 +43,7 @@ double acceleration(double epsilon) {
   World world;
   world.add_plane(incline);
   world.surface.mu = dInfinity;
-  // There is a line of contacts that all stick: at 20 iterations quickstep lets it slip by 1e-4 of its speed.
+  // All contacts of the line stick. At 20 iterations quickstep lets it slip by 1e-4 of its speed.
   dWorldSetQuickStepNumIterations(world.id(), 1000);
   const auto a = dReal(0.1);
   const dGeomID geom = snCreateSuperellipsoid(world.space(), a, a, dReal(0.15), 2, dReal(epsilon));
@@ -62,12 +62,12 @@ double acceleration(double epsilon) {
 struct Creeping {
   double delta, epsilon;
   std::array<double, 3> half_axes;
-  Vec lying_axis;  // it is turned by 90 degrees about this axis; none if it is 0
+  Vec lying_axis;  // it is rotated by 90 degrees about this axis; not if it is 0
 };
 
 enum class Slope { Plane, LargeBox };
 
-/// How fast the body moves down the incline (rad) once it lies there, m/s.
+/// The speed of the body down the incline (rad) once it lies there, m/s.
 double creep(const Creeping& what, Slope slope, double incline, double step, int room) {
   OdeSession session;
   World world;
@@ -96,7 +96,7 @@ double creep(const Creeping& what, Slope slope, double incline, double step, int
 
 }  // namespace
 
-TEST_CASE("a superellipsoid rests on an incline up to the limit of its section and not beyond") {
+TEST_CASE("a superellipsoid rests on an incline exactly up to the limit of its section") {
   // tests/data/README.md: "Greatest incline on which a superellipse section (a = c) can rest without sliding: exponent 4:
   // 19.4712 deg; 8: 30.3696 deg"
   struct Case {
@@ -111,7 +111,7 @@ TEST_CASE("a superellipsoid rests on an incline up to the limit of its section a
   }
 }
 
-TEST_CASE("a circular equator rolls down an incline as the closed form says") {
+TEST_CASE("a circular equator rolls down an incline with the acceleration of the closed form") {
   // tests/data/README.md: "Rolling down an incline on a circular equator (delta = 2): a/(g sin theta) = 0.714286 (epsilon =
   // 2), 0.686033 (4), 0.673540 (8)."
   CHECK(acceleration(2) == relative(0.714286).epsilon(1e-4));
@@ -119,8 +119,8 @@ TEST_CASE("a circular equator rolls down an incline as the closed form says") {
   CHECK(acceleration(8) == relative(0.673540).epsilon(1e-4));
 }
 
-// With single precision a micrometre is the spacing of the numbers.
-TEST_CASE("what friction holds on an incline does not creep, whatever the exponent, the step and the room for contacts" *
+// In single precision a micrometre is the spacing of the numbers.
+TEST_CASE("what friction holds on an incline does not creep, at any exponent, step and max_contacts" *
           doctest::skip(kIsSinglePrecision)) {
   const std::array<double, 3> brick = {0.075, 0.06, 0.04};
   const std::array<double, 3> can = {0.04, 0.04, 0.12};
@@ -129,8 +129,8 @@ TEST_CASE("what friction holds on an incline does not creep, whatever the expone
   bodies.push_back({2, 60, {0.08, 0.08, 0.03}, {0, 0, 0}});                                                      // a coin
   for (const double exponent : {6.0, 7.0, 9.0}) bodies.push_back({2, exponent, {0.05, 0.05, 0.03}, {0, 0, 0}});  // standing cans
   for (const double exponent : {6.0, 8.0, 60.0})
-    bodies.push_back({2, exponent, can, {0, 1, 0}});          // along the slope; across it they roll
-  bodies.push_back({2, 60, {0.01, 0.01, 0.006}, {0, 0, 0}});  // whose depth at rest is rounding
+    bodies.push_back({2, exponent, can, {0, 1, 0}});          // along the slope; across the slope they roll
+  bodies.push_back({2, 60, {0.01, 0.01, 0.006}, {0, 0, 0}});  // its depth at rest is only rounding
   for (const Creeping& body : bodies) {
     for (const double degrees : {5.0, 15.0, 26.0}) {
       for (const double step : {0.0005, 0.002, 0.01}) {

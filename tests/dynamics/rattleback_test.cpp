@@ -24,13 +24,13 @@ constexpr double kEnergy = 0.12388531;  // J
 
 }  // namespace
 
-TEST_CASE("a rattleback turned the wrong way reverses when it should") {
-  // tests/data/README.md: "no slip, omega_3 = -5 rad/s: the spin first reverses at 2.3527 s; smallest yaw -6.81015 rad at
-  // 2.8150 s; energy 0.12388531 J conserved." omega_3 is the body's, and swings with the rattling; the vertical one reverses at
-  // 2.6847 s (the same equations of motion, integrated by the Runge-Kutta method).
+TEST_CASE("a rattleback spun against its preferred sense reverses at the published time") {
+  // tests/data/README.md: "no slip, omega_3 = -5 rad/s: the spin first reverses at 2.3527 s; smallest yaw -6.81015 rad at 2.8150 s;
+  // energy 0.12388531 J conserved." omega_3 is in the body's frame and swings with the rattling. The vertical spin reverses
+  // at 2.6847 s (the same equations of motion, integrated by the Runge-Kutta method).
   //
-  // A step projects the velocity of the last one on the constraint at the new contact point, which moves along the keel at metres
-  // a second: the energy that this takes is proportional to the step (0.94, 1.86, 4.6 thousandths at 2, 4, 10 us).
+  // A step projects the last velocity on the constraint at the new contact point, which moves along the keel at metres a second.
+  // The loss of energy is proportional to the step (0.94, 1.86, 4.6 thousandths at 2, 4, 10 us).
   OdeSession session;
   NoSlipFloor world;
   Rattleback rattleback(world.id(), world.space(), -5);
@@ -55,7 +55,7 @@ TEST_CASE("a rattleback turned the wrong way reverses when it should") {
   CHECK(most < kEnergy * (1 + 1e-6));
 }
 
-TEST_CASE("a rattleback turned the right way goes on turning") {
+TEST_CASE("a rattleback spun in its preferred sense does not reverse early") {
   // tests/data/README.md: "Released at +5 it does not reverse early: yaw 24.767 rad at 5 s."
   OdeSession session;
   NoSlipFloor world;

@@ -1,5 +1,5 @@
-// Tests that round bodies do not stop by themselves: a body that rocks on a plane keeps its period and its amplitude, however its
-// contact point moves under it.
+// Tests that round bodies do not stop by themselves. A body that rocks on a plane keeps its period and its amplitude while its
+// contact point moves.
 #include <doctest/doctest.h>
 
 #include "support/ode_world.hpp"
@@ -9,7 +9,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// A body of half-axes (0.3, 0.2, 0.1) m with delta = epsilon = exponent, let go from a tilt (rad) about y.
+/// A body of half-axes (0.3, 0.2, 0.1) m with delta = epsilon = exponent, released at a tilt (rad) about y.
 struct Rocking {
   double exponent;
   double tilt;
@@ -17,8 +17,8 @@ struct Rocking {
 
   static constexpr double kA = 0.3, kB = 0.2, kC = 0.1;  // m
 
-  /// The height of the centre over the plane at a tilt, and its derivative: the support function of the section, which is the
-  /// dual norm.
+  /// The height of the centre over the plane at a tilt, and its derivative. It is the support function of the section, the dual
+  /// norm.
   std::array<double, 2> height(double theta) const {
     const double q = exponent / (exponent - 1);
     const double s = kA * std::abs(std::sin(theta));
@@ -28,7 +28,7 @@ struct Rocking {
     return {h, std::copysign(slope, theta)};
   }
 
-  /// The moment of inertia about y, per mass: <x^2> + <z^2> of tests/data/README.md.
+  /// The moment of inertia about y for mass 1: <x^2> + <z^2> of tests/data/README.md.
   double inertia() const {
     const auto gamma = [](double x) { return std::tgamma(x); };
     const double e = exponent;
@@ -38,9 +38,9 @@ struct Rocking {
     return kA * kA * xx + kC * kC * zz;
   }
 
-  /// The period by conservation of energy: g h(theta) + m(theta) theta'^2 / 2 = g h(tilt), where the centre moves up and down
-  /// with h', and along with h if it rolls. theta = tilt sin(u) takes the singularities out of the ends; u = v^2 the cusp of h''
-  /// out of the middle.
+  /// The period by conservation of energy: g h(theta) + m(theta) theta'^2 / 2 = g h(tilt). The centre moves up and down with h',
+  /// and along with h if the body rolls. theta = tilt sin(u) removes the singularities at the ends; u = v^2 removes the cusp of h''
+  /// in the middle.
   double period() const {
     const int intervals = 2000;
     const double length = std::sqrt(std::numbers::pi / 2);
@@ -66,7 +66,7 @@ Motion rock(const Rocking& rocking, double dt) {
   OdeSession session;
   World world;
   world.add_plane();
-  // The constraint acts on velocities at the beginning of a step, so the centre stays behind the rising h by h'' theta'^2 dt^2 /
+  // The constraint acts on velocities at the beginning of a step, so the centre falls short of the rising h by h'' theta'^2 dt^2 /
   // 2 in each step. Without ERP this adds up (tilt 0.3, dt 1e-4: 1.4 mm and 3 % of the amplitude over ten periods).
   dWorldSetERP(world.id(), dReal(0.8));
   world.surface.mu = rocking.rolls ? dInfinity : 0;
@@ -126,9 +126,9 @@ TEST_CASE("an ellipsoid rocks for ten periods without friction and without slip"
 }
 
 TEST_CASE("a superellipsoid of exponent 3 rocks for ten periods without friction and without slip") {
-  // The middle of its face is flat: the contact point passes there with infinite speed (as the inverse root of the tilt), and
-  // there ODE's first-order steps lose amplitude. With half the step it is half as much, so the loss is ODE's and not the contact
-  // point's: extrapolated to a step of zero, the amplitude stays.
+  // The middle of its face is flat. The contact point passes there with infinite speed (as the inverse root of the tilt), and ODE's
+  // first-order steps lose amplitude there. With half the step the loss is half as large, so it is ODE's loss and not the contact
+  // point's. Extrapolated to a step of zero, the amplitude stays.
   for (const Rocking& rocking : {Rocking{3, 0.1, false}, Rocking{3, 0.1, true}}) {
     CAPTURE(rocking.rolls);
     const Motion coarse = rock(rocking, 4e-5);

@@ -1,4 +1,4 @@
-// Tests that an effect that is not listed costs nothing: rows, visits and digits.
+// Tests that an effect that is not listed has no cost: no rows, no visits, no changed digit.
 #include <doctest/doctest.h>
 
 #include <Eigen/QR>
@@ -9,7 +9,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// The rank of the wrenches of a contact about its point, from many states of motion: as many dimensions as it has live rows.
+/// The rank of the wrenches of a contact about its point, over many states of motion. It equals the number of live rows.
 int live_rows(const std::vector<fx::Effect>& list) {
   OdeSession session;
   std::vector<fx::Effect> with_gravity = list;
@@ -21,7 +21,7 @@ int live_rows(const std::vector<fx::Effect>& list) {
   Eigen::MatrixXd wrenches(6, 60);
   for (int i = 0; i < wrenches.cols(); ++i) {
     dBodySetPosition(ball, 0, 0, dReal(0.0499));
-    turn(ball, {0, 0, 1}, 0);  // a direction that is fixed to the body turns with it
+    turn(ball, {0, 0, 1}, 0);  // a direction fixed to the body rotates with it
     const Vec v = random.direction();
     const Vec w = 20.0 * random.direction();
     dBodySetLinearVel(ball, dReal(v[0]), dReal(v[1]), dReal(-0.1));
@@ -68,7 +68,7 @@ std::vector<double> tumble(const std::vector<fx::Effect>& list, const std::funct
 
 }  // namespace
 
-TEST_CASE("a contact has the rows of what is named and no more") {
+TEST_CASE("a contact has the rows of the listed effects and no more") {
   const fx::Friction friction{0.5, {}};
   CHECK(live_rows({}) == 1);
   CHECK(live_rows({fx::Restitution{0.5, 0, {}}}) == 1);
@@ -83,7 +83,7 @@ TEST_CASE("a contact has the rows of what is named and no more") {
   CHECK(live_rows({friction, fx::RollingResistance{0.005, 0.005, {}}}) == 6);
 }
 
-TEST_CASE("without rolling resistance no contact asks ODE for rolling rows, and the rows counted are those asked for") {
+TEST_CASE("without rolling resistance no contact requests rolling rows, and the counted rows are the requested ones") {
   fx::Effects smooth({fx::Friction{0.5, fx::MaterialSelector::of(1)}}, kLongStep);
   OdeSession session;
   Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
@@ -100,11 +100,11 @@ TEST_CASE("without rolling resistance no contact asks ODE for rolling rows, and 
   CHECK(rows_of(smooth) == 1 + 3);
 }
 
-TEST_CASE("a list without forces visits no body and keeps nothing of it") {
+TEST_CASE("a list without forces visits no body and stores none") {
   OdeSession session;
   EffectsWorld scene({earth(), fx::Friction{0.5, {}}, fx::Damping{1, 1}, fx::SurfaceLayer{1e-4}}, kLongStep);
   CHECK_FALSE(scene.effects.visits_bodies());
-  scene.effects.add_body(nullptr);  // it is not even read
+  scene.effects.add_body(nullptr);  // it is not read
   for (const fx::Cost& cost : scene.effects.costs()) CHECK(cost.bodies == 0);
   EffectsWorld dragged({fx::QuadraticDrag{1.2, 0.5}}, kLongStep);
   CHECK(dragged.effects.visits_bodies());
@@ -115,7 +115,7 @@ TEST_CASE("a list without forces visits no body and keeps nothing of it") {
   CHECK(dragged.effects.costs().back().bodies == 1);
 }
 
-TEST_CASE("trajectories are the same to the bit with an effect that no contact has") {
+TEST_CASE("trajectories are the same to the bit with an effect that applies to no contact") {
   const std::vector<fx::Effect> plain = {earth(), fx::Friction{0.5, {}}, fx::Restitution{0.3, 0.1, {}}};
   std::vector<fx::Effect> more = plain;
   more.emplace_back(fx::RollingResistance{0.01, 0.01, fx::MaterialSelector::of(7)});

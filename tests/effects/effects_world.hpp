@@ -1,4 +1,4 @@
-// A world with effects, stepped as a program would do it.
+// A world with effects, stepped as in a program.
 #pragma once
 
 #include <deque>
@@ -31,8 +31,8 @@ class EffectsWorld {
 
   EffectsWorld(const std::vector<fx::Effect>& list, double step) : effects(list, step), step_(step), joints_(dJointGroupCreate(0)) {
     dWorldSetGravity(id(), 0, 0, 0);  // no gravity unless it is listed
-    // ODE's default with double precision. That with single precision, 1e-5, softens rigid contacts: of 1.12 m/s that a ball of 0.5
-    // kg is to be given in a step of 50 us it takes 0.11 m/s.
+    // ODE's default in double precision. The default in single precision, 1e-5, softens rigid contacts: a ball of 0.5 kg that
+    // should gain 1.12 m/s in a step of 50 us gains 0.11 m/s less.
     dWorldSetCFM(id(), dReal(1e-10));
     effects.set_up(id());
   }
@@ -44,7 +44,7 @@ class EffectsWorld {
 
   dWorldID id() const { return world.id(); }
 
-  /// Adds a body of a density (kg/m^3) at a place.
+  /// Adds a body of a density (kg/m^3) at a position.
   dBodyID add(dGeomID geom, double density, const Vec& at) {
     const dBodyID body = world.add(geom, density);
     dBodySetPosition(body, dReal(at[0]), dReal(at[1]), dReal(at[2]));
@@ -80,16 +80,17 @@ class EffectsWorld {
   World world;
   fx::Effects effects;
   std::function<fx::Material(dGeomID)> material_of = [](dGeomID) { return 0; };
-  std::map<dGeomID, dBodyID> other_body;  ///< bodies of walls whose geoms have none; contacts are then set up by their sides
-  std::vector<Load> loads;                ///< loads in the last step
-  double depth = 0;                       ///< m, of the deepest contact in the last step
+  std::map<dGeomID, dBodyID>
+      other_body;           ///< bodies of walls whose geoms have no body; contacts are then set up with the bodies of both sides
+  std::vector<Load> loads;  ///< loads in the last step
+  double depth = 0;         ///< m, of the deepest contact in the last step
 
  private:
   struct Attached {
     dJointFeedback feedback;
     Vec point;
     Vec normal;
-    bool is_first;  ///< whether body 1 of the joint is that of geom.g1
+    bool is_first;  ///< whether body 1 of the joint is the body of geom.g1
     Vec centre;
   };
 
@@ -124,7 +125,7 @@ class EffectsWorld {
     depth = std::max(depth, double{contact.geom.depth});
   }
 
-  // ODE writes the force on the only body into f1, also when that is the second.
+  // ODE writes the force on the only body into f1, even if it is the second body.
   void read(std::size_t i) {
     const Attached& joint = feedback_[i];
     const Vec force = to_vec(joint.feedback.f1);

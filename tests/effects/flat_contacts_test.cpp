@@ -1,4 +1,4 @@
-// What acts on a region of contact as a whole: where its resultant is, whatever contacts a collider lists.
+// Forces on a region of contact: where their resultant acts, for any contacts that a collider lists.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ using Place = std::array<double, 2>;
 
 double distance(const Place& a, const Place& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
-/// Sets up what dCollide finds between two geoms, and returns how many contacts that were.
+/// Sets up the contacts that dCollide finds between two geoms, and returns their number.
 int set_up(fx::Effects& effects, dGeomID g1, dGeomID g2) {
   std::array<dContact, 64> contacts{};
   const int count = dCollide(g1, g2, static_cast<int>(contacts.size()), &contacts[0].geom, sizeof(dContact));
@@ -31,7 +31,7 @@ void forget_forces(dBodyID body) {
   dBodySetTorque(body, 0, 0, 0);
 }
 
-/// Where the force on a body, which is along z, acts, from the body's centre.
+/// The point, relative to the body's centre, at which the force on the body along z acts.
 Place line_of_force(dBodyID body) {
   const dReal* const force = dBodyGetForce(body);
   const dReal* const torque = dBodyGetTorque(body);
@@ -89,7 +89,7 @@ class Ball {
 
 }  // namespace
 
-TEST_CASE("adhesion acts in the middle of a flat contact, at any tilt within the depth, whoever finds the contacts") {
+TEST_CASE("adhesion acts in the middle of a flat contact, at any tilt within the depth, with any collider") {
   OdeSession session;
   EffectsWorld scene({fx::Adhesion{kPullOff, {}}}, kLongStep);
   const dSpaceID space = scene.world.space();
@@ -140,7 +140,7 @@ TEST_CASE("adhesion of a body that stands on an edge acts at the edge") {
   }
 }
 
-TEST_CASE("what a region shares acts at the centre of a rectangle, whatever else is listed, in any order, at any depths") {
+TEST_CASE("a force on a region acts at the centre of a rectangle, with any further contacts, order and depths") {
   const std::array<Place, 4> corners = {{{-0.01, -0.02}, {0.05, -0.02}, {0.05, 0.03}, {-0.01, 0.03}}};
   Random random(5);
   Ball sticky(fx::Adhesion{kPullOff, {}});
@@ -163,7 +163,7 @@ TEST_CASE("what a region shares acts at the centre of a rectangle, whatever else
   }
 }
 
-TEST_CASE("the middle of an edge, of a point and of points that are one but for rounding") {
+TEST_CASE("the middle of a region: an edge, a point, and points equal up to rounding") {
   Ball ball(fx::Adhesion{kPullOff, {}});
   const auto middle = [&](const std::vector<Place>& places) {
     std::vector<dContact> contacts;
@@ -179,12 +179,12 @@ TEST_CASE("the middle of an edge, of a point and of points that are one but for 
   CHECK(distance(middle({{0, 0}, {0.04, 1e-17}, {0.04, -1e-17}, {0.01, 1e-17}}), {0.02, 0}) < tolerance);
 }
 
-TEST_CASE("the middle moves no farther than 4/pi times the contacts do, also where they become one or leave the border") {
+TEST_CASE("the middle of a region moves by at most 4/pi times the contacts, also when they become one or leave the border") {
   Random random(11);
   Ball ball(fx::Adhesion{kPullOff, {}});
   for (int draw = 0; draw < 2000; ++draw) {
     const double way = std::pow(10, random.uniform(-9, -2));
-    const double width = std::pow(10, random.uniform(-8, -1));  // across the line on which they lie
+    const double width = std::pow(10, random.uniform(-8, -1));  // across the line of the contacts
     std::vector<dContact> before, after;
     for (int k = 1 + static_cast<int>(random.uniform(0, 6)); k > 0; --k) {
       const Place place = {random.uniform(-0.05, 0.05), random.uniform(-1, 1) * width};
@@ -199,7 +199,7 @@ TEST_CASE("the middle moves no farther than 4/pi times the contacts do, also whe
 
 namespace {
 
-/// A valley along y between two slopes at a right angle, of squares that are cut in two.
+/// A valley along y between two slopes at a right angle, made of squares cut in two.
 class Valley {
  public:
   explicit Valley(dSpaceID space) : data_(dGeomTriMeshDataCreate()) {
@@ -244,7 +244,7 @@ class Valley {
 
 }  // namespace
 
-TEST_CASE("each slope of a mesh sticks once, into however many triangles it is cut, in whatever order contacts are listed") {
+TEST_CASE("each slope of a mesh sticks once, at any number of triangles and order of contacts") {
   OdeSession session;
   EffectsWorld scene({fx::Adhesion{kPullOff, {}}}, kLongStep);
   const Valley valley(scene.world.space());
@@ -253,7 +253,7 @@ TEST_CASE("each slope of a mesh sticks once, into however many triangles it is c
   dMass mass;
   dMassSetBox(&mass, 1000, dReal(0.1), dReal(0.1), dReal(0.1));
   const double deep = 0.0499;
-  // ODE's own box is cut by each triangle: their normals differ by the rounding of vertices to single precision.
+  // ODE's own box is cut by each triangle. The normals differ by the rounding of vertices to single precision.
   for (const dGeomID geom : {brick, box}) {
     const dBodyID body = scene.world.add(geom, mass);
     turn(body, {0, 1, 0}, -std::atan2(0.8, 0.6));

@@ -15,7 +15,7 @@ double falling_speed(EffectsWorld& scene, dBodyID body, double time) {
 
 }  // namespace
 
-TEST_CASE("terminal velocity under quadratic drag shows the area of the body itself") {
+TEST_CASE("the terminal velocity under quadratic drag has the projected area of the body") {
   const double density = 1.2;
   const double coefficient = 0.5;
   const double a = 0.03;
@@ -36,9 +36,9 @@ TEST_CASE("terminal velocity under quadratic drag shows the area of the body its
   CHECK(-dBodyGetLinearVel(box)[2] == relative(terminal(8000 * a * b * c, 4 * a * b)).epsilon(0.01));
 }
 
-TEST_CASE("terminal velocity under Stokes drag, and that a thick fluid does not throw bodies about") {
+TEST_CASE("the terminal velocity under Stokes drag is right, also in a thick fluid at a long step") {
   const double radius = 1e-3;
-  for (const double viscosity : {1.0, 1e4}) {  // the second stops a ball within a millionth of the step
+  for (const double viscosity : {1.0, 1e4}) {  // the second value stops a ball within a millionth of the step
     OdeSession session;
     EffectsWorld scene({earth(), fx::StokesDrag{viscosity}}, kLongStep);
     const dBodyID ball = scene.add_ball(radius, 2500, {0, 0, 0});
@@ -49,12 +49,12 @@ TEST_CASE("terminal velocity under Stokes drag, and that a thick fluid does not 
   }
 }
 
-TEST_CASE("Stokes drag of spheroids is near to Oberbeck's: 4 % at aspect ratio 2, 10 % at 4") {
-  // Clift, Grace and Weber, Bubbles, Drops, and Particles (1978), table 4.1: drag over that of the sphere of the equatorial
+TEST_CASE("the Stokes drag of spheroids is within 4 % of Oberbeck's at aspect ratio 2, and within 10 % at 4") {
+  // Clift, Grace and Weber, Bubbles, Drops, and Particles (1978), table 4.1: the drag relative to a sphere of the equatorial
   // radius.
   struct Spheroid {
     double aspect;  ///< polar over equatorial half-axis
-    bool along;     ///< whether it moves along the polar axis
+    bool along;     ///< whether the spheroid moves along its polar axis
     double ratio;
   };
   const auto prolate_along = [](double e) {
@@ -87,7 +87,7 @@ TEST_CASE("Stokes drag of spheroids is near to Oberbeck's: 4 % at aspect ratio 2
 }
 
 TEST_CASE("an ellipsoid floats at the depth of its density") {
-  // The share t = d / (2c) of the height below water solves 3 t^2 - 2 t^3 = density ratio.
+  // The fraction t = d / (2c) of the height below water solves 3 t^2 - 2 t^3 = density ratio.
   const double c = 0.03;
   for (const double ratio : {0.2, 0.5, 0.8}) {
     CAPTURE(ratio);
@@ -110,7 +110,7 @@ TEST_CASE("an ellipsoid floats at the depth of its density") {
   }
 }
 
-TEST_CASE("what sinks weighs less by the fluid, and what is out of it all of its weight") {
+TEST_CASE("a submerged body weighs less by the displaced fluid, and a body above it has its whole weight") {
   OdeSession session;
   EffectsWorld scene({earth(), fx::Buoyancy{1000, 0}}, kLongStep);
   const dBodyID under =
@@ -121,7 +121,7 @@ TEST_CASE("what sinks weighs less by the fluid, and what is out of it all of its
   CHECK(dBodyGetLinearVel(above)[2] == relative(-kGravity * kLongStep).epsilon(1e-6));
 }
 
-TEST_CASE("damping decays exponentially, whatever the step") {
+TEST_CASE("damped velocities decay exponentially at any step") {
   for (const double step : {1e-3, 0.05}) {
     OdeSession session;
     EffectsWorld scene({fx::Damping{2, 3}}, step);
@@ -134,7 +134,7 @@ TEST_CASE("damping decays exponentially, whatever the step") {
   }
 }
 
-TEST_CASE("a pull below the pull-off force holds, one above lets go") {
+TEST_CASE("adhesion holds against a pull below the pull-off force and not above") {
   const double pull_off = 5;
   struct Sticky {
     double exponent;
@@ -143,7 +143,7 @@ TEST_CASE("a pull below the pull-off force holds, one above lets go") {
   for (const Sticky& sticky : {Sticky{2, fx::Friction{0.5, {}}}, Sticky{20, fx::Friction{0.5, {}}},
                                Sticky{60, fx::Friction{0.5, {}}}, Sticky{2, fx::Compliance{1e4, 60, {}}}}) {
     for (const double part : {0.97, 1.03}) {
-      // Rounding decides how a flat body lies that is pulled almost off: one that starts a nanometre higher lies in another way.
+      // Rounding decides how a flat body lies when it is almost pulled off. If it starts a nanometre higher, it lies differently.
       for (int start = -5; start <= 5; ++start) {
         CAPTURE(sticky.exponent);
         CAPTURE(part);
@@ -155,7 +155,7 @@ TEST_CASE("a pull below the pull-off force holds, one above lets go") {
         const dGeomID geom = snCreateSuperellipsoid(scene.world.space(), dReal(0.02), dReal(0.02), dReal(0.02), e, e);
         const dBodyID body = scene.add(geom, 1000, {0, 0, 0.02 + 1e-9 * start});
         scene.run_until(0.5);
-        double pull = 0;  // the pull grows slowly, because a spring that is let go at once jumps off
+        double pull = 0;  // the pull grows slowly, because a spring under a sudden load overshoots
         scene.run_until(1, [&] {
           pull = std::min(pull + 0.01 * part * pull_off, mass_of(body) * kGravity + part * pull_off);
           dBodyAddForce(body, 0, 0, dReal(pull));
@@ -167,8 +167,8 @@ TEST_CASE("a pull below the pull-off force holds, one above lets go") {
   }
 }
 
-TEST_CASE("adhesion counts as normal force for friction") {
-  // The body is on a wall: its weight hangs on mu times the adhesion.
+TEST_CASE("adhesion adds to the normal force of friction") {
+  // The body sticks to a wall. Its weight hangs on mu times the adhesion.
   for (const double part : {0.95, 1.05}) {
     OdeSession session;
     EffectsWorld scene({fx::Friction{0.5, {}}, fx::Adhesion{4, {}}}, kLongStep);

@@ -1,4 +1,4 @@
-// Tests of Coulomb's cone: how far bodies slide, when they start to, and that the force stays in the cone.
+// Tests of Coulomb's cone: how far bodies slide, when they start to slide, and that the force stays in the cone.
 #include <doctest/doctest.h>
 
 #include "effects/effects_world.hpp"
@@ -40,7 +40,7 @@ double excess_of_cone(const EffectsWorld& scene, double coefficient) {
 
 }  // namespace
 
-TEST_CASE("a puck slides v^2 / (2 mu g) in every direction, straight") {
+TEST_CASE("a puck slides straight by v^2 / (2 mu g) in every direction") {
   for (const double coefficient : {0.1, 0.5}) {
     for (const double angle : {0.0, 0.4, 45 * kDegree, 2.0}) {
       CAPTURE(coefficient);
@@ -63,7 +63,7 @@ TEST_CASE("on an incline a puck stays up to the angle of friction and slides abo
       CAPTURE(beyond);
       OdeSession session;
       const double angle = limit + beyond;
-      // Gravity leans instead of the plane, so that it can lean in any direction.
+      // Gravity is tilted instead of the plane, so the incline can have any direction.
       const double across = kGravity * std::sin(angle);
       const fx::Gravity leaning{{across * std::cos(turn), across * std::sin(turn), -kGravity * std::cos(angle)}};
       EffectsWorld scene({leaning, fx::Friction{coefficient, {}}}, kStep);
@@ -81,10 +81,9 @@ TEST_CASE("on an incline a puck stays up to the angle of friction and slides abo
   }
 }
 
-TEST_CASE("no contact ever exceeds the cone") {
-  // Quickstep takes the limits from its last iteration but one, so they hold as well as it converges. The distribution of a
-  // face's load over four contacts is not determined, and it converges more slowly than with one, whatever the number of
-  // iterations.
+TEST_CASE("no friction force exceeds Coulomb's cone") {
+  // Quickstep takes the limits from its last iteration but one, so they hold as well as it converges. The distribution of a face's
+  // load over four contacts is not determined, so it converges more slowly than for one contact, at any number of iterations.
   struct Case {
     double exponent;
     double tolerance;  // relative to the largest load
@@ -143,7 +142,7 @@ TEST_CASE("materials combine by the geometric mean, unless the pair is listed") 
   }
 }
 
-TEST_CASE("anisotropic friction: both axes, and between them the force that dissipates most") {
+TEST_CASE("anisotropic friction has its coefficient along each axis, and the most dissipating force in between") {
   const double along = 0.1;
   const double across = 0.4;
   const fx::AnisotropicFriction grain{along, across, {1, 1, 0}, {}};
@@ -166,7 +165,7 @@ TEST_CASE("anisotropic friction: both axes, and between them the force that diss
       for (int i = 0; i < 40; ++i) scene.step();
       return (-1 / (40 * kStep * kGravity)) * (to_vec(dBodyGetLinearVel(puck)) - before);
     };
-    // The force is 0.5 % less than the ellipse on its axes: the rectangle keeps a tenth of the other side.
+    // The force is 0.5 % less than the ellipse on its axes, because the rectangle keeps a tenth of the other side.
     CHECK(norm(decelerate(axes_angle)) == relative(along).epsilon(0.01));
     CHECK(norm(decelerate(axes_angle + 90 * kDegree)) == relative(across).epsilon(0.01));
     const Vec force = decelerate(axes_angle + 45 * kDegree);

@@ -44,7 +44,7 @@ constexpr double kStar = kModulus / (1 - kPoisson * kPoisson);  // against a rig
 
 }  // namespace
 
-TEST_CASE("a ball bounces to e^2 h") {
+TEST_CASE("a ball that falls from h bounces to e^2 h") {
   for (const double e : {0.5, 0.9}) {
     OdeSession session;
     const double height = 0.5;
@@ -63,14 +63,14 @@ TEST_CASE("a ball bounces to e^2 h") {
   }
 }
 
-TEST_CASE("below the threshold nothing bounces") {
+TEST_CASE("a body slower than the threshold does not bounce") {
   OdeSession session;
   EffectsWorld scene({fx::Restitution{0.8, 0.2, {}}}, 1e-3);
   scene.world.add_plane();
   const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, kRadius});
   dBodySetLinearVel(ball, 0, 0, dReal(-0.19));
   scene.run_until(0.01);
-  CHECK(dBodyGetLinearVel(ball)[2] < 0.05);  // the velocity with which the overlap of a step is pushed out
+  CHECK(dBodyGetLinearVel(ball)[2] < 0.05);  // the velocity by which the overlap of a step is pushed out
   dBodySetPosition(ball, 0, 0, dReal(kRadius));
   dBodySetLinearVel(ball, 0, 0, dReal(-0.21));
   scene.run_until(0.01);
@@ -78,8 +78,8 @@ TEST_CASE("below the threshold nothing bounces") {
 }
 
 TEST_CASE("energy never grows at restitution up to 1") {
-  // In free flight ODE's steps keep v^2/2 + g z up to a term that is the same at the same velocity, so energies are compared
-  // after whole bounces.
+  // In free flight ODE's steps keep v^2/2 + g z up to a term that depends on the velocity alone. So energies are compared after
+  // whole bounces.
   for (const double e : {0.7, 1.0}) {
     OdeSession session;
     EffectsWorld scene({earth(), fx::Restitution{e, 0, {}}}, 5e-4);
@@ -99,7 +99,7 @@ TEST_CASE("energy never grows at restitution up to 1") {
   }
 }
 
-TEST_CASE("spring and damper: contact time, overlap and rebound") {
+TEST_CASE("a spring and damper give the contact time, overlap and rebound of the closed form") {
   const double k = 2000;
   const double v = 0.4;
   const double mass = kDensity * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3);
@@ -126,7 +126,7 @@ TEST_CASE("spring and damper: contact time, overlap and rebound") {
   }
 }
 
-TEST_CASE("springs of two materials are in series, also where both are the same; a pair and all have one") {
+TEST_CASE("springs of two materials are in series, also of equal materials; a listed pair or all materials have one spring") {
   struct Case {
     std::vector<fx::Effect> list;
     fx::Material of_plane;
@@ -154,11 +154,11 @@ TEST_CASE("springs of two materials are in series, also where both are the same;
   }
 }
 
-TEST_CASE("Hertz: contact time and overlap of a ball on a plane") {
+TEST_CASE("Hertz: a ball on a plane has the contact time and overlap of the closed form") {
   const double v = 0.5;
   const double mass = kDensity * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3);
   const double k = 4.0 / 3 * kStar * std::sqrt(kRadius);
-  for (const double steps : {200.0, 25.0}) {  // steps of a contact
+  for (const double steps : {200.0, 25.0}) {  // the contact lasts this many steps
     CAPTURE(steps);
     const double step = hertz_time(mass, k, v) / steps;
     OdeSession session;
@@ -173,7 +173,7 @@ TEST_CASE("Hertz: contact time and overlap of a ball on a plane") {
   }
 }
 
-TEST_CASE("Hertz: an ellipsoid on a plane, and two balls") {
+TEST_CASE("Hertz: an ellipsoid on a plane and two balls have the force of the exact solution") {
   // The exact solution for the ellipse k = b/a = 0.5: R'/R'' = 2.842753308671, F2 = 0.985172455666.
   const double ratio = 2.8427533086709977;
   const double correction = 0.9851724556662358;
@@ -208,7 +208,7 @@ TEST_CASE("Hertz: an ellipsoid on a plane, and two balls") {
   }
 }
 
-TEST_CASE("Hertz with restitution rebounds with it at every velocity") {
+TEST_CASE("Hertz: an impact rebounds with the given restitution at every velocity") {
   for (const double e : {0.2, 0.6, 0.9}) {
     for (const double v : {0.02, 2.0}) {
       CAPTURE(e);
@@ -239,7 +239,7 @@ TEST_CASE("a compliant contact that is too stiff for the step is counted and gai
   CHECK(cost_of(scene.effects, "compliance").coarse > 0);
 }
 
-TEST_CASE("a flat body rests on springs at the depth that its weight asks for") {
+TEST_CASE("a flat body rests on springs at the depth where they carry its weight") {
   OdeSession session;
   const double k = 1e5;
   EffectsWorld scene({earth(), fx::Friction{0.5, {}}, fx::Compliance{k, 300, {}}}, 5e-4);
@@ -249,7 +249,7 @@ TEST_CASE("a flat body rests on springs at the depth that its weight asks for") 
   turn(body, {1, 0.5, 0}, 2 * kDegree);
   scene.run_until(3);
   CHECK(scene.depth == relative(mass_of(body) * kGravity / k).epsilon(0.02));
-  // The unrest is no more than rigid contacts leave, half of g times the step (samples/studies/README.md).
+  // The remaining motion is no more than with rigid contacts, half of g times the step (samples/studies/README.md).
   CHECK(norm(to_vec(dBodyGetLinearVel(body))) < 0.5 * kGravity * 5e-4);
   CHECK(norm(to_vec(dBodyGetAngularVel(body))) < 0.5 * kGravity * 5e-4 / 0.05);
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The laws of effects do not compile when one is missing or leaves out a text.
+# The laws of effects do not compile if one is missing or has no text.
 # Usage: laws_test.sh SOURCE COMPILER FLAGS...
 set -euo pipefail
 source "$(dirname "$0")/../cli_test.bash"

@@ -24,7 +24,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-TEST_CASE("bad parameters are refused with effect, parameter, value and range") {
+TEST_CASE("an invalid parameter is refused with the effect, the parameter, its value and the range") {
   struct Case {
     Effect effect;
     const char* says;
@@ -63,7 +63,7 @@ TEST_CASE("bad parameters are refused with effect, parameter, value and range") 
   CHECK(refusal({}, 0).find("step = 0 s is outside (0, inf) s") != std::string::npos);
 }
 
-TEST_CASE("effects that exclude one another or lack another are refused") {
+TEST_CASE("effects that exclude one another, or lack a required one, are refused") {
   const Gravity gravity{{0, 0, -9.81}};
   CHECK(refusal({SpeculativeContacts{}, SpeculativeContacts{}}) ==
         "speculative_contacts is listed twice for the same surfaces; it must be listed once");
@@ -80,7 +80,7 @@ TEST_CASE("effects that exclude one another or lack another are refused") {
   CHECK(refusal({Compliance{1e9, 0, MaterialSelector::between(1, 1)}, Restitution{0.5, 0, MaterialSelector::of(2)}}).empty());
 }
 
-TEST_CASE("every effect is described") {
+TEST_CASE("every effect has a description") {
   CHECK(descriptions().size() == std::variant_size_v<Effect>);
   for (const Description& description : descriptions()) {
     CHECK_FALSE(std::string(description.name).empty());

@@ -1,4 +1,4 @@
-// Tests of resistance to rolling and spinning, which are lengths.
+// Tests of resistance to rolling and spinning. Both coefficients are lengths.
 #include <doctest/doctest.h>
 
 #include "effects/effects_world.hpp"
@@ -6,7 +6,7 @@
 
 using namespace supernormal::test;
 
-TEST_CASE("a ball rolls (7/10) v^2 R / (g rho) far in every direction") {
+TEST_CASE("a ball rolls by (7/10) v^2 R / (g rho) in every direction") {
   // The torque against rolling is rho N, so the deceleration is (5/7) g rho / R.
   const double rho = 2e-3;
   const double speed = 0.5;
@@ -28,7 +28,7 @@ TEST_CASE("a ball rolls (7/10) v^2 R / (g rho) far in every direction") {
   }
 }
 
-TEST_CASE("a ball rests on an incline up to tan = rho / R, whatever its direction") {
+TEST_CASE("a ball rests on an incline up to tan = rho / R in every direction") {
   const double rho = 2.5e-3;  // 2.86 degrees
   for (const double part : {0.97, 1.03}) {
     for (const double turn : {0.0, 0.3}) {

@@ -1,4 +1,4 @@
-// Tests of contacts whose bodies are not those of their geoms: walls that move or whose surface moves.
+// Tests of contacts whose bodies differ from the bodies of their geoms: moving walls and moving surfaces.
 #include <doctest/doctest.h>
 
 #include "effects/effects_world.hpp"
@@ -8,7 +8,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// Gives the plane z = 0, which stands, the velocity of a kinematic body.
+/// Gives the plane z = 0, which stays in place, the velocity of a kinematic body.
 dBodyID add_belt(EffectsWorld& scene, const Vec& velocity, const Vec& spin = {0, 0, 0}) {
   const dBodyID belt = dBodyCreate(scene.id());
   dBodySetKinematic(belt);
@@ -18,13 +18,13 @@ dBodyID add_belt(EffectsWorld& scene, const Vec& velocity, const Vec& spin = {0,
   return belt;
 }
 
-/// The body's position moves with its velocity, and the belt's surface does not.
+/// The body moves with its velocity. The belt's surface stays in place.
 void step(EffectsWorld& scene, dBodyID belt) {
   scene.step();
   dBodySetPosition(belt, 0, 0, 0);
 }
 
-/// The velocity of a ball after it has hit a plane that comes to meet it.
+/// The velocity of a ball after it has hit a plane that moves towards it.
 double rebound(const std::vector<fx::Effect>& effects, double approach, double rise) {
   OdeSession session;
   EffectsWorld scene(effects, kStep / 10);
@@ -40,7 +40,7 @@ double rebound(const std::vector<fx::Effect>& effects, double approach, double r
 
 }  // namespace
 
-TEST_CASE("a puck on a belt takes its velocity after v / (mu g), and is not carried farther by a wall without velocity") {
+TEST_CASE("a puck on a belt has its velocity after v / (mu g), and a wall without velocity does not carry it") {
   constexpr double kSpeed = 0.5;
   for (const double mu : {0.2, 0.5}) {
     OdeSession session;
@@ -59,7 +59,7 @@ TEST_CASE("a puck on a belt takes its velocity after v / (mu g), and is not carr
   }
 }
 
-TEST_CASE("a ball on a belt ends rolling, at 2/7 of the belt's velocity") {
+TEST_CASE("a ball on a belt ends rolling at 2/7 of the belt's velocity") {
   OdeSession session;
   EffectsWorld scene({earth(), fx::Friction{0.3, {}}}, kStep);
   const dBodyID belt = add_belt(scene, {0, 0.7, 0});
@@ -69,7 +69,7 @@ TEST_CASE("a ball on a belt ends rolling, at 2/7 of the belt's velocity") {
   CHECK(double{dBodyGetAngularVel(ball)[0]} == relative((0.7 - 0.2) / kBallRadius).epsilon(1e-3));
 }
 
-TEST_CASE("a ball on a turntable that turns about the ball's vertical is set spinning by spinning resistance") {
+TEST_CASE("spinning resistance sets a ball at the axis of a turntable spinning") {
   OdeSession session;
   EffectsWorld scene({earth(), fx::Friction{0.3, {}}, fx::RollingResistance{0, 1e-3, {}}}, kStep);
   const dBodyID table = add_belt(scene, {0, 0, 0}, {0, 0, 3});
@@ -83,7 +83,7 @@ TEST_CASE("a ball on a turntable that turns about the ball's vertical is set spi
   CHECK(double{dBodyGetAngularVel(ball)[2]} == relative(3).epsilon(1e-3));
 }
 
-TEST_CASE("restitution is that of the velocity relative to the wall") {
+TEST_CASE("restitution applies to the velocity relative to the wall") {
   constexpr double kApproach = 0.4;
   constexpr double kRise = 0.3;
   const double bounce = kRise + 0.6 * (kApproach + kRise);

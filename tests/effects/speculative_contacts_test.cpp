@@ -1,4 +1,4 @@
-// Contacts before overlap with each effect: closed forms at long steps, and nothing felt before touch that should not be.
+// Contacts before overlap with each effect: closed forms at long steps, and no force before touch.
 #include <doctest/doctest.h>
 
 #include "effects/effects_world.hpp"
@@ -14,7 +14,7 @@ constexpr double kDensity = 2500;  // kg/m^3
 double height_of(dBodyID body) { return dBodyGetPosition(body)[2]; }
 double speed_up(dBodyID body) { return dBodyGetLinearVel(body)[2]; }
 
-/// m; how high a body will rise. ODE's steps lie on the parabola whose velocity is half a step of gravity ahead of ODE's.
+/// m; how high a body will rise. ODE's steps lie on a parabola whose velocity is half a step of gravity ahead of ODE's velocity.
 double top_of_flight(dBodyID body, double step) {
   const double velocity = speed_up(body) - kGravity * step / 2;
   return height_of(body) + velocity * velocity / (2 * kGravity);
@@ -57,7 +57,7 @@ TEST_CASE("speculative contacts: a ball bounces to e^2 h at steps of 1 to 20 ms"
         scene.world.add_plane();
         const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, kRadius + height});
         double top = height;
-        // A flight of fewer than five steps is none that a step of this length can show.
+        // A step of this length cannot resolve a flight of fewer than five steps.
         for (int bounce = 0; bounce < 4 && 2 * e * std::sqrt(2 * top / kGravity) > 5 * step; ++bounce) {
           scene.run_until(3, [&] { return speed_up(ball) > 0; });
           const double reached = top_of_flight(ball, step) - kRadius;
@@ -71,10 +71,10 @@ TEST_CASE("speculative contacts: a ball bounces to e^2 h at steps of 1 to 20 ms"
   }
 }
 
-TEST_CASE("speculative contacts: a fast body leaves a wall with e times its velocity, and no farther in than to touch") {
+TEST_CASE("speculative contacts: a fast body leaves a wall with e times its velocity, from where it touches") {
   for (const double speed : {3.0, 100.0, 3000.0}) {
     for (const double step : {1e-3, 20e-3}) {
-      for (const double part : {0.1, 0.5, 0.99}) {  // of the step, until touch
+      for (const double part : {0.1, 0.5, 0.99}) {  // the fraction of the step until touch
         CAPTURE(speed);
         CAPTURE(step);
         CAPTURE(part);
@@ -93,7 +93,7 @@ TEST_CASE("speculative contacts: a fast body leaves a wall with e times its velo
   }
 }
 
-TEST_CASE("speculative contacts: two bodies part with e times their approach, about a centre of mass that keeps its motion") {
+TEST_CASE("speculative contacts: two bodies part with e times their approach velocity, and their centre of mass keeps its motion") {
   Random random(5);
   for (int pair = 0; pair < 100; ++pair) {
     CAPTURE(pair);
@@ -123,7 +123,7 @@ TEST_CASE("speculative contacts: two bodies part with e times their approach, ab
   }
 }
 
-TEST_CASE("speculative contacts: Newton's cradle hands the velocity on") {
+TEST_CASE("speculative contacts: Newton's cradle passes the velocity on") {
   for (const double step : {1e-3, 5e-3, 20e-3}) {
     for (const double e : {0.9, 1.0}) {
       CAPTURE(step);
@@ -138,7 +138,7 @@ TEST_CASE("speculative contacts: Newton's cradle hands the velocity on") {
         balls.push_back(scene.add_ball(kRadius, kDensity, {0, 0, -2.05 * k * kRadius - (k > 0 ? 0.1 : 0)}));
       dBodySetLinearVel(balls.front(), 0, 0, dReal(-kSpeed));
       scene.run_until(1.5);
-      // Each impact hands on the share (1 + e) / 2.
+      // Each impact passes on the fraction (1 + e) / 2.
       double handed = kSpeed;
       for (std::size_t k = 0; k + 1 < balls.size(); ++k) {
         if (e == 1) CHECK(std::abs(speed_up(balls[k])) < 0.01 * kSpeed);
@@ -153,7 +153,7 @@ TEST_CASE("speculative contacts: Newton's cradle hands the velocity on") {
   }
 }
 
-TEST_CASE("speculative contacts: nothing gains energy at restitution up to 1") {
+TEST_CASE("speculative contacts: no body gains energy at restitution up to 1") {
   for (const double e : {0.7, 1.0}) {
     for (const double step : {1e-3, 5e-3, 20e-3}) {
       for (unsigned seed = 1; seed <= 4; ++seed) {
@@ -167,7 +167,7 @@ TEST_CASE("speculative contacts: nothing gains energy at restitution up to 1") {
         const dGeomID geom = snCreateEllipsoid(scene.world.space(), dReal(0.05), dReal(0.04), dReal(0.02));
         random.turn(geom);
         const dBodyID body = scene.add(geom, kDensity, {0, 0, 0.5});
-        // What the parabola through the steps has.
+        // The energy of the parabola through the steps.
         const auto total = [&] {
           const double v = speed_up(body);
           const double ahead = v - kGravity * step / 2;
@@ -185,8 +185,8 @@ TEST_CASE("speculative contacts: nothing gains energy at restitution up to 1") {
   }
 }
 
-// At 10 ms, when a fast body goes its whole radius in a step, and often meets two others in one, 4 % are lost.
-TEST_CASE("speculative contacts: an elastic gas keeps its energy where bodies go up to half of their radius in a step") {
+// At 10 ms 4 % are lost. A fast body then moves by its whole radius in a step, and often meets two others in one step.
+TEST_CASE("speculative contacts: an elastic gas keeps its energy if bodies move by up to half of their radius in a step") {
   for (const double step : {1e-3, 2e-3, 5e-3}) {
     CAPTURE(step);
     OdeSession session;
@@ -225,7 +225,7 @@ TEST_CASE("speculative contacts: an elastic gas keeps its energy where bodies go
   }
 }
 
-TEST_CASE("speculative contacts: a ball that slides comes to roll at 5/7 of its velocity, and rolls on") {
+TEST_CASE("speculative contacts: a sliding ball ends rolling at 5/7 of its velocity") {
   for (const double step : {1e-3, 10e-3, 50e-3}) {
     CAPTURE(step);
     OdeSession session;
@@ -243,7 +243,7 @@ TEST_CASE("speculative contacts: a ball that slides comes to roll at 5/7 of its 
   }
 }
 
-TEST_CASE("speculative contacts: resistance to rolling stops a ball after 7/10 v^2 r / (rho g)") {
+TEST_CASE("speculative contacts: rolling resistance stops a ball after 7/10 v^2 r / (rho g)") {
   for (const double step : {1e-3, 10e-3}) {
     CAPTURE(step);
     OdeSession session;
@@ -258,7 +258,7 @@ TEST_CASE("speculative contacts: resistance to rolling stops a ball after 7/10 v
   }
 }
 
-TEST_CASE("speculative contacts: springs feel nothing before touch") {
+TEST_CASE("speculative contacts: springs exert no force before touch") {
   const std::vector<fx::Effect> springs = {fx::Compliance{2000, 0.5, {}}, fx::Compliance{2000, 0, {}},
                                            fx::Hertz{5e7, 0.3, 0.8, {}}};
   for (const fx::Effect& spring : springs) {
@@ -270,7 +270,7 @@ TEST_CASE("speculative contacts: springs feel nothing before touch") {
   }
 }
 
-TEST_CASE("without the effect contacts ahead are left out, and with it no other contact is changed") {
+TEST_CASE("speculative contacts: without the effect contacts ahead are ignored, and with it other contacts stay the same") {
   for (const fx::Effect& other : std::vector<fx::Effect>{fx::Friction{0.4, {}}, fx::Restitution{0.5, 0, {}}, fx::Adhesion{1, {}}}) {
     CHECK(falling_ball({earth(), other}, 2e-3, 2e-3) == falling_ball({earth(), other}, 2e-3));
   }
@@ -311,7 +311,7 @@ TEST_CASE("without the effect contacts ahead are left out, and with it no other 
   }
 }
 
-TEST_CASE("speculative contacts: adhesion pulls from touch on, and holds") {
+TEST_CASE("speculative contacts: adhesion pulls from touch on and holds the body") {
   OdeSession session;
   const double step = 5e-3;
   EffectsWorld scene({earth(), fx::Adhesion{10, {}}, fx::SpeculativeContacts{}}, step);
@@ -325,7 +325,7 @@ TEST_CASE("speculative contacts: adhesion pulls from touch on, and holds") {
   CHECK(mass_of(ball) * kGravity < 10);
 }
 
-TEST_CASE("speculative contacts: a wall that moves throws back with its own velocity, and carries") {
+TEST_CASE("speculative contacts: restitution and friction use the velocity relative to a moving wall") {
   for (const double wall_speed : {0.5, -0.5}) {
     for (const double step : {1e-3, 10e-3}) {
       CAPTURE(wall_speed);
@@ -344,7 +344,7 @@ TEST_CASE("speculative contacts: a wall that moves throws back with its own velo
       CHECK(speed_up(ball) == relative(wall_speed + 0.5 * (3 + wall_speed)).epsilon(within_rounding(1e-6, 100)));
     }
   }
-  // The velocity of the side counts, also where the geom has no body.
+  // The velocity of the side counts, even if the geom has no body.
   OdeSession session;
   const double step = 10e-3;
   EffectsWorld scene({fx::Friction{0.5, {}}, fx::SpeculativeContacts{}}, step);
@@ -359,7 +359,7 @@ TEST_CASE("speculative contacts: a wall that moves throws back with its own velo
   CHECK(speed_up(ball) == relative(-1).epsilon(1e-6));
 }
 
-TEST_CASE("speculative contacts: bodies with restitution lie still") {
+TEST_CASE("speculative contacts: bodies with restitution come to rest") {
   for (const double step : {2e-3, 10e-3, 30e-3}) {
     CAPTURE(step);
     OdeSession session;

@@ -1,4 +1,4 @@
-"""What the tests share: samples/ensemble on the path, and sweep files in folders of their own."""
+"""Shared parts of the tests: samples/ensemble on the path, and sweep files in separate folders."""
 
 import os
 import pathlib
@@ -23,7 +23,7 @@ class SweepTest(unittest.TestCase):
         (self.folder / "scene.toml").write_text('seed = 1\ncatalogue = "grains.toml"\n')
 
     def write(self, text, scene="scene.toml", collect=COLLECT):
-        """A sweep file. `text`: at its top, before what is collected."""
+        """A sweep file. `text`: its first part, before the collected quantities."""
         path = self.folder / "sweep.toml"
         path.write_text(f'scene = "{scene}"\n{text}\n{collect}')
         return path

@@ -1,4 +1,4 @@
-"""Runs, results and what becomes of them: with a program that does as it is told, and with falling_particles."""
+"""Runs and their results, with a scripted program and with falling_particles."""
 
 import os
 import pathlib
@@ -13,7 +13,7 @@ from sweep_files import ENSEMBLE, PROGRAM, SCENES, SweepTest
 
 from sweeps.quantity import NoValue, Quantity
 
-# Writes the seed as a result; counts its starts; fails, waits or is interrupted where a file beside the scene says so.
+# Writes the seed as a result and counts its starts. Fails, waits or is interrupted if a file beside the scene says so.
 STUB = """#!{python}
 import pathlib, sys, time
 arguments = sys.argv[1:]

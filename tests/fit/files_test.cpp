@@ -97,7 +97,7 @@ std::string obj_of(const Body& body) {
 
 }  // namespace
 
-TEST_CASE("files that are of no use are refused with a reason") {
+TEST_CASE("unusable files are refused with a reason") {
   const TemporaryFolder folder;
   const std::string none = (folder.path() / "none.ply").string();
   CHECK(complaint(none) == none + ": no such file");
@@ -128,7 +128,7 @@ TEST_CASE("files that are of no use are refused with a reason") {
   CHECK(complaint(mixed) == mixed + ":2: either all points have normals or none");
 }
 
-TEST_CASE("decimal commas and colours are no numbers of a body") {
+TEST_CASE("decimal commas and colours in a file of points are refused") {
   const TemporaryFolder folder;
   for (const char* line : {"1,5 2,5 3,5", "1,5;2,5;3,5", "1,5, 2,5, 3,5", "1,5\t2\t3", "1 2,5 3"}) {
     const std::string path = folder.write("commas.xyz", std::string("1 2 3\n") + line + "\n");
@@ -144,7 +144,7 @@ TEST_CASE("decimal commas and colours are no numbers of a body") {
   }
 }
 
-TEST_CASE("a mesh is made to face outwards, however it is wound") {
+TEST_CASE("a mesh with any winding is made to face outwards") {
   const TemporaryFolder folder;
   const Body body = placed_body(Family::Superellipsoid, 3, 2.5);
   const std::string text = obj_of(body);
@@ -179,7 +179,7 @@ TEST_CASE("a mesh is made to face outwards, however it is wound") {
   }
 }
 
-TEST_CASE("a cavity faces inwards, also where all is inside out") {
+TEST_CASE("a cavity faces inwards, also in a mesh that is inside out") {
   const TemporaryFolder folder;
   const auto cube = [](double size, double x, bool is_turned, int first) {
     std::ostringstream text;
@@ -202,7 +202,7 @@ TEST_CASE("a cavity faces inwards, also where all is inside out") {
   CHECK(turned(false, true, true) == "12 of 36 triangles faced inwards and are turned round");
 }
 
-TEST_CASE("coordinates that single precision spoils are refused") {
+TEST_CASE("coordinates that have lost their digits in single precision are refused") {
   const TemporaryFolder folder;
   const std::string obj = folder.write("far.obj", "v 500000.25 5 6\nv 500000.75 5 6\n");
   CHECK(complaint(obj).find("are rounded by 0.0298") != std::string::npos);
@@ -223,7 +223,7 @@ TEST_CASE("a .ply is read in double precision, as text and in both byte orders")
   CHECK(integers.vertices.points == std::vector<Vector3>{{-3, 200, 5}, {1, 2, 3}});
 }
 
-TEST_CASE("a body a million of its sizes from the origin is the same body") {
+TEST_CASE("a body is fitted equally well a million of its sizes from the origin") {
   const TemporaryFolder folder;
   const Body near{Family::Superellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), {1.5, 1.1, 0.8}, 4, 4, 0};
   Body far = near;
@@ -235,14 +235,14 @@ TEST_CASE("a body a million of its sizes from the origin is the same body") {
     CHECK(std::abs(fitted.body.delta - 4) < 1e-6);
     CHECK(std::abs(fitted.body.epsilon - 4) < 1e-6);
     CHECK((fitted.body.position - far.position).norm() < 1e-8);
-    // The place that is pasted has as many digits as the body needs.
+    // The printed position has as many digits as the body needs.
     CHECK(c_lines(std::vector<FittedBody>{fitted}, "far", "").find("dGeomSetPosition(far, ") != std::string::npos);
   }
   CHECK(digits_of(1e6, 0.8, 9) == 16);
   CHECK(digits_of(0.1, 0.8, 9) == 9);
 }
 
-TEST_CASE("polygons of a .ply are cut into triangles, and other elements skipped") {
+TEST_CASE("polygons of a .ply are cut into triangles, and other elements are skipped") {
   const TemporaryFolder folder;
   const std::string header =
       "ply\r\nformat ascii 1.0\r\ncomment an arrowhead, concave at 2\r\nelement camera 1\r\nproperty list uchar float lens\r\n"
@@ -258,10 +258,11 @@ TEST_CASE("polygons of a .ply are cut into triangles, and other elements skipped
     const Vector3 twice = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
     area += std::abs(twice.z()) / 2;
   }
-  CHECK(area == doctest::Approx(1.25));  // of the arrowhead: nothing twice, and the third triangle seen from above is flat
+  CHECK(area == doctest::Approx(
+                    1.25));  // the area of the arrowhead: no part counts twice, and the third triangle has no area seen from above
 }
 
-TEST_CASE("a broken .ply is refused at once, with the place") {
+TEST_CASE("a broken .ply is refused with the place of the error") {
   const TemporaryFolder folder;
   const std::string start = "ply\nformat ascii 1.0\n", xyz = "property float x\nproperty float y\nproperty float z\n";
   const std::string two = start + "element vertex 2\n" + xyz + "end_header\n";
@@ -292,7 +293,7 @@ TEST_CASE("a broken .ply is refused at once, with the place") {
         std::string::npos);
 }
 
-TEST_CASE("what is no surface does not count") {
+TEST_CASE("unused vertices and flat faces of a file do not count as surface") {
   const TemporaryFolder folder;
   const Body body = placed_body(Family::Superellipsoid, 3, 2.5);
   const std::string text = obj_of(body);
@@ -307,7 +308,7 @@ TEST_CASE("what is no surface does not count") {
   const Vector3 middle = (whole.vertices.points[first[0]] + whole.vertices.points[first[1]]) / 2;
   stray << middle.x() << ' ' << middle.y() << ' ' << middle.z() << "\n5 5 5\n";
   for (const Triangle& t : whole.triangles) stray << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
-  stray << "3 " << first[0] << ' ' << first[1] << ' ' << whole.vertices.points.size() << '\n';  // flat, on an edge
+  stray << "3 " << first[0] << ' ' << first[1] << ' ' << whole.vertices.points.size() << '\n';  // a flat face on an edge
   const Data data = read_data(folder.write("stray.ply", stray.str()), 1);
   CHECK(data.note == "1 vertices that no triangle has are left out");
   const FitError error = find_error(std::vector<Body>{body}, data);
@@ -316,7 +317,7 @@ TEST_CASE("what is no surface does not count") {
   CHECK(error.data.volume == doctest::Approx(make_shape(body)->mass_properties().volume).epsilon(0.01));
 }
 
-TEST_CASE("points on a line or in a plane are refused at once") {
+TEST_CASE("points on a line or in a plane are refused") {
   for (const int dimensions : {1, 2}) {
     Cloud cloud;
     for (int i = 0; i < 100; ++i) cloud.points.emplace_back(i + 5.0, dimensions == 2 ? i * i : 2 * i, 3 * i);
@@ -326,7 +327,7 @@ TEST_CASE("points on a line or in a plane are refused at once") {
   }
 }
 
-TEST_CASE("points are read from .xyz, .obj and .ply alike") {
+TEST_CASE("points from .xyz, .obj and .ply are equal") {
   const TemporaryFolder folder;
   const Data xyz = read_data(folder.write("a.xyz", "# x y z and the normal\n1, 2, 3, 0, 0, 1.001\n4 5 6 1 0 0 # more\n"), 0.5);
   REQUIRE(xyz.vertices.points.size() == 2);
@@ -345,7 +346,7 @@ TEST_CASE("points are read from .xyz, .obj and .ply alike") {
   CHECK(ply.triangles.empty());
 }
 
-TEST_CASE("a mesh gives its body back, and volume and inertia agree") {
+TEST_CASE("a fit to a mesh of a body returns the body, with its volume and inertia") {
   const TemporaryFolder folder;
   const Body body = placed_body(Family::Superellipsoid, 3, 2.5);
   const Data data = read_data(folder.write("body.obj", obj_of(body)), 1);
@@ -362,7 +363,7 @@ TEST_CASE("a mesh gives its body back, and volume and inertia agree") {
   CHECK(error.to_data < 1.1e-3 * 0.01);
 }
 
-TEST_CASE("a catalogue of grains takes the lines of TOML") {
+TEST_CASE("a grain catalogue accepts the printed lines of TOML") {
   const TemporaryFolder folder;
   const std::vector<FittedBody> fitted = {fitted_of(placed_body(Family::Superellipsoid, 3, 2.5)),
                                           fitted_of(placed_body(Family::Ellipsoid, 2, 2)),
@@ -386,7 +387,7 @@ TEST_CASE("a catalogue of grains takes the lines of TOML") {
   CHECK(egg.components[0].body.taper == std::array<double, 2>{-0.3, -0.3});
 }
 
-TEST_CASE("a union is one grain, with its parts where they are to each other") {
+TEST_CASE("a union is printed as one grain, with the relative poses of its parts") {
   const TemporaryFolder folder;
   std::vector<FittedBody> fitted = {fitted_of(placed_body(Family::Superellipsoid, 3, 2.5)),
                                     fitted_of(placed_body(Family::Superovoid, 2, 2, -0.3))};
@@ -405,7 +406,7 @@ TEST_CASE("a union is one grain, with its parts where they are to each other") {
   for (std::size_t k = 0; k < 2; ++k) CHECK(turn(parts[k]).angularDistance(fitted[k].body.attitude) < 1e-7);
 }
 
-TEST_CASE("the lines of C compile, and make the bodies") {
+TEST_CASE("the printed lines of C compile and create the bodies") {
   const TemporaryFolder folder;
   const std::vector<FittedBody> fitted = {fitted_of(placed_body(Family::Superellipsoid, 3, 2.5)),
                                           fitted_of(placed_body(Family::Ellipsoid, 2, 2)),
@@ -430,7 +431,7 @@ TEST_CASE("the lines of C compile, and make the bodies") {
   dReal a = 0, b = 0, c = 0, delta = 0, epsilon = 0;
   REQUIRE(snGeomSuperellipsoidGetParams(geoms[0], &a, &b, &c, &delta, &epsilon) == 1);
   CHECK(double{delta} == doctest::Approx(3));
-  // The boundary of the geom is where that of the body is.
+  // The geom and the body have the same boundary.
   for (std::size_t k = 0; k < 3; ++k) {
     const Cloud cloud = scatter(fitted[k].body, {.points = 20});
     for (const Vector3& x : cloud.points) {
@@ -444,13 +445,13 @@ TEST_CASE("the lines of C compile, and make the bodies") {
   dlclose(handle);
 }
 
-TEST_CASE("names fit into C and catalogues") {
+TEST_CASE("printed names are valid in C and in catalogues") {
   CHECK(identifier("bunny.bin") == "bunny_bin");
   CHECK(identifier("3 stones") == "fit_3_stones");
   CHECK(identifier("") == "fit_");
 }
 
-TEST_CASE("a picture is an SVG with every view") {
+TEST_CASE("a picture is an SVG with all views") {
   const Body body = placed_body(Family::Superellipsoid, 3, 2.5);
   const std::string svg = draw(std::vector<Body>{body}, scatter(body, {.points = 100}), 1e-5, "a < b & c");
   CHECK(svg.find("a &lt; b &amp; c") != std::string::npos);

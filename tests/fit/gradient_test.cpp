@@ -31,7 +31,7 @@ Body varied(const Body& body, int parameter, double step) {
 
 }  // namespace
 
-TEST_CASE("the gradient of the distance is that of differences") {
+TEST_CASE("the gradient of the distance agrees with finite differences") {
   const Eigen::Quaterniond attitude = Eigen::Quaterniond(0.7, 0.3, -0.2, 0.5).normalized();
   for (const auto& [family, delta, epsilon, taper] : {std::tuple{Family::Superellipsoid, 2.5, 4.0, 0.0},
                                                       {Family::Superellipsoid, 1.4, 1.8, 0.0},
@@ -56,7 +56,7 @@ TEST_CASE("the gradient of the distance is that of differences") {
   }
 }
 
-TEST_CASE("a body contains what is at a negative distance") {
+TEST_CASE("a point is inside the body exactly if its distance is negative") {
   const Body body{
       Family::Superovoid, {0.3, -0.2, 0.5}, Eigen::Quaterniond(0.7, 0.3, -0.2, 0.5).normalized(), {1.5, 1.1, 0.8}, 3, 4, -0.3};
   const DistanceFunction function(body);
@@ -70,7 +70,7 @@ TEST_CASE("a body contains what is at a negative distance") {
   CHECK(inside < 450);
 }
 
-TEST_CASE("noise moves points out of a sphere by its square over the radius") {
+TEST_CASE("noise moves points out of a sphere by its variance over the radius") {
   const Body sphere{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Constant(2), 2, 2, 0};
   const DistanceFunction function(sphere);
   const Witness witness = function.find({2, 0, 0}).value();

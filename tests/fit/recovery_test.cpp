@@ -38,7 +38,7 @@ TEST_CASE("bodies without noise are recovered") {
   }
 }
 
-TEST_CASE("the data call for the family") {
+TEST_CASE("the fit selects the family that the data need") {
   for (const Body& truth :
        {make_body(Family::Ellipsoid, 2, 2), make_body(Family::Superellipsoid, 2.5, 4), make_body(Family::Superovoid, 2, 2, -0.4)}) {
     const FittedBody fitted = fit_body(scatter(truth, {.points = 1000, .noise = 0.01}));
@@ -46,7 +46,7 @@ TEST_CASE("the data call for the family") {
   }
 }
 
-TEST_CASE("half of a body is enough, with and without normals") {
+TEST_CASE("half of a body's surface is enough, with and without normals") {
   const Body truth = make_body(Family::Superellipsoid, 2.5, 4);
   for (const bool has_normals : {false, true}) {
     const Cloud exact = scatter(truth, {.points = 1000, .is_half_missing = true, .has_normals = has_normals});
@@ -58,7 +58,7 @@ TEST_CASE("half of a body is enough, with and without normals") {
   }
 }
 
-TEST_CASE("a motion and a change of units move the answer and nothing else") {
+TEST_CASE("a motion or a change of units of the data transforms the answer and changes nothing else") {
   const Body truth = make_body(Family::Superellipsoid, 3, 2.2);
   const Cloud cloud = scatter(truth, {.points = 1000, .noise = 0.01});
   const FittedBody first = fit_body(cloud, {.family = truth.family});
@@ -83,7 +83,7 @@ TEST_CASE("a motion and a change of units move the answer and nothing else") {
   CHECK(second.uncertainty.sigma / first.uncertainty.sigma == doctest::Approx(scale).epsilon(1e-4));
 }
 
-TEST_CASE("outliers are left out") {
+TEST_CASE("outliers are removed") {
   const Body truth = make_body(Family::Superellipsoid, 2.5, 4);
   Cloud cloud = scatter(truth, {.points = 1000, .noise = 0.005});
   for (int i = 0; i < 50; ++i)
@@ -96,7 +96,7 @@ TEST_CASE("outliers are left out") {
   CHECK(difference.segment<3>(kLogAxes).cwiseAbs().maxCoeff() < 5e-3);
 }
 
-TEST_CASE("gross outliers mislead neither search nor extent") {
+TEST_CASE("gross outliers affect neither the search nor the extent") {
   const Body truth = make_body(Family::Superellipsoid, 4, 4);
   for (const std::size_t points : {40, 300, 1000}) {
     const Cloud clean = scatter(truth, {.points = points, .noise = 0.005});
@@ -121,8 +121,8 @@ TEST_CASE("gross outliers mislead neither search nor extent") {
   }
 }
 
-TEST_CASE("points are cut off by an empty shell only") {
-  // A needle's ends, half of a body and a second group of a fifth of the points are no outliers.
+TEST_CASE("points are removed only beyond an empty shell") {
+  // The ends of a needle, half of a body and a second group with a fifth of the points are no outliers.
   Body needle = make_body(Family::Ellipsoid, 2, 2);
   needle.half_axes = {50, 1, 1};
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
@@ -139,8 +139,8 @@ TEST_CASE("points are cut off by an empty shell only") {
   CHECK(cut_off(groups, 3).empty());
 }
 
-TEST_CASE("what data do not determine is said") {
-  // A body of revolution may turn about its axis.
+TEST_CASE("parameters that the data do not determine are reported") {
+  // A body of revolution may be rotated about its axis.
   Body truth = make_body(Family::Ellipsoid, 2, 2);
   truth.half_axes = {1.5, 0.8, 0.8};
   for (const double noise : {0.0, 0.01}) {
@@ -152,7 +152,7 @@ TEST_CASE("what data do not determine is said") {
   }
 }
 
-TEST_CASE("standard errors are those of repeated fits") {
+TEST_CASE("standard errors agree with the spread of repeated fits") {
   const Body truth = make_body(Family::Superellipsoid, 2.5, 4);
   Gradient square = Gradient::Zero(), expected = Gradient::Zero();
   constexpr int kFits = 40;
@@ -164,7 +164,7 @@ TEST_CASE("standard errors are those of repeated fits") {
   }
   for (int i = 0; i < kTaper; ++i) {
     CAPTURE(i);
-    // The mean of 40 squares is within a factor of 2 of its expectation but once in 10^4.
+    // The mean of 40 squares is outside a factor of 2 of its expectation once in 10^4.
     CHECK(square[i] / expected[i] > 0.45);
     CHECK(square[i] / expected[i] < 2.1);
   }

@@ -8,7 +8,7 @@
 
 using namespace fit;
 
-TEST_CASE("a dumbbell is taken apart") {
+TEST_CASE("a dumbbell is fitted by two bodies") {
   const std::vector<Body> truth = make_compound("dumbbell");
   const Cloud cloud = scatter_union(truth, 700, 3e-4, 1);
   const std::vector<FittedBody> fitted = fit_union(cloud, 3, {.family = Family::Superellipsoid});
@@ -22,14 +22,14 @@ TEST_CASE("a dumbbell is taken apart") {
   }
 }
 
-TEST_CASE("a cube is one body, with and without noise") {
-  // Its edges are sharper than any body's: two bodies are a little nearer than one.
+TEST_CASE("a cube is fitted by one body, with and without noise") {
+  // The edges are sharper than any body's, so two bodies fit slightly better than one.
   for (const double noise : {0.0, 0.01}) {
     Cloud cloud;
     for (int i = 0; i < 600; ++i) {
       const auto fraction = [&](double step) { return 2 * std::fmod(i * step, 1.0) - 1; };
       const int axis = i % 3;
-      // Evenly spread over a face, by the plastic number.
+      // Evenly distributed over a face, by the plastic number.
       Vector3 x(fraction(0.7548776662466927), fraction(0.5698402909980532), fraction(0.4301597090019468));
       x[axis] = (i % 2 == 0 ? 1 : -1) + noise * std::sin(37.0 * i * i);
       cloud.points.push_back(x);

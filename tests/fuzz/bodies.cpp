@@ -13,10 +13,10 @@ namespace {
 constexpr double kLeastLength = 1e-30, kLargestLength = 1e30;  // m
 constexpr double kLeastExponent = 1.01, kLargestExponent = 1000;
 
-// Tolerance of the bound on the tapers, which is computed in another order than in the library.
+// Tolerance of the bound on the tapers, which the library computes in another order.
 constexpr double kRounding = 1e-12;
 
-// Limit of evaluations, because a library that may take a million evaluations would take the fuzzer's time.
+// Limit of evaluations. The library may otherwise take a million evaluations, and all of the fuzzer's time.
 constexpr int kPatience = 10000;
 
 bool is_length(double value) { return value >= kLeastLength && value <= kLargestLength; }
@@ -31,7 +31,7 @@ struct Superellipsoid {
   }
 };
 
-/// Draws parameters half of which are valid, so that there are bodies to query.
+/// Draws parameters. Half of them are valid, so that there are bodies to query.
 Superellipsoid draw_superellipsoid(ByteReader& bytes, bool is_ellipsoid) {
   const bool is_wild = bytes.flag();
   Superellipsoid result{};
@@ -91,7 +91,7 @@ void hessian(const void* user, const dReal* n, dReal* H) {
 
 void release(void* user) { ++static_cast<UserShape*>(user)->releases; }
 
-// Draws a rotation from any four numbers: ODE's clients have rotations or, after an accident, matrices that are not finite.
+// Draws a rotation from any four numbers. ODE programs have rotations or, after an accident, matrices that are not finite.
 void draw_rotation(ByteReader& bytes, dMatrix3 R) {
   dQuaternion q;
   double sum = 0;
@@ -229,7 +229,7 @@ void FuzzedBody::set_solver(ByteReader& bytes) {
 
 dGeomID create_collider(ByteReader& bytes) {
   const unsigned kind = bytes.choice(6);
-  // ODE asserts that lengths are not negative, which a NaN also fails. Zero and infinity pass.
+  // ODE asserts that lengths are not negative, so a NaN also fails. Zero and infinity pass.
   const auto length = [&] {
     const double value = std::abs(bytes.number());
     return std::isnan(value) ? 1.0 : value;

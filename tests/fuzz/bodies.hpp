@@ -1,4 +1,4 @@
-// Bodies and colliders for the fuzzer of the C interface, made from bytes, and the expectations on making them.
+// Bodies and colliders for the fuzzer of the C interface, made from bytes, and the expectations on their creation.
 #pragma once
 
 #include <memory>
@@ -8,26 +8,25 @@
 
 namespace supernormal::fuzz {
 
-/// Replaces the text of the last error by one that no function under test writes.
+/// Replaces the text of the last error by a text that no tested function writes.
 void forget_last_error();
 
-/// Expects that a call was refused: since forget_last_error() the text has become that of `function`, and says more than the
-/// name.
+/// Expects that a call was refused. Since forget_last_error() the text has become a text of `function`, with more than its name.
 void expect_refusal(const char* function);
 
 /// A user-defined body of the fuzzer: an ellipsoid that gives wrong answers for some of the directions.
 struct UserShape {
   double half_axes[3] = {1, 1, 1};
-  int wrong_part = 0;  ///< 0 none, 1 h, 2 r, 3 H
-  int axis = 0;        ///< axis of the directions that have a component larger than `above`
+  int wrong_part = 0;  ///< 0: none, 1: h, 2: r, 3: H
+  int axis = 0;        ///< axis of the wrong directions: their component along it exceeds `above`
   double above = 0;    ///< bound on the component along the axis
-  double wrong = 0;    ///< is added to the answer
+  double wrong = 0;    ///< added to the answer
   int releases = 0;    ///< how often the library has released it
 
   bool is_sound() const { return wrong_part == 0; }
 };
 
-/// A body of ours or none, and the parameters that it was made from.
+/// A body of ours or none, with its parameters.
 class FuzzedBody {
  public:
   FuzzedBody() = default;
@@ -37,7 +36,7 @@ class FuzzedBody {
   FuzzedBody& operator=(const FuzzedBody&) = delete;
   FuzzedBody& operator=(FuzzedBody&&) = delete;
 
-  /// Replaces the body by another one; a unit sphere if the library refuses, as it must outside of the documented ranges.
+  /// Replaces the body by another one. If the library refuses, as it must outside the documented ranges, by a unit sphere.
   void create(ByteReader& bytes);
   void destroy();
 
@@ -47,7 +46,7 @@ class FuzzedBody {
 
   dGeomID geom() const { return geom_; }
 
-  /// Whether it is a convex body: everything but a user-defined body that gives wrong answers.
+  /// Whether it is a convex body: all bodies except user-defined ones with wrong answers.
   bool is_sound() const { return user_ == nullptr || user_->is_sound(); }
 
  private:
@@ -62,7 +61,7 @@ class FuzzedBody {
 /// Creates one of ODE's own geoms: sphere, plane, box, capsule, cylinder or ray, with parameters that ODE's assertions accept.
 dGeomID create_collider(ByteReader& bytes);
 
-/// Sets a pose of numbers of all kinds; the rotation is valid, or holds a number that is not finite.
+/// Sets a pose of numbers of all kinds. The rotation is valid, or contains a number that is not finite.
 void place(dGeomID geom, ByteReader& bytes);
 
 }  // namespace supernormal::fuzz

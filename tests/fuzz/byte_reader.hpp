@@ -1,4 +1,5 @@
-// Reads numbers from a fuzzer's bytes: from the front, zeros once they are used up. Same bytes, same numbers, on every machine.
+// Reads numbers from a fuzzer's bytes, from the front, and zeros after the last byte. The same bytes give the same numbers on every
+// machine.
 #pragma once
 
 #include <cmath>
@@ -29,7 +30,7 @@ class ByteReader {
     return static_cast<std::int32_t>(bits);
   }
 
-  /// Any double: eight bytes as they are, one of the values at which something changes, or an ordinary one.
+  /// Any double: eight bytes as they are, a value at which the behaviour changes, or an ordinary value.
   double number() {
     const unsigned kind = byte();
     if (kind < 64) return kEdges[kind % std::size(kEdges)];
@@ -48,7 +49,7 @@ class ByteReader {
   }
 
  private:
-  // The ends of the valid ranges, both neighbours of theirs, and the ends of the number system.
+  // The ends of the valid ranges with both neighbours, and the ends of the number system.
   static constexpr double kEdges[] = {0.0,
                                       -0.0,
                                       1.0,

@@ -1,6 +1,6 @@
-// The C interface with numbers of every kind: two bodies of ours and one of ODE's are made, changed, moved and queried as the
-// bytes say. Whatever an ODE program may legally do, nothing crashes, a refusal has a message, and an answer is finite with unit
-// normals.
+// The C interface with numbers of every kind. The bytes say how two bodies of ours and one of ODE's are made, changed, moved and
+// queried. Whatever an ODE program may legally do, the library does not crash, a refusal has a message, and an answer is finite
+// with unit normals.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -28,14 +28,14 @@ bool is_unit(const dReal* v) { return std::abs(v[0] * v[0] + v[1] * v[1] + v[2] 
 
 double largest(const dReal* v) { return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}); }
 
-/// Compares with padding included: memory that has not been written has not changed in any byte.
+/// Compares including the padding: memory that was not written has changed in no byte.
 template <typename T>
 bool is_same(const T& a, const T& b) {
   const auto* const bytes = reinterpret_cast<const unsigned char*>(&a);
   return std::equal(bytes, bytes + sizeof(T), reinterpret_cast<const unsigned char*>(&b));
 }
 
-/// Whether the pose is finite, as far as the geom has one: a plane has none, a sphere no rotation, a ray a direction only.
+/// Whether the pose is finite, as far as the geom has one. A plane has none, a sphere has no rotation, a ray only a direction.
 bool is_placed(dGeomID geom) {
   const int geom_class = dGeomGetClass(geom);
   if (geom_class == dPlaneClass) return true;
@@ -46,7 +46,7 @@ bool is_placed(dGeomID geom) {
   return is_finite(z) && (geom_class == dRayClass || (is_finite(R) && is_finite(R + 4) && is_finite(R + 8)));
 }
 
-/// The contacts of a pair; nothing must be written beyond those that are counted.
+/// The contacts of a pair. Memory beyond the counted contacts must stay unchanged.
 struct Contacts {
   dContactGeom all[kRoom + 1];
   int count;
@@ -135,7 +135,7 @@ class Session {
   void new_collider() {
     if (collider_ != nullptr) dGeomDestroy(collider_);
     collider_ = create_collider(bytes_);
-    if (dGeomGetClass(collider_) != dRayClass) place(collider_, bytes_);  // a ray has its place already
+    if (dGeomGetClass(collider_) != dRayClass) place(collider_, bytes_);  // a ray already has its place
   }
 
   void change_warm_start() {

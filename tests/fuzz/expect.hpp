@@ -1,4 +1,4 @@
-// Reports a failure of a fuzzer by ending the process, which libFuzzer reports with the input.
+// Reports a failure by ending the process. libFuzzer then reports it with the input.
 #pragma once
 
 #include <cstdio>

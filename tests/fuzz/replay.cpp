@@ -1,5 +1,5 @@
-// A main function for fuzzers without libFuzzer: runs the fuzzer once on each of the files and folders that are named, so that
-// every compiler and every preset has the corpora as regression tests.
+// A main function for fuzzers without libFuzzer. It runs the fuzzer once on each of the given files and folders, so every compiler
+// and preset has the corpora as regression tests.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

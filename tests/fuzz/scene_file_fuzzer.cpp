@@ -1,6 +1,6 @@
-// Any text as a scene file of samples/falling_particles: it is loaded and the result is within bounds, or it is refused with the
-// documented exception. The text after a line "#catalogue" is the grain catalogue "grains.toml" beside it; without one, it is
-// that of the samples.
+// Any text as a scene file of samples/falling_particles. It is loaded and the result is within bounds, or it is refused with the
+// documented exception. The text after a line "#catalogue" is the grain catalogue "grains.toml" beside it. Without such a line it
+// is the samples' catalogue.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -25,7 +25,7 @@ using namespace falling_particles;
 
 constexpr std::string_view kCatalogueMark = "#catalogue\n";
 
-// A landscape of 4096 x 4096 samples is valid and takes seconds, in which a fuzzer learns nothing.
+// A landscape of 4096 x 4096 samples is valid and takes seconds, and the fuzzer learns nothing from it.
 constexpr long kMostSamples = 100;
 
 bool asks_for_a_large_landscape(std::string_view text) {

@@ -1,4 +1,4 @@
-// Every case of the catalogue: the hybrid's answers against the reference, and conditions that hold without one.
+// Every case of the catalogue: the hybrid's answers against the reference, and conditions that hold without a reference.
 #include "support/hard_cases/catalogue.hpp"
 
 #include <doctest/doctest.h>
@@ -38,7 +38,7 @@ std::string describe(const HardCase& one) {
   return one.name + " (" + one.reason + ")\n  " + describe(one.body1) + "\n  " + describe(one.body2) + "\n  ";
 }
 
-/// Reports one failure a case, with the settings.
+/// Reports one failure for each case, with the settings.
 void report(const HardCase& one, const Settings& settings, const Violations& violations) {
   if (violations.empty()) return;
   std::string sentences;
@@ -55,7 +55,7 @@ Settings certified() {
 
 }  // namespace
 
-TEST_CASE("hard cases: apart, touching, or overlapping by less than the ball that rolls inside, every one converges") {
+TEST_CASE("hard cases: a case that is apart, touching or overlapping by less than the rolling radius converges") {
   for (const HardCase& one : catalogue()) {
     Violations exceptions;
     const Proximity answer = solve(one, {}, exceptions);
@@ -66,7 +66,7 @@ TEST_CASE("hard cases: apart, touching, or overlapping by less than the ball tha
   }
 }
 
-TEST_CASE("hard cases: every one has a name of its own and a reason") {
+TEST_CASE("hard cases: every case has a unique name and a reason") {
   std::set<std::string> names;
   for (const HardCase& one : catalogue()) {
     if (!names.insert(one.name).second) FAIL_CHECK("twice: ", one.name);
@@ -75,7 +75,7 @@ TEST_CASE("hard cases: every one has a name of its own and a reason") {
   CHECK(names.size() > 300);
 }
 
-TEST_CASE("hard cases: the gaps in closed form lie within the bounds of the branch and bound") {
+TEST_CASE("hard cases: the gaps in closed form lie within the bounds by branch and bound") {
   for (const HardCase& one : catalogue()) {
     if (!one.gap) continue;
     const double distance = enclose_gap(one, 10000).distance(*one.gap);
@@ -97,7 +97,7 @@ TEST_CASE("hard cases: no invariant is violated at the ends of the range of tole
   }
 }
 
-TEST_CASE("hard cases: no invariant is violated when the evaluations run out") {
+TEST_CASE("hard cases: no invariant is violated when the limit of evaluations is reached") {
   Settings settings;
   for (const int limit : {1, 2, 3, 5, 9}) {
     settings.max_evaluations = limit;
@@ -105,7 +105,7 @@ TEST_CASE("hard cases: no invariant is violated when the evaluations run out") {
   }
 }
 
-TEST_CASE("hard cases: the reference lies in the interval of every answer, and is the gap of those that are global") {
+TEST_CASE("hard cases: the reference lies in the interval of every answer, and equals the gap of every global answer") {
   for (const ReferencedCase& referenced : referenced_cases()) {
     const HardCase& one = *referenced.one;
     Violations violations;
@@ -124,7 +124,7 @@ TEST_CASE("hard cases: the reference lies in the interval of every answer, and i
   }
 }
 
-TEST_CASE("hard cases: with proof, the depth is that of the reference") {
+TEST_CASE("hard cases: a certified depth equals the reference") {
   // If every normal of a circle is a maximum, the number of directions to rule out has no bound.
   int unproved = 0;
   for (const ReferencedCase& referenced : referenced_cases()) {

@@ -1,4 +1,4 @@
-// The same question asked in other words.
+// The same question in other forms.
 #include <Eigen/Geometry>
 #include <cfenv>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 const Pose kMotion{{600, -700, 387.2983346207417}, Eigen::Quaterniond(0.8, 0.1, -0.3, 0.5).normalized().toRotationMatrix()};
 
-/// None if it would leave the range of a shape.
+/// Empty if it would leave the range of a shape.
 std::optional<HardCase> rescaled(const HardCase& one, double unit) {
   try {
     return scaled(one, unit);
@@ -38,7 +38,7 @@ class SecondOpinions {
   }
 
   /// Lengths of `other` are in units of `unit` m. Its answer must be right on its own. The largest value of the gap function lies
-  /// in the intervals of both; if both claim to be global, they must agree.
+  /// in the intervals of both. If both claim to be global, they must agree.
   void compare(const std::string& how, const HardCase& other, double unit = 1) {
     Violations found;
     const Proximity second = solve(other, settings_, found);
@@ -46,8 +46,8 @@ class SecondOpinions {
     report(how, found);
   }
 
-  /// In units of a power of two no digit may differ. Where a number of one of the two is so small that it loses some, they may take
-  /// another way, but not to another gap.
+  /// In units of a power of two no digit may differ. If a number of either is so small that it loses digits, they may take
+  /// different paths, but not to different gaps.
   void compare_in_units(double unit) {
     Violations found;
     std::feclearexcept(FE_UNDERFLOW);
@@ -64,7 +64,7 @@ class SecondOpinions {
     report("in units of " + text(unit) + " m", found);
   }
 
-  /// Stopping at the first proof of separation: only of separated bodies, and with a bound.
+  /// Stopping at the first proof of separation happens only for separated bodies, and gives a bound.
   void compare_early_stop() {
     Settings early = settings_;
     early.stop_when_apart = true;

@@ -64,7 +64,7 @@ void check_status(const GapFunction& gap, const Settings& settings, const Proxim
   }
   if (!(answer.error >= 0)) out.push_back("negative error " + exact_text(answer.error));
   if (!(answer.global_error >= 0)) out.push_back("negative global error " + exact_text(answer.global_error));
-  // What is proved of every answer to bodies that are apart, touch, or overlap by less than the ball that rolls inside them.
+  // Proved for every answer if the bodies are apart, touch, or overlap by less than the rolling radius.
   const double tolerance = std::max(settings.tolerance * gap.length_unit() - gap.rounding(), 2 * gap.rounding());
   if (!(2 * answer.gap >= -tolerance || answer.gap + gap.rolling_radius() > 0)) return;
   if (!answer.is_global) out.push_back("gap " + exact_text(answer.gap) + ", but not sure to be global");
@@ -83,9 +83,9 @@ Proximity solve(const HardCase& one, const Settings& settings, Violations& viola
 }
 
 double rounding_of(const HardCase& one) {
-  // Points are computed in body 1's frame and moved: a few operations on coordinates of that size. Point 2 is point 1 and the
-  // gradient of s, each with the rounding of a sum of the terms of s; the value that it is compared with has that rounding once
-  // more.
+  // Points are computed in body 1's frame and then moved, with a few operations on coordinates of that size. Point 2 is point 1
+  // plus the gradient of s, each with the rounding of a sum of the terms of s. The value that it is compared with has that rounding
+  // once more.
   const double coordinates = one.pose1.position.norm() + one.pose2.position.norm();
   return 4 * gap_of(one).rounding() + 4 * kEpsilon * coordinates;
 }
@@ -119,12 +119,12 @@ Violations check_answer(const HardCase& one, const Settings& settings, const Pro
     out.push_back("gap " + exact_text(answer.gap) + ", but the points are " + exact_text(height2 - height1) +
                   " m apart along the normal");
   }
-  // In an overlap it is in both bodies as far as the query is asked to know them, and so between the tangent planes.
+  // In an overlap it is in both bodies up to the tolerance of the query, and so between the tangent planes.
   const double near = answer.gap < 0 ? std::max(1e-6, settings.tolerance) * gap.length_unit() : 0;
   if (!(contact >= std::min(height1, height2) - near - rounding && contact <= std::max(height1, height2) + near + rounding)) {
     out.push_back("the contact point is not between the witness points along the normal");
   }
-  // The contact point is not farther from the witness points than they are apart and the smaller body is long.
+  // The distance of the contact point from the witness points is at most their distance plus the length of the smaller body.
   const double reach = (answer.point2 - answer.point1).norm() +
                        2 * std::min(one.shape1->half_extents().norm(), one.shape2->half_extents().norm()) + rounding;
   const double off = std::max((answer.contact - answer.point1).norm(), (answer.contact - answer.point2).norm());

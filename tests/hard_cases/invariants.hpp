@@ -1,4 +1,4 @@
-// What every answer has to satisfy, known without another answer to compare it with.
+// Conditions that every answer has to satisfy, checked without another answer.
 #pragma once
 
 #include <cstdint>
@@ -10,36 +10,40 @@
 
 namespace supernormal::samples {
 
-/// What is wrong, one sentence each with the numbers; empty when all is well.
+/// The violations, one sentence each with the numbers; empty if there are none.
 using Violations = std::vector<std::string>;
 
 /// The answer to a case. Floating-point exceptions that the query raised (invalid, division by zero, overflow) are violations.
 Proximity solve(const HardCase& one, const Settings& settings, Violations& violations);
 
-/// By how much rounding of the input and of the answer's coordinates may change lengths along the normal, m.
+/// The rounding of the input and of the answer's coordinates may change lengths along the normal by this much, m.
 double rounding_of(const HardCase& one);
 
-/// What the gap of an answer that claims to be global may be off by, m: Proximity::is_global.
+/// The error that the gap of an answer may have if it claims to be global, m: Proximity::is_global.
 double error_of(const HardCase& one, const Settings& settings, const Proximity& answer);
 
-/// No value of the gap function is larger, as the answer says, but for rounding, m: Proximity::global_error.
+/// The upper bound of the gap function by the answer, plus rounding, m: Proximity::global_error.
 double ceiling_of(const HardCase& one, const Settings& settings, const Proximity& answer);
 
-/// The answer alone: every number finite, unit normal, a status that the hybrid may end with and that fits the error, the gap that
-/// of the normal, both witness points on their surfaces and `gap` apart along the normal, the contact point between them; converged
-/// and sure to be global if the bodies are apart, touch, or overlap by less than the ball that rolls inside them. Costs about ten
-/// evaluations.
+/// Checks the answer alone:
+///
+/// * every number is finite, the normal is a unit vector, and the status is possible for the hybrid and fits the error;
+/// * the gap belongs to the normal, both witness points are on their surfaces and `gap` apart along the normal, with the contact
+///   point between them;
+/// * the answer is converged and global if the bodies are apart, touch, or overlap by less than the rolling radius.
+///
+/// Costs about ten evaluations.
 Violations check_answer(const HardCase& one, const Settings& settings, const Proximity& answer);
 
-/// That no normal is higher than the answer says is possible: none on rings around its own, of the bodies' axes and sharp features,
-/// and of some random directions drawn with `seed`. Costs some hundred evaluations.
+/// Checks that no normal is higher than the answer allows. It tries rings around the answer's normal, the normals of the bodies'
+/// axes and sharp features, and some random directions drawn with `seed`. Costs some hundred evaluations.
 Violations check_maximum(const HardCase& one, const Settings& settings, const Proximity& answer, std::uint64_t seed = 1);
 
-/// That asking again, swapping the bodies, moving the frame, changing the unit of length (by powers of two: every digit), starting
-/// elsewhere and stopping early change nothing but rounding. Costs some ten queries.
+/// Checks that these change nothing but rounding: a repeated query, swapped bodies, a moved frame, another unit of length (a power
+/// of two: every digit), another start, and an early stop. Costs some ten queries.
 Violations check_invariance(const HardCase& one, const Settings& settings, const Proximity& answer);
 
-/// All of them.
+/// All of these checks.
 Violations check(const HardCase& one, const Settings& settings = {});
 
 }  // namespace supernormal::samples

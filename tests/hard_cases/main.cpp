@@ -1,4 +1,4 @@
-// The catalogue of hard cases as a table: the answer of each solver, its cost, and its distance from the reference.
+// The catalogue of hard cases as a table: each solver's answer, its cost, and its distance from the reference.
 //
 //     hard_cases [--filter text] [--reasons] [--tolerance 1e-9] [--max-evaluations 1000] [--certify]
 #include <CLI/CLI.hpp>
@@ -35,9 +35,9 @@ constexpr std::array kSolvers = {NamedSolver{Solver::Hybrid, "hybrid"}, NamedSol
 /// The comparison of an answer with the reference.
 enum class Verdict {
   Right,       ///< converged, and within its error of the reference
-  Local,       ///< converged, lower than the reference, and does not claim more than a local maximum
-  Unfinished,  ///< says itself that it has not converged
-  Wrong,       ///< converged, and farther from the reference than it says
+  Local,       ///< converged, lower than the reference, and claims only a local maximum
+  Unfinished,  ///< reports that it has not converged
+  Wrong,       ///< converged, but farther from the reference than its error
 };
 
 const char* name_of(Status status) {

@@ -1,4 +1,4 @@
-// Is there a normal with a larger gap?
+// Searches for a normal with a larger gap.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
@@ -10,7 +10,7 @@
 namespace supernormal::samples {
 namespace {
 
-// The neighbourhood: rings around the normal, from rounding to an angle of about 1.
+// The neighbourhood: rings around the normal, from rounding up to an angle of about 1.
 constexpr int kDirections = 8, kRings = 25;
 constexpr double kFirstAngle = 1e-15, kNextRing = 4;
 
@@ -35,7 +35,7 @@ struct Features {
   }
 };
 
-/// Looks for normals that are higher than the answer says is possible.
+/// Searches for normals that are higher than the answer allows.
 class Probe {
  public:
   Probe(const HardCase& one, const Settings& settings, const Proximity& answer)
@@ -81,7 +81,7 @@ class Probe {
 
   GapFunction gap_;
   Vector3 n_;
-  double ceiling_;  // m; of every value
+  double ceiling_;  // m; upper bound of every value
 };
 
 }  // namespace

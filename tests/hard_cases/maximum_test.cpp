@@ -1,4 +1,4 @@
-// The search for a normal that is higher than an answer's interval finds one where there is one.
+// The search for a normal higher than an answer's interval finds one if there is one.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -13,7 +13,7 @@ using namespace supernormal::samples;
 
 namespace {
 
-/// The answer that a climb gives which ends before the maximum, by an angle.
+/// The answer of an ascent that ends before the maximum, by an angle.
 Proximity beside(const HardCase& one, Proximity answer, double angle) {
   answer.normal = (answer.normal + angle * answer.normal.unitOrthogonal()).normalized();
   GapFunction gap(*one.shape1, one.pose1, *one.shape2, one.pose2);
@@ -25,7 +25,7 @@ Proximity beside(const HardCase& one, Proximity answer, double angle) {
 
 }  // namespace
 
-TEST_CASE("an answer beside the maximum is told, be it apart, touching or proved deep") {
+TEST_CASE("an answer beside the maximum is detected, for bodies apart, touching or in a certified overlap") {
   Settings settings;
   settings.certify_depth = true;
   for (const double distance : {2.5, 2.0, 1.5}) {
@@ -37,7 +37,7 @@ TEST_CASE("an answer beside the maximum is told, be it apart, touching or proved
   }
 }
 
-TEST_CASE("of a deep answer the interval counts: one that promises too little is told") {
+TEST_CASE("an answer of an overlap whose interval excludes a higher normal is detected") {
   const HardCase one = pair("", "", ellipsoid(Vector3(1, 0.7, 0.5)), superball(1, 4), at(Vector3(1.0, 0.3, 0.2)));
   Proximity answer = find_proximity(*one.shape1, one.pose1, *one.shape2, one.pose2, {});
   CHECK_FALSE(answer.is_global);

@@ -1,4 +1,4 @@
-// Tests that parameters and poses with which nothing can be computed are refused: by a clear message, or by a status.
+// Tests that unusable parameters and poses are refused by a clear message, or by a status.
 #include <doctest/doctest.h>
 
 #include <stdexcept>
@@ -10,7 +10,7 @@
 using namespace supernormal;
 using namespace supernormal::samples;
 
-TEST_CASE("hard cases: bad parameters are refused, and the message says which") {
+TEST_CASE("hard cases: invalid parameters are refused with a message") {
   for (const Refusal& refusal : refusals()) {
     std::string message;
     try {
@@ -23,7 +23,7 @@ TEST_CASE("hard cases: bad parameters are refused, and the message says which") 
   }
 }
 
-TEST_CASE("hard cases: poses that are not finite have no answer") {
+TEST_CASE("hard cases: poses that are not finite return InvalidInput") {
   for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) {
     Settings settings;
     settings.solver = solver;

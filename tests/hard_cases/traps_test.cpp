@@ -1,4 +1,4 @@
-// The catalogue in a program that has trapped floating-point exceptions: one that is raised ends it.
+// The catalogue in a program that traps floating-point exceptions: an exception ends the program.
 #include "support/traps.hpp"
 
 #include <doctest/doctest.h>
@@ -39,7 +39,7 @@ TEST_CASE("hard cases: no query raises a floating-point exception") {
   }
 }
 
-TEST_CASE("hard cases: making their shapes, and refusing others, raises no floating-point exception") {
+TEST_CASE("hard cases: making or refusing a shape raises no floating-point exception") {
   {
     const Traps traps("the shapes of the catalogue");
     CHECK(!hard_cases().empty());

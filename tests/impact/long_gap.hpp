@@ -1,4 +1,4 @@
-// The gap of two moving bodies in long double: poses, normals and support functions of their own.
+// The gap of two moving bodies in long double, with separate code for poses, normals and support functions.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -26,7 +26,7 @@ inline Long long_norm(Long x, Long y, Long p) {
   return larger == 0 ? 0 : larger * std::pow(1 + std::pow(smaller / larger, p), 1 / p);
 }
 
-/// The support function from the definition of the body. Throws std::logic_error for a class that it does not know.
+/// The support function by the definition of the body. Throws std::logic_error for a class that it does not know.
 inline Long long_support(const Shape& shape, const LongVector& n) {
   if (const auto* sphere = dynamic_cast<const Sphere*>(&shape)) return sphere->radius() * n.norm();
   if (const auto* body = dynamic_cast<const Ellipsoid*>(&shape)) return body->half_axes().cast<Long>().cwiseProduct(n).norm();
@@ -59,7 +59,7 @@ inline LongPose long_pose_at(const Motion& motion, double time) {
   return {centre - rotation * offset, rotation};
 }
 
-/// s(n), m: a lower bound of the gap for any normal, from body 1 to body 2, and the gap at the normal of bodies that are apart.
+/// s(n), m: a lower bound of the gap for any normal from body 1 to body 2, and the gap at the common normal of separate bodies.
 inline Long long_gap(const Shape& shape1, const Motion& motion1, const Shape& shape2, const Motion& motion2, double time,
                      const Vector3& normal) {
   const LongPose pose1 = long_pose_at(motion1, time);

@@ -1,4 +1,4 @@
-// Random pairs in motion, as many as one likes: every impact is looked at by a slow search.
+// Any number of random pairs in motion. A slow search checks every impact.
 //
 //     impacts PAIRS SEED        PAIRS of each kind of motion
 //

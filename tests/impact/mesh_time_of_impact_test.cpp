@@ -15,7 +15,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// A hilly sheet of 2 * cells^2 triangles, about the origin, 1 m a cell.
+/// A sheet with hills of 2 * cells^2 triangles, about the origin, 1 m a cell.
 std::vector<MeshTriangle> hills(int cells) {
   const auto point = [&](int i, int j) {
     const double x = i - 0.5 * cells, y = j - 0.5 * cells;
@@ -36,7 +36,7 @@ std::vector<MeshTriangle> hills(int cells) {
 
 }  // namespace
 
-TEST_CASE("triangles: the first of them, where the nearest triangle is as near as the tolerance, and none before") {
+TEST_CASE("triangles: at the impact the nearest triangle is within the tolerance, and none is nearer before") {
   const std::vector<MeshTriangle> triangles = hills(8);
   RandomMotions random(11);
   int hits = 0;
@@ -69,7 +69,7 @@ TEST_CASE("triangles: the first of them, where the nearest triangle is as near a
 }
 
 TEST_CASE("triangles: at the impact with a closed mesh no contact is deeper than the tolerance") {
-  // Elsewhere the planes of the faces are far above what touches an edge or a vertex from outside.
+  // For an open mesh, a body that touches an edge or a vertex from outside is far below the planes of the faces.
   const std::array<Vector3, 4> corners = {Vector3(-1, -1, 0), Vector3(1, -1, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)};
   const std::vector<MeshTriangle> tetrahedron = {{{corners[0], corners[2], corners[1]}, 0},
                                                  {{corners[0], corners[1], corners[3]}, 1},
@@ -96,7 +96,7 @@ TEST_CASE("triangles: at the impact with a closed mesh no contact is deeper than
   CHECK(hits > 200);
 }
 
-TEST_CASE("triangles: without any, bodies are apart") {
+TEST_CASE("triangles: without triangles bodies are apart") {
   const MeshImpact found = find_mesh_time_of_impact(Sphere(1), {}, {}, {}, 2);
   CHECK(found.impact.status == ImpactStatus::Apart);
   CHECK(found.impact.time == 2);

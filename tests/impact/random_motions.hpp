@@ -28,9 +28,9 @@ struct MovingBody {
 /// How the bodies of a pair move.
 struct MotionKind {
   const char* name;
-  double speed;  ///< the bodies go as far in the horizon as this times their distance
-  double turns;  ///< radians in the horizon
-  bool is_off;   ///< they turn about a point off their middle
+  double speed;  ///< displacement within the horizon, relative to the distance of the bodies
+  double turns;  ///< rad; rotation within the horizon
+  bool is_off;   ///< they rotate about a point off their middle
 };
 
 inline constexpr MotionKind kMotionKinds[] = {{"straight", 2, 0, false},
@@ -83,7 +83,7 @@ class RandomMotions {
     }
   }
 
-  /// The first body is near the origin; the bodies are `gap` (m) apart at time 0 along a random normal.
+  /// The first body is near the origin. The bodies are `gap` (m) apart at time 0 along a random normal.
   MovingPair draw(const MotionKind& kind, double gap) {
     MovingPair pair;
     pair.one.shape = shape();
@@ -99,7 +99,7 @@ class RandomMotions {
     motion2.pose.position = motion1.pose.rotation * pair.one.shape->point(motion1.pose.rotation.transpose() * n) + gap * n - point2;
     const double distance = motion2.pose.position.norm();
     const Vector3 common = uniform(0, 10) / pair.horizon * direction();
-    // Towards the other body, give or take their size.
+    // Towards the other body, up to their size.
     const Vector3 towards = (motion2.pose.position + uniform(0, 1.5) * distance * direction()).normalized();
     motion1.velocity = common + kind.speed * distance / pair.horizon * uniform(0, 1) * towards;
     motion2.velocity = common;
@@ -115,8 +115,8 @@ class RandomMotions {
   std::normal_distribution<double> gauss_;
 };
 
-/// The gap of the pair at a time in long double, at the normal of a query that knows of no other. That normal is off by rounding,
-/// of which the gap function, stationary there, feels the square; on faces it feels the rounding itself.
+/// The gap of the pair at a time in long double, at the normal of a query from a cold start. This normal has rounding errors. The
+/// gap function is stationary there and changes by their square only; on faces it changes by the rounding itself.
 inline Long gap_at(const MovingPair& pair, double t) {
   Settings settings;
   settings.tolerance = 1e-13;
@@ -126,7 +126,7 @@ inline Long gap_at(const MovingPair& pair, double t) {
   return long_gap(shape1, pair.one.motion, shape2, pair.other.motion, t, proximity.normal);
 }
 
-/// m/s; no gap of the pair changes faster: the speed of the centres, and the angular velocities times the reach of the bodies.
+/// m/s; an upper bound on the rate of the gap: the speed of the centres, plus the angular velocities times the radii of the bodies.
 inline double fastest(const MovingPair& pair) {
   double speed = (pair.other.motion.velocity - pair.one.motion.velocity).norm();
   for (const MovingBody* body : {&pair.one, &pair.other}) {
@@ -135,15 +135,15 @@ inline double fastest(const MovingPair& pair) {
   return speed;
 }
 
-/// m; the sizes, the distance and the way of the bodies: all that rounding of the gap is a share of.
+/// m; the sum of the sizes, the distance and the displacement of the bodies. The rounding error of the gap is a fraction of it.
 inline double terms(const MovingPair& pair) {
   double sum = pair.other.motion.pose.position.norm() + pair.horizon * fastest(pair);
   for (const MovingBody* body : {&pair.one, &pair.other}) sum += body->shape->half_extents().norm() + body->motion.centre.norm();
   return sum;
 }
 
-/// s; the gap exceeds `level` (m) before this time: by steps in which no gap can fall by more than it exceeds it. It is `horizon`
-/// if there is no such gap, and where `most_steps` do not reach so far the time that they reach.
+/// s; the gap exceeds `level` (m) before this time. Each step is so short that the gap cannot fall by more than its excess. The
+/// result is `horizon` if no gap is this small, and the time reached if `most_steps` are too few.
 inline double apart_until(const MovingPair& pair, double horizon, double level, int most_steps) {
   const double speed = fastest(pair);
   double t = 0;
@@ -156,7 +156,7 @@ inline double apart_until(const MovingPair& pair, double horizon, double level, 
   return t;
 }
 
-/// The deepest overlap of the pair, m, at `samples` times up to `until`, evenly spread and crowded before it.
+/// The deepest overlap of the pair, m, at `samples` times before `until`, evenly spaced and denser near the end.
 inline double deepest_before(const MovingPair& pair, double until, int samples) {
   double depth = 0;
   for (int k = 0; k < samples; ++k) {
@@ -171,22 +171,22 @@ inline Impact find_impact(const MovingPair& pair) {
   return find_time_of_impact(*pair.one.shape, pair.one.motion, *pair.other.shape, pair.other.motion, pair.horizon);
 }
 
-/// What a slow search finds of an impact.
+/// The findings of a slow search about an impact.
 struct Verdict {
-  double overlap_before = 0;  ///< m; the deepest at times before it that were looked at
-  double gap = 0;             ///< m; at its time
-  double earlier = 0;         ///< s; by so much it is earlier than a gap of a millionth of the size
+  double overlap_before = 0;  ///< m; the deepest overlap at the sampled times before it
+  double gap = 0;             ///< m; the gap at the impact
+  double earlier = 0;         ///< s; how much earlier it is than a gap of a millionth of the size
   double tolerance = 0;       ///< m; of the impact
-  double rounding = 0;        ///< m; four times that of s (lib/impact/README.md)
+  double rounding = 0;        ///< m; four times the rounding of s (lib/impact/README.md)
 
   bool is_right() const { return overlap_before <= rounding && gap <= tolerance + rounding && gap >= -rounding && earlier <= 0; }
 };
 
-/// Judges an impact, or that there is none. Pairs that overlap at first are not looked at.
+/// Checks an impact, or the answer that there is none. Pairs that overlap at the start are not checked.
 inline Verdict judge(const MovingPair& pair, const Impact& impact) {
   Verdict verdict;
   verdict.tolerance = 1e-9 * pair.unit;
-  verdict.rounding = 64 * std::numeric_limits<double>::epsilon() * terms(pair);  // as the tolerance allows
+  verdict.rounding = 64 * std::numeric_limits<double>::epsilon() * terms(pair);  // as the documented tolerance allows
   verdict.overlap_before = deepest_before(pair, impact.apart_until, 40);
   if (impact.status != ImpactStatus::Hits) return verdict;
   verdict.gap = static_cast<double>(gap_at(pair, impact.time));

@@ -28,7 +28,8 @@ Motion moving(const Vector3& position, const Vector3& velocity, const Vector3& a
   return motion;
 }
 
-/// The first t in [0, horizon] at which `gap` is 0, by steps in which it cannot fall to 0; the horizon if there is none.
+/// The first t in [0, horizon] at which `gap` is 0, by steps in which it cannot reach 0. The result is the horizon if there is
+/// none.
 template <typename Gap>
 double first_zero(const Gap& gap, double fastest, double horizon) {
   double t = 0;
@@ -38,7 +39,7 @@ double first_zero(const Gap& gap, double fastest, double horizon) {
 
 }  // namespace
 
-TEST_CASE("pose_at: the centre goes straight on, and the body turns about it") {
+TEST_CASE("pose_at: the centre moves in a straight line, and the body rotates about it") {
   Motion motion = moving({1, 2, 3}, {0.5, 0, 0}, {0, 0, 2});
   motion.centre = {1, 0, 0};
   const Pose pose = pose_at(motion, 0.75);
@@ -47,7 +48,7 @@ TEST_CASE("pose_at: the centre goes straight on, and the body turns about it") {
   CHECK(pose_at(motion, 0).position == motion.pose.position);
 }
 
-TEST_CASE("balls: the root of a quadratic equation, hit or miss") {
+TEST_CASE("balls: the time of impact is the root of a quadratic equation, or there is none") {
   RandomMotions random(1);
   int hits = 0, misses = 0;
   for (int k = 0; k < 3000; ++k) {
@@ -83,7 +84,7 @@ TEST_CASE("balls: the root of a quadratic equation, hit or miss") {
   CHECK(misses > 1000);
 }
 
-TEST_CASE("a needle that turns falls on a plane: the closed form, up to 1000 rad/s") {
+TEST_CASE("a rotating needle that falls on a plane hits at the time of the closed form, up to 1000 rad/s") {
   RandomMotions random(2);
   int hits = 0;
   for (int k = 0; k < 600; ++k) {
@@ -117,7 +118,7 @@ TEST_CASE("a needle that turns falls on a plane: the closed form, up to 1000 rad
     const Ellipsoid spindle(Vector3(radius, radius, length));
     check(find_plane_time_of_impact(needle, motion, Vector3::UnitZ(), 0, horizon), capsule, 1e-12);
     check(find_plane_time_of_impact(spindle, motion, Vector3::UnitZ(), 0, horizon), ellipsoid, 1e-12);
-    // A wide box is as good as a plane, for two bodies.
+    // Between two bodies, a wide box acts as a plane.
     const Motion floor = moving({0, 0, -50}, Vector3::Zero());
     check(find_time_of_impact(needle, motion, Box(Vector3(1000, 1000, 50)), floor, horizon), capsule, 5e-11);
     check(find_time_of_impact(Box(Vector3(1000, 1000, 50)), floor, spindle, motion, horizon), ellipsoid, 5e-11);
@@ -125,7 +126,7 @@ TEST_CASE("a needle that turns falls on a plane: the closed form, up to 1000 rad
   CHECK(hits > 1000);
 }
 
-TEST_CASE("bodies that touch at first: they hit at once, unless they part") {
+TEST_CASE("bodies that touch at the start hit at once, unless they separate") {
   const Sphere ball(0.5);
   const Box brick(Vector3(0.5, 0.4, 0.3));
   const Ellipsoid oval(Vector3(0.5, 0.4, 0.3));
@@ -149,19 +150,19 @@ TEST_CASE("bodies that touch at first: they hit at once, unless they part") {
       CHECK(find_time_of_impact(floor, below, brick, moving({0, 0, 0.3 + gap}, {3, 0, speed}), 1).status == ImpactStatus::Apart);
       CHECK(find_time_of_impact(floor, below, brick, moving({0, 0, 0.3 + gap}, {3, 0, speed}, {0, 0, 9}), 1).status ==
             ImpactStatus::Apart);
-      // It rises slower than its edge comes down.
+      // The brick rises more slowly than its edge comes down.
       const Impact edge = find_time_of_impact(floor, below, brick, moving({0, 0, 0.3 + gap}, {0, 0, speed}, {0, 3 * speed, 0}), 1);
       CHECK(edge.status == ImpactStatus::Hits);
       CHECK(edge.time == 0);
       CHECK(find_plane_time_of_impact(oval, moving({0, 0, 0.3 + gap}, {3, 0, speed}), Vector3::UnitZ(), 0, 1).status ==
             ImpactStatus::Apart);
     }
-    // It parts, and comes back with its other end.
+    // It separates and comes back with its other end.
     const Impact back = find_time_of_impact(floor, below, oval, moving({0, 0, 0.3 + gap}, {0, 0, 0.02}, {0, 1, 0}), 3);
     CHECK(back.status == ImpactStatus::Hits);
     CHECK((back.time == 0 || back.time > 0.07));
   }
-  // Vertex on vertex, where every normal of an octant is a common one.
+  // Vertex on vertex: every normal of an octant is a common normal.
   const Box cube(Vector3(0.5, 0.5, 0.5));
   for (const Vector3& way : {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(1, 1, 1), Vector3(0.1, 1, -0.05)}) {
     CHECK(find_time_of_impact(cube, {}, cube, moving({1, 1, 1}, way), 1).status == ImpactStatus::Apart);
@@ -169,7 +170,7 @@ TEST_CASE("bodies that touch at first: they hit at once, unless they part") {
   CHECK(find_time_of_impact(cube, {}, cube, moving({1, 1, 1}, {-1, -1, -1}), 1).status == ImpactStatus::Hits);
 }
 
-TEST_CASE("deep overlap at first is told as such") {
+TEST_CASE("a deep overlap at the start is reported as such") {
   const Impact impact = find_time_of_impact(Sphere(1), {}, Ellipsoid(Vector3(1, 2, 3)), moving({0.5, 0, 0}, {10, 0, 0}), 1);
   CHECK(impact.status == ImpactStatus::Overlapping);
   CHECK(impact.time == 0);
@@ -178,12 +179,12 @@ TEST_CASE("deep overlap at first is told as such") {
   CHECK(impact.may_hit());
 }
 
-TEST_CASE("fly-bys with a clearance of a thousandth of the size pass, and overlaps of as much hit") {
+TEST_CASE("fly-bys with a clearance of a thousandth of the size pass, and with an overlap of as much hit") {
   RandomMotions random(4);
   for (int k = 0; k < 400; ++k) {
     CAPTURE(k);
     MovingPair pair = random.draw(kMotionKinds[0], 1);
-    // Straight past one another: the normal at the nearest point is across the way.
+    // In straight lines past each other: the normal at the nearest point is perpendicular to the motion.
     const Vector3 n = random.direction();
     const Vector3 v = std::pow(10, random.uniform(0, 3)) * n.unitOrthogonal();
     const double sign = k % 2 == 0 ? 1 : -1;
@@ -203,7 +204,7 @@ TEST_CASE("fly-bys with a clearance of a thousandth of the size pass, and overla
   }
 }
 
-TEST_CASE("what rolls or spins beside a wall takes a few evaluations") {
+TEST_CASE("a body that rolls or spins beside a wall takes a few evaluations") {
   const Box wall(Vector3(10, 10, 1));
   const Motion below = moving({0, 0, -1}, Vector3::Zero());
   const auto evaluations = [&](const Shape& shape, double height, const Vector3& spin, const Matrix3& rotation) {
@@ -224,7 +225,7 @@ TEST_CASE("what rolls or spins beside a wall takes a few evaluations") {
   CHECK(evaluations(Rounded(std::make_shared<Ellipsoid>(Vector3(0.3, 0.3, 0.2)), 0.1), 0.4, {0, 1000, 0}, lying) <= 12);
 }
 
-TEST_CASE("the same impact when bodies are swapped, moved together, scaled, or time is") {
+TEST_CASE("the impact is the same when bodies are swapped, moved together or scaled, or time is scaled") {
   RandomMotions random(5);
   for (const MotionKind& kind : kMotionKinds) {
     for (int k = 0; k < 60; ++k) {
@@ -237,7 +238,7 @@ TEST_CASE("the same impact when bodies are swapped, moved together, scaled, or t
         if (other.status == ImpactStatus::NotConverged) return;
         CHECK(other.status == impact.status);
         if (impact.status != ImpactStatus::Hits) return;
-        // Each is where the gap is within the tolerance, and nothing was before.
+        // At each impact the gap is within the tolerance, and no gap was before.
         const Long between = std::max(gap_at(pair, other.time / time), gap_at(pair, impact.time));
         CHECK(between <= 1.01e-9 * pair.unit);
         CHECK(other.proximity.gap <= 1.01e-9 * pair.unit * length);
@@ -270,7 +271,7 @@ TEST_CASE("the same impact when bodies are swapped, moved together, scaled, or t
   }
 }
 
-TEST_CASE("the slow search has the support functions of the bodies, in long double") {
+TEST_CASE("the long double support functions of the slow search agree with the bodies") {
   RandomMotions random(8);
   for (int k = 0; k < 2000; ++k) {
     const std::shared_ptr<const Shape> shape = random.shape();
@@ -279,7 +280,7 @@ TEST_CASE("the slow search has the support functions of the bodies, in long doub
   }
 }
 
-TEST_CASE("random pairs: none missed, none late, none early, by a slow search") {
+TEST_CASE("random pairs: no impact is missed, late or early by a slow search") {
   for (const MotionKind& kind : kMotionKinds) {
     RandomMotions random(6);
     long evaluations = 0;
@@ -310,7 +311,7 @@ TEST_CASE("random pairs: none missed, none late, none early, by a slow search") 
   }
 }
 
-TEST_CASE("a horizon far beyond the impact costs no digits, and one far beyond a fly-by few evaluations") {
+TEST_CASE("a horizon far beyond the impact costs no digits, and far beyond a fly-by few evaluations") {
   const Box wall(Vector3(0.5, 0.5, 0.5));
   const Ellipsoid oval(Vector3(1, 0.8, 0.6));
   for (const Vector3& spin : {Vector3(0, 0, 0), Vector3(0.3, 0.5, 0.2)}) {
@@ -337,7 +338,7 @@ TEST_CASE("a horizon far beyond the impact costs no digits, and one far beyond a
       CHECK(find_plane_time_of_impact(oval, away, Vector3::UnitX(), 0, horizon).status == ImpactStatus::Apart);
     }
   }
-  // What turns in its place, by 0.2 rad.
+  // A body that rotates in its place, by 0.2 rad.
   const Motion slow = moving({0, 0, 1.2}, {0, 0, 0}, {0, 1e-3, 0});
   const Box long_box(Vector3(2, 0.5, 0.5));
   const double first = find_time_of_impact(long_box, slow, wall, {}, 1000).time;
@@ -347,7 +348,7 @@ TEST_CASE("a horizon far beyond the impact costs no digits, and one far beyond a
   }
 }
 
-TEST_CASE("time of impact: what is out of range is refused, what is not finite is told") {
+TEST_CASE("time of impact: arguments out of range are refused, and motions that are not finite return InvalidInput") {
   const Sphere ball(1);
   const Motion there = moving({5, 0, 0}, {-1, 0, 0});
   CHECK_THROWS_AS(find_time_of_impact(ball, {}, ball, there, -1), std::invalid_argument);
@@ -373,7 +374,7 @@ TEST_CASE("time of impact: what is out of range is refused, what is not finite i
     const Impact turning = find_time_of_impact(ball, {}, ball, moving({5, 0, 0}, {-1, 0, 0}, {0, 0, 5}), 3 - gap);
     CHECK(turning.status == impact.status);
   }
-  // At the horizon, and with none.
+  // Around the horizon, and with horizon 0.
   CHECK(find_time_of_impact(ball, {}, ball, there, 3.0001).status == ImpactStatus::Hits);
   CHECK(find_time_of_impact(ball, {}, ball, there, 2.9999).status == ImpactStatus::Apart);
   CHECK(find_time_of_impact(ball, {}, ball, there, 0).status == ImpactStatus::Apart);

@@ -1,4 +1,4 @@
-// The bodies that the battery of checks runs with.
+// The bodies of the battery of checks.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@ inline void ellipsoid_point(const void* user, const dReal direction[3], dReal po
 
 inline dReal user_axes[3] = {dReal(0.6), dReal(0.9), dReal(0.4)};
 
-/// Draws a body of any sort: ellipsoids, superellipsoids round, boxy and pointed, swept by a sphere, defined by the program.
+/// Draws a body of any kind: ellipsoids; round, boxy and pointed superellipsoids; rounded bodies; user shapes.
 inline dGeomID draw_body(Random& random) {
   const auto axis = [&] { return dReal(random.uniform(0.2, 1)); };
   const auto exponent = [&] { return dReal(1 + 0.02 * std::pow(1e4, random.uniform(0, 1))); };  // 1.02…201

@@ -1,4 +1,4 @@
-// One geom of every convex kind that a body of ours can meet, for tests that check the same for all of them.
+// One geom of every convex kind that collides with a body of ours, for tests that make the same checks for all of them.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ inline constexpr std::array kColliderKinds = {ColliderKind::Body,  ColliderKind:
                                               ColliderKind::Box,   ColliderKind::Capsule, ColliderKind::Cylinder,
                                               ColliderKind::Convex};
 
-/// The kinds that have a place and whose pairs are solved.
+/// The kinds that have a place and are solved as pairs.
 inline constexpr std::array kSolidKinds = {ColliderKind::Body,    ColliderKind::Sphere,   ColliderKind::Box,
                                            ColliderKind::Capsule, ColliderKind::Cylinder, ColliderKind::Convex};
 
@@ -26,14 +26,14 @@ inline std::string name_of(ColliderKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-/// The arrays that a dConvex refers to. Our library reads the points only; ODE requires planes and polygons.
+/// The arrays to which a dConvex refers. Our library reads only the points; ODE requires planes and polygons.
 class ConvexArrays {
  public:
   explicit ConvexArrays(const std::vector<Vec>& points) {
     for (const Vec& point : points) {
       for (const double coordinate : point) points_.push_back(dReal(coordinate));
     }
-    points_.resize(points_.size() + 9);  // ODE reads a triangle, here of points beyond those that count
+    points_.resize(points_.size() + 9);  // ODE reads a triangle, here of points behind the valid ones
     const auto first = static_cast<unsigned>(points.size());
     polygon_ = {3, first, first + 1, first + 2};
     count_ = first;
@@ -71,7 +71,7 @@ inline std::vector<Vec> random_hull(Random& random) {
   return points;
 }
 
-/// A geom of a kind, turned at random, 0.2...2 across.
+/// A geom of a kind in a random orientation, 0.2...2 across.
 class ColliderGeom {
  public:
   ColliderGeom(ColliderKind kind, Random& random, dSpaceID space = nullptr)
@@ -109,7 +109,7 @@ class ColliderGeom {
   Geom geom_;
 };
 
-/// Half of the smallest extent of the geom's box, turned to lie along the axes.
+/// Half of the smallest extent of the geom's box, with the geom rotated parallel to the axes.
 inline double size_of(dGeomID geom) {
   dMatrix3 turned;
   std::copy(dGeomGetRotation(geom), dGeomGetRotation(geom) + 12, turned);
@@ -122,8 +122,8 @@ inline double size_of(dGeomID geom) {
   return 0.5 * double{std::min({aabb[1] - aabb[0], aabb[3] - aabb[2], aabb[5] - aabb[4]})};
 }
 
-/// Moves the body from somewhere outside straight to the collider and `depth` into it: it overlaps that much or, if another
-/// translation separates it, less.
+/// Moves the body from outside straight to the collider and `depth` into it. It overlaps by this depth, or by less if another
+/// translation separates it.
 inline void overlap(dGeomID body, dGeomID collider, double depth, Random& random) {
   place(body, 6.0 * random.direction());
   snProximity apart;

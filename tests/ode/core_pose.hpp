@@ -1,4 +1,4 @@
-// Poses and vectors of ODE as the core has them.
+// Poses and vectors of ODE in the form of the core.
 #pragma once
 
 #include "supernormal/proximity/pose.hpp"

@@ -1,4 +1,4 @@
-// dTriMesh geoms for tests: the arrays that ODE refers to, and the geom.
+// dTriMesh geoms for tests: the geom, and the arrays to which ODE refers.
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ inline MeshArrays floor_arrays(unsigned x_cells, unsigned y_cells, double cell) 
   return mesh;
 }
 
-/// A box of triangles, outward; with `inward` it is a room instead of a block.
+/// A box of triangles that face outwards. With `inward` it is a room instead of a block.
 inline MeshArrays box_arrays(double x, double y, double z, bool inward = false) {
   MeshArrays mesh;
   for (unsigned i = 0; i < 8; ++i) mesh.add((i & 1U) != 0 ? x : -x, (i & 2U) != 0 ? y : -y, (i & 4U) != 0 ? z : -z);
@@ -53,7 +53,7 @@ inline MeshArrays box_arrays(double x, double y, double z, bool inward = false) 
   return mesh;
 }
 
-/// A mesh geom that owns everything; it cannot be moved, because ODE refers to its members.
+/// A mesh geom that owns everything. It cannot be moved, because ODE refers to its members.
 class MeshGeom {
  public:
   explicit MeshGeom(MeshArrays arrays, dSpaceID space = nullptr) : arrays_(std::move(arrays)), data_(dGeomTriMeshDataCreate()) {

@@ -1,4 +1,4 @@
-// Tests that flat bodies rest as well as ODE's own boxes: on a plane, on a box, on a mesh, and on one another.
+// Tests that flat bodies rest as well as ODE's own boxes: on a plane, on a box, on a mesh and on each other.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -98,13 +98,13 @@ struct Tilt {
   double angle;
 };
 
-/// Number 0 tilts by 0.05 rad about (1, 0.3, 0); the others go once around and from 1 to 6.5 degrees.
+/// Number 0 is tilted by 0.05 rad about (1, 0.3, 0). The others have axes all around and tilts from 1 to 6.5 degrees.
 Tilt tilt_of_drop(int k) {
   if (k == 0) return {{1, 0.3, 0}, 0.05};
   return {{std::cos(2.4 * k), std::sin(2.4 * k), 0}, 0.02 + 0.004 * k};
 }
 
-/// The time (s) in which a brick that is dropped from 0.15 m falls asleep; the end of the run if it does not.
+/// The time (s) in which a brick that is dropped from 0.15 m falls asleep. If it does not, the end of the run.
 double time_to_sleep(const Brick& brick, Floor floor, const Tilt& tilt) {
   Scene scene(floor);
   scene.auto_disable();
@@ -118,7 +118,7 @@ double time_to_sleep(const Brick& brick, Floor floor, const Tilt& tilt) {
 }
 
 struct Times {
-  double first;    // of drop 0, s
+  double first;    // s; of drop 0
   double median;   // s
   double longest;  // s
 };
@@ -134,7 +134,7 @@ Times times_to_sleep(const Brick& brick, Floor floor) {
 /// The motion that remains from 5 s to 10 s, without auto-disable.
 struct Residue {
   double energy = 0;  // mean kinetic energy, J
-  double drift = 0;   // m, of the body that moves most
+  double drift = 0;   // m; of the body that moves most
 };
 
 Residue residue(Scene& scene) {
@@ -166,11 +166,11 @@ Residue residue_of_stack(const Brick& brick) {
   return residue(scene);
 }
 
-/// A body of radius 1/20 m that stands on a line or a face that is much smaller than itself.
+/// A body of radius 1/20 m that stands on a much smaller line or face.
 struct Stubby {
   std::string name;
   dGeomID (*create)(dSpaceID space, dReal radius);
-  bool is_lying;  // its z axis is level, not upright
+  bool is_lying;  // its z axis is horizontal, not vertical
 };
 
 dGeomID create_stubby_capsule(dSpaceID space, dReal radius) { return snCreateCapsule(space, radius, radius / 5); }
@@ -182,7 +182,7 @@ dGeomID create_rounded_disc(dSpaceID space, dReal radius) {
   return geom;
 }
 
-/// The angle (rad) by which a body that is dropped aslant leans when it has fallen asleep.
+/// The tilt (rad) of a body that was dropped with a tilt and has fallen asleep.
 double lean_asleep(const Stubby& what, const Tilt& tilt) {
   World world{dSimpleSpaceCreate(nullptr)};
   world.surface.mode = dContactApprox1;
@@ -217,7 +217,7 @@ TEST_CASE("a flat body falls asleep within twice the time of a dBox") {
     for (const double exponent : kExponents) {
       const Times ours = times_to_sleep({exponent}, floor);
       MESSAGE("exponent ", exponent, ": ", ours.first, " s; median ", ours.median, " s, longest ", ours.longest, " s");
-      // The time of one drop is a matter of luck: it depends on how the first corner hits.
+      // The time of one drop is random: it depends on how the first corner hits.
       CHECK(ours.median <= 2 * box.median);
       CHECK(ours.longest <= 3 * box.longest);
       if (floor == Floor::Plane) CHECK(ours.first <= 2 * box.first);
@@ -225,7 +225,7 @@ TEST_CASE("a flat body falls asleep within twice the time of a dBox") {
   }
 }
 
-TEST_CASE("a body that stands on a small face or a short line leans no more than others when it falls asleep") {
+TEST_CASE("a body that stands on a small face or a short line falls asleep no more tilted than others") {
   const OdeSession session;
   for (const Stubby& what : {Stubby{"capsule, half-length 0.1 radii", create_stubby_capsule, true},
                              Stubby{"capsule, half-length 0.3 radii", create_short_capsule, true},
@@ -251,7 +251,7 @@ TEST_CASE("a flat body lies as still as a dBox on a plane") {
   }
 }
 
-TEST_CASE("a stack of five stands as still as five dBoxes") {
+TEST_CASE("a stack of five is as still as five dBoxes") {
   const OdeSession session;
   const Residue boxes = residue_of_stack({});
   MESSAGE("dBox: ", 1e6 * boxes.energy, " uJ, ", 1e3 * boxes.drift, " mm");
@@ -285,8 +285,7 @@ TEST_CASE("a stack of five stands for ten seconds at steps of 10 to 20 ms") {
 
 namespace {
 
-/// The lowest point of a can, m, at the end of six seconds after it has fallen onto the plane z = 0 from 0.4 radii, lying but for
-/// 0.03 rad.
+/// The lowest point of a can, m, six seconds after it fell onto the plane z = 0 from 0.4 radii, lying but for 0.03 rad.
 double lowest_point_of_can(dGeomID geom, dSpaceID space, double radius, double half_length, double step) {
   World world(space);
   dCreatePlane(space, 0, 0, 1, 0);
@@ -306,7 +305,7 @@ double lowest_point_of_can(dGeomID geom, dSpaceID space, double radius, double h
 
 }  // namespace
 
-TEST_CASE("a can on its side does not sink, at any step") {
+TEST_CASE("a can on its side does not sink at any step") {
   const OdeSession session;
   constexpr double kRadius = 0.05;
   for (const double exponent : {8.0, 20.0, 60.0, 200.0}) {

@@ -1,4 +1,4 @@
-// Tests of bodies in a world: they come to rest, gain no energy, and bounce as the closed form says.
+// Tests of bodies in a world. They come to rest, gain no energy, and bounce as in the closed form.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// Takes away friction and gravity.
+/// Removes friction and gravity.
 void make_elastic(World& world) {
   world.surface.mode = dContactApprox1 | dContactBounce;
   world.surface.bounce = 1;
@@ -19,7 +19,7 @@ void make_elastic(World& world) {
 
 }  // namespace
 
-TEST_CASE("superellipsoids dropped on a plane come to rest on it and lose energy only") {
+TEST_CASE("superellipsoids dropped on a plane come to rest and only lose energy") {
   OdeSession session;
   World world;
   world.room = 1;
@@ -60,7 +60,7 @@ TEST_CASE("superellipsoids dropped on a plane come to rest on it and lose energy
   CHECK(world.depth < 0.02 * 0.05);
 }
 
-TEST_CASE("frictionless elastic drop of a tilted ellipsoid: the closed form of tests/data/README.md") {
+TEST_CASE("a frictionless elastic drop of a tilted ellipsoid has the velocities of tests/data/README.md") {
   // tests/data/README.md: "Frictionless, elastic drop on a plane at 1 m/s, tilted about y: (0.5,0.3,0.25; 2,2) at 15 deg: v_z
   // after 0.3620502923 m/s, |omega| 3.7286342504 rad/s; (0.5,0.3,0.25; 4,4) at 15 deg: -0.0222325084, 3.4155393160."
   struct Case {
@@ -73,7 +73,7 @@ TEST_CASE("frictionless elastic drop of a tilted ellipsoid: the closed form of t
     World world;
     world.room = 1;
     make_elastic(world);
-    dWorldSetERP(world.id(), 0);  // no push out: only the impulse acts
+    dWorldSetERP(world.id(), 0);  // no push out of the overlap: only the impulse acts
     dWorldSetCFM(world.id(), 0);
     world.add_plane();
     const dGeomID geom = snCreateSuperellipsoid(world.space(), dReal(0.5), dReal(0.3), dReal(0.25), c.exponent, c.exponent);
@@ -85,18 +85,19 @@ TEST_CASE("frictionless elastic drop of a tilted ellipsoid: the closed form of t
     REQUIRE(snGeomSupport(geom, down, lowest) == 1);
     dBodySetPosition(body, 0, 0, dReal(-lowest[2] - within_rounding(1e-9)));
     dBodySetLinearVel(body, 0, 0, -1);
-    world.exact_step(1e-7);  // the closed form is for an instant
+    world.exact_step(1e-7);  // the closed form is for an instantaneous impact
     CHECK(dBodyGetLinearVel(body)[2] == relative(c.v_z).epsilon(within_rounding(1e-6, 50)));
     CHECK(norm(to_vec(dBodyGetAngularVel(body))) == relative(c.spin).epsilon(within_rounding(1e-6)));
   }
 }
 
-TEST_CASE("two bodies collide head on, without gravity: momentum and energy are kept") {
+TEST_CASE("two bodies that collide head on keep momentum and energy") {
   OdeSession session;
   World world;
   world.room = 1;
   make_elastic(world);
-  dWorldSetCFM(world.id(), dReal(1e-10));  // ODE's default with double precision; that with single precision, 1e-5, is soft here
+  dWorldSetCFM(world.id(),
+               dReal(1e-10));  // ODE's default in double precision; the default in single precision, 1e-5, is too soft here
   const dBodyID body1 = world.add(snCreateSuperellipsoid(world.space(), dReal(0.5), dReal(0.3), dReal(0.25), 4, 3), 1000);
   const dBodyID body2 = world.add(snCreateEllipsoid(world.space(), dReal(0.2), dReal(0.3), dReal(0.4)), 2000);
   dBodySetPosition(body2, dReal(1.2), dReal(0.1), dReal(0.05));

@@ -1,4 +1,4 @@
-// Tests that the former content of the stack does not decide what a program is told of a pair, in contacts or by snGeomProximity.
+// Tests that the former content of the stack changes no answer, of contacts or of snGeomProximity.
 #include <doctest/doctest.h>
 
 #include "ode/collider_fixture.hpp"
@@ -20,7 +20,7 @@ struct Answer {
   std::array<dContactGeom, 8> contacts{};
 };
 
-/// The numbers of an answer; is_same_on_every_stack() finds this function by its argument.
+/// The numbers of an answer. is_same_on_every_stack() finds this function by its argument.
 Numbers numbers_of(const Answer& answer) {
   const snProximity& p = answer.proximity;
   Numbers numbers = {double(answer.is_told), p.gap, p.error, double(p.evaluations), double(p.converged), double(p.is_global)};
@@ -52,9 +52,9 @@ void check_pair(dGeomID g1, dGeomID g2, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("every kind of collider: the same digits over any stack, and nothing computed with what was not set") {
+TEST_CASE("every kind of collider gives the same digits over any stack, and computes nothing with uninitialized memory") {
   OdeSession session;
-  snSetWarmStart(0);  // results are then a pure function of the pair
+  snSetWarmStart(0);  // so results are a pure function of the pair
   Random random(17);
   for (const ColliderKind kind : kColliderKinds) {
     for (int k = 0; k < kPairs; ++k) {
@@ -67,7 +67,7 @@ TEST_CASE("every kind of collider: the same digits over any stack, and nothing c
   }
 }
 
-TEST_CASE("triangles and ground: the same digits over any stack, and nothing computed with what was not set") {
+TEST_CASE("meshes and heightfields give the same digits over any stack, and compute nothing with uninitialized memory") {
   OdeSession session;
   snSetWarmStart(0);
   Random random(18);
@@ -84,9 +84,9 @@ TEST_CASE("triangles and ground: the same digits over any stack, and nothing com
   }
 }
 
-// The normals of the two ends of the capsule are as high as each other, and both are, but for rounding, lower than its support
-// function: the rotations are rounded by more than the coordinates.
-TEST_CASE("a body of micrometres within a short capsule") {
+// The normals of the two ends of the capsule have equal gaps. Both gaps are lower than the support function by rounding only,
+// because rotations are rounded by more than coordinates.
+TEST_CASE("a body of micrometres inside a short capsule gives the same digits over any stack") {
   OdeSession session;
   snSetWarmStart(0);
   const Geom capsule(dCreateCapsule(nullptr, dReal(0.036479867631577401), dReal(0.00056562692823155548)));

@@ -1,4 +1,4 @@
-// Heightfields for tests, whose samples and triangles are known.
+// Heightfields for tests, with known samples and triangles.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace supernormal::test {
 
 enum class Source { Callback, Byte, Short, Single, Double };
 
-/// Samples over a rectangle, and ODE's data made from them. Heights are those that ODE makes of the samples.
+/// Samples over a rectangle, and ODE's data made from them. The heights are as ODE computes them from the samples.
 class Terrain {
  public:
   using Height = std::function<double(int i, int j)>;
@@ -81,7 +81,7 @@ class Terrain {
   double spacing_x() const { return layout_.width / (layout_.columns - 1); }
   double spacing_z() const { return layout_.depth / (layout_.rows - 1); }
 
-  /// The vertex of a sample in the heightfield's frame; if the heightfield repeats, i and j are any numbers.
+  /// The vertex of a sample in the heightfield's frame. If the heightfield repeats, i and j are any numbers.
   Vec vertex(std::int64_t i, std::int64_t j) const {
     return {static_cast<double>(i) * spacing_x() - layout_.width / 2, height(i, j),
             static_cast<double>(j) * spacing_z() - layout_.depth / 2};
@@ -133,7 +133,7 @@ class Terrain {
   std::vector<unsigned char> bytes_;
 };
 
-/// A rough landscape: every sample is independent, in 0 ... height; the same seed gives the same samples.
+/// A rough landscape: every sample is independent, in 0 ... height. The same seed gives the same samples.
 inline Terrain::Height rough(unsigned seed, double height) {
   return [seed, height](int i, int j) {
     std::mt19937_64 engine(seed * 7919U + static_cast<unsigned>(i) * 104729U + static_cast<unsigned>(j));

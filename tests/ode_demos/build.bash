@@ -1,5 +1,5 @@
-# Sourced from the root of the repository: builds ODE's demos as they are, without a window, into build/ode_demos/NAME, with our class
-# at hand in place of spheres and boxes (replaced.h). Their source is that of the installed package (tests/ode_source.bash).
+# Sourced from the root of the repository. Builds ODE's demos unchanged, without a window, into build/ode_demos/NAME, with our class
+# available in place of spheres and boxes (replaced.h). Their source is the installed package's (tests/ode_source.bash).
 . tests/ode_source.bash
 demos=$PWD/build/ode_demos
 

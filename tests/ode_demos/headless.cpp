@@ -1,7 +1,6 @@
-// Replaces the drawing functions of ODE's demos, without a window: runs the demo's loop for DEMO_FRAMES frames, in which the keys
-// DEMO_KEYS are pressed, one every DEMO_KEY_FRAMES frames. Prints for every sphere and box that a body carries where its centre was
-// at first, where it is in the end, and its lowest position, in m; and the processor time, counts of collisions and the messages of
-// ODE.
+// Replaces the drawing functions of ODE's demos, without a window. It runs the demo's loop for DEMO_FRAMES frames and presses the
+// keys DEMO_KEYS, one every DEMO_KEY_FRAMES frames. For every sphere and box on a body it prints its first, its last and its lowest
+// position, in m. It also prints the processor time, counts of collisions and the messages of ODE.
 #include <drawstuff/drawstuff.h>
 #include <ode/ode.h>
 #include <supernormal/supernormal.h>
@@ -17,7 +16,7 @@
 
 namespace {
 
-// Simulated time of a frame, for demos that ask; s.
+// s; the simulated time of a frame, for demos that ask for it.
 constexpr double kFrame = 0.02;
 
 void print_message(int number, const char* format, va_list arguments) {
@@ -26,7 +25,7 @@ void print_message(int number, const char* format, va_list arguments) {
   std::printf("\n");
 }
 
-// Before main(), since demos draw random objects and have messages there. Quickstep shuffles its rows by the same seed.
+// Before main(), since demos draw random objects and print messages there. Quickstep shuffles its rows by the same seed.
 [[gnu::constructor]] void prepare() {
   dRandSetSeed(static_cast<unsigned long>(number_from("DEMO_SEED")));
   dSetMessageHandler(print_message);
@@ -49,7 +48,7 @@ void print(const Replaceable& known) {
               double{place[1]}, double{place[2]}, known.lowest);
 }
 
-/// Presses the keys that are due in this frame.
+/// Presses the keys for this frame.
 void press_keys(const dsFunctions& demo, const std::string& keys, int frame) {
   const int every = std::max(1, static_cast<int>(number_from("DEMO_KEY_FRAMES")));
   const auto due = static_cast<std::size_t>(frame / every);

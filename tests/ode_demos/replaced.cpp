@@ -1,6 +1,6 @@
-// ODE's functions for spheres and boxes as the demos call them (replaced.h). With DEMO_SPHERES=1 a sphere is an ellipsoid of ours,
-// with DEMO_EXPONENT a box is a superellipsoid of that exponent; otherwise they are ODE's own. Classes and sizes are answered as of
-// the geom that the demo asked for, since the demo chooses friction and drawing by them.
+// ODE's functions for spheres and boxes as the demos call them (replaced.h). With DEMO_SPHERES=1 a sphere is an ellipsoid of ours.
+// With DEMO_EXPONENT a box is a superellipsoid of that exponent. Otherwise they are ODE's own. Classes and sizes are reported as
+// the demo requested them, since the demo chooses friction and drawing by them.
 #include "replaced.hpp"
 
 #include <supernormal/supernormal.h>
@@ -11,7 +11,7 @@
 
 namespace {
 
-// The exponents of an ellipsoid; those of boxes are larger.
+// The exponents of an ellipsoid; boxes have larger ones.
 constexpr dReal kRound = 2;
 
 struct Size {
@@ -104,7 +104,7 @@ int demo_collide(dGeomID g1, dGeomID g2, int flags, dContactGeom* contacts, int 
   return found;
 }
 
-// Without the demo's threads a run has the same digits every time, and its processor time is that of its work.
+// Without the demo's threads a run has the same digits every time, and its processor time is the time of its work.
 void demo_set_threading(dWorldID world, const dThreadingFunctionsInfo* functions, dThreadingImplementationID threading) {
   if (number_from("DEMO_THREADS") > 0) dWorldSetStepThreadingImplementation(world, functions, threading);
 }

@@ -1,4 +1,4 @@
-// What replaced.cpp keeps of the demo's geoms, and the numbers that the demo is run with.
+// The records of replaced.cpp about the demo's geoms, and the numbers for the demo's run.
 #pragma once
 
 #include <ode/ode.h>
@@ -6,26 +6,26 @@
 #include <array>
 #include <vector>
 
-/// The number that an environment variable holds; 0 without it.
+/// The number in an environment variable; 0 without it.
 double number_from(const char* name);
 
 /// A sphere or box of the demo, of ODE's class or of ours.
 struct Replaceable {
   dGeomID geom;
   bool has_started = false;
-  std::array<double, 3> start{};  // where its centre was when the loop first came by, m
-  double lowest = 0;              // height of the centre, m
+  std::array<double, 3> start{};  // m; its centre when the loop first ran
+  double lowest = 0;              // m; height of the centre
 };
 
-/// The spheres and boxes of the demo that live.
+/// The living spheres and boxes of the demo.
 std::vector<Replaceable>& replaceables();
 
 struct CollisionCounts {
-  unsigned long long calls = 0;     // of dCollide
-  unsigned long long contacts = 0;  // that these returned
+  unsigned long long calls = 0;     // calls of dCollide
+  unsigned long long contacts = 0;  // contacts that these returned
 };
 
 const CollisionCounts& collision_counts();
 
-/// The class of ODE that the demo takes the geom for.
+/// The class of ODE that the demo sees.
 extern "C" int demo_geom_get_class(dGeomID geom);

@@ -1,5 +1,5 @@
-# copy_clean_root FOLDER: puts a Debian of this machine's release into a folder, with what every machine has on which programs are built,
-# and nothing of ours or of what that depends on. To be sourced; takes root, for debootstrap. The root is made once and kept in
+# copy_clean_root FOLDER: puts a Debian of this machine's release into a folder, with the usual build tools,
+# and without our packages or their dependencies. To be sourced; needs root, for debootstrap. The folder is made once and kept in
 # build/packages/clean; remove that folder for a new one.
 copy_clean_root() {
   local clean=$PWD/build/packages/clean release

@@ -1,6 +1,8 @@
-// The loop that supernormal.find_proximities() is compared with, in C++: reads pairs of superellipsoids, solves one after the
+// The loop in C++ with which supernormal.find_proximities() is compared. It reads pairs of superellipsoids, solves one after the
 // other, writes the results and prints the seconds of the loop.
-//   loop PAIRS RESULTS     both files are arrays of doubles, a row for each pair
+//
+//     loop PAIRS RESULTS     both files are arrays of doubles, a row for each pair
+//
 // A row of PAIRS: half-axes (3), delta, epsilon of body 1; the same of body 2; position (3) and rotation (9, by rows) of body 2.
 // Body 1 is at the origin. A row of RESULTS: see write_row().
 #include <chrono>

@@ -11,7 +11,7 @@ import supernormal as sn
 
 
 def random_pairs(count: int, seed: int) -> np.ndarray:
-    """(count, 22): what loop.cpp reads. Exponents 1.3 to 5, half-axes 0.5 to 1.5 m, apart and overlapping."""
+    """The input of loop.cpp, (count, 22). Exponents 1.3 to 5, half-axes 0.5 to 1.5 m, apart and overlapping."""
     random = np.random.default_rng(seed)
     axes = random.uniform(0.5, 1.5, (2, count, 3))
     exponents = random.uniform(1.3, 5, (2, count, 2))
@@ -26,7 +26,7 @@ def unit(vectors: np.ndarray) -> np.ndarray:
 
 
 def solve_in_python(pairs: np.ndarray, threads: int) -> sn.Proximities:
-    """All that a program does whose bodies are arrays: shapes and poses are made anew."""
+    """The work of a program whose bodies are arrays: shapes and poses are made anew."""
     shapes1 = sn.Shapes.superellipsoids(pairs[:, 0:3], pairs[:, 3], pairs[:, 4])
     shapes2 = sn.Shapes.superellipsoids(pairs[:, 5:8], pairs[:, 8], pairs[:, 9])
     poses2 = sn.Poses(pairs[:, 10:13], rotation=pairs[:, 13:22].reshape(-1, 3, 3))

@@ -1,4 +1,4 @@
-"""The batch calls: what they take, where they run, and what ends them."""
+"""The batch calls: their arguments, their threads, and how they end."""
 
 import os
 import signal
@@ -31,7 +31,7 @@ def test_columns_are_not_copied():
 
 
 def test_first_normals_lead_to_their_maximum():
-    """Two concentric boxes: the depth that is followed depends on the face that the normal is near."""
+    """Two concentric boxes: the tracked depth depends on the face near the normal."""
     box = sn.Box((1, 1.02, 1.04))
     out = sn.find_proximities(box, sn.Pose(), box, sn.Pose(), first_normals=[(1, 0.1, 0.1), (0.1, 1, 0.1), (0.1, 0.1, 1)])
     assert out.gap == pytest.approx([-2, -2.04, -2.08], abs=1e-9)

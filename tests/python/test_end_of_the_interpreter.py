@@ -1,4 +1,4 @@
-"""The end of a program: what it still has is destroyed, and a daemon thread in a call of the library does not disturb."""
+"""The end of a program: its objects are destroyed, and a daemon thread in a call of the library does no harm."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""The example runs, and leaves the figures that it names."""
+"""The example runs, and writes the figures that it names."""
 
 import os
 import pathlib

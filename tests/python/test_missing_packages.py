@@ -1,4 +1,4 @@
-"""What is not installed is named, with the Debian package that has it."""
+"""A missing package is named, with the Debian package that contains it."""
 
 import pathlib
 import subprocess

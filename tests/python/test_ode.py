@@ -17,7 +17,7 @@ import supernormal.ode as so  # noqa: E402  # it imports PyODE
 
 
 def drop(make_geom):
-    """Two balls that are thrown, bounce on a plane and on each other, and roll; positions and attitudes every 50 ms for 3 s."""
+    """Two thrown balls bounce on a plane and on each other, and roll; positions and orientations every 50 ms for 3 s."""
     world = pyode.World()
     world.setGravity((0, 0, -9.81))
     space = pyode.HashSpace()
@@ -325,7 +325,7 @@ def look_ahead():
 
 
 def shoot(speed, step):
-    """A pebble against 1 cm of wall at x = 5; where it is after ten steps, and the least depth of a contact."""
+    """A pebble against a wall of 1 cm at x = 5: its position after ten steps, and the smallest depth of a contact."""
     world, space, contacts = pyode.World(), pyode.SimpleSpace(), pyode.JointGroup()
     wall = pyode.GeomBox(space, (0.01, 2, 2))
     wall.setPosition((5, 0, 0))

@@ -1,4 +1,4 @@
-"""The pairs with known answers that the C++ tests have (tests/data)."""
+"""The pairs with known answers of the C++ tests (tests/data)."""
 
 import csv
 import pathlib
@@ -20,7 +20,7 @@ def reference():
 
 
 def shape_of(axes, delta, epsilon):
-    """An ellipsoid if it is one: the shape that a program would choose."""
+    """An Ellipsoid if both exponents are 2: the shape that a program would choose."""
     return sn.Ellipsoid(axes) if delta == 2 and epsilon == 2 else sn.Superellipsoid(axes, delta, epsilon)
 
 
@@ -45,7 +45,7 @@ def test_every_gap(reference, solved):
 
 
 def test_the_normal_is_in_the_plane_of_the_gap(reference, solved):
-    """s(n) = n . (point2 - point1) for the normal and the points that are returned, in one frame."""
+    """s(n) = n . (point2 - point1) for the returned normal and points, in one frame."""
     s = np.einsum("ij,ij->i", solved.normal, solved.point2 - solved.point1)
     scale = reference[:, 0:3].max(axis=1) + reference[:, 5:8].max(axis=1) + np.linalg.norm(reference[:, 10:13], axis=1)
     assert (np.abs(s - solved.gap) <= 1e-14 * scale).all()
@@ -102,7 +102,7 @@ def test_l1_touching(exponent):
 
 
 def test_a_certified_depth_is_the_smallest(reference):
-    """The nominal overlap of 30 % has several local maxima; a certified query takes the highest, whatever it starts from."""
+    """The nominal overlap of 30 % has several local maxima; a certified query finds the highest from any start."""
     deep = np.flatnonzero(reference[:, 17] < -0.2 * units(reference))[:100]
     assert len(deep) == 100
     settings = sn.Settings(certify_depth=True)

@@ -1,4 +1,4 @@
-"""Bad input raises an exception with the text of the C++ core: the parameter, its value and the valid range."""
+"""Invalid input raises an exception with the text of the C++ core: the parameter, its value and the valid range."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""Shapes by their closed forms, and the arrays that they take and give."""
+"""Shapes against their closed forms, and their input and output arrays."""
 
 import gc
 from math import pi

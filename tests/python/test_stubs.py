@@ -1,4 +1,4 @@
-"""The type stubs and the docstrings say what the module has."""
+"""The type stubs and the docstrings agree with the module."""
 
 import ast
 import inspect

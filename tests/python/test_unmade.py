@@ -1,4 +1,4 @@
-"""What is used before its __init__ was called raises TypeError: it ends no interpreter."""
+"""An object that is used before its __init__ raises TypeError and does not end the interpreter."""
 
 import inspect
 import operator

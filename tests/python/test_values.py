@@ -1,4 +1,4 @@
-"""Shapes, poses and results are equal, copied, pickled and printed by what they are made of."""
+"""Shapes, poses and results are compared, copied, pickled and printed by their arguments."""
 
 import copy
 import inspect
@@ -66,7 +66,7 @@ def name(value):
 
 
 def content(value):
-    """All that a program can read of an object."""
+    """All values of an object that a program can read."""
     names = [key for key in dir(type(value)) if isinstance(inspect.getattr_static(type(value), key), property)]
     return {key: getattr(value, key) for key in names}
 

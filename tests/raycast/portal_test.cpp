@@ -13,7 +13,7 @@ using namespace supernormal;
 
 namespace {
 
-// The view is down along -z: the line is the z-axis, c the origin, d = -r.
+// The view is down along -z. The line is the z-axis, c the origin, d = -r.
 const Vector3 kDown = -Vector3::UnitZ();
 constexpr double kRounding = 1e-15;
 
@@ -21,13 +21,13 @@ Vector3 beside(double angle, double length) { return length * Vector3(std::cos(a
 
 }  // namespace
 
-TEST_CASE("points on one side leave a sector of directions that may separate") {
+TEST_CASE("portal: points on one side leave a sector of directions that may separate") {
   Portal portal(kDown, kRounding);
   CHECK(portal.sector() == test::relative(2 * M_PI));
   portal.add(beside(0.3, 2));
   CHECK(portal.sector() == test::relative(M_PI));
   portal.add(beside(-0.4, 0.5));
-  portal.add(beside(0.1, 7));  // it is between the two and tells nothing
+  portal.add(beside(0.1, 7));  // between the two others, so it changes nothing
   CHECK_FALSE(portal.is_pierced());
   CHECK(std::isinf(portal.upper_bound()));
   CHECK(portal.sector() == test::relative(M_PI - 0.7));
@@ -39,7 +39,7 @@ TEST_CASE("points on one side leave a sector of directions that may separate") {
   CHECK_FALSE(portal.may_separate(beside(M_PI, 1)));
 }
 
-TEST_CASE("three points around the line, or two on either side of it, are a portal") {
+TEST_CASE("portal: three points around the line, or two on either side of it, are a portal") {
   Portal portal(kDown, kRounding);
   for (const double angle : {0.0, 2.0, 4.0}) {
     CHECK_FALSE(portal.is_pierced());
@@ -58,7 +58,7 @@ TEST_CASE("three points around the line, or two on either side of it, are a port
   CHECK(segment.normal().dot(kDown) < 0);
 }
 
-TEST_CASE("a point on the line is a portal") {
+TEST_CASE("portal: a point on the line is a portal") {
   Portal portal(kDown, kRounding);
   CHECK(portal.add(Vector3(0.5 * kRounding, 0, -2)));
   REQUIRE(portal.is_pierced());
@@ -67,8 +67,8 @@ TEST_CASE("a point on the line is a portal") {
   CHECK((portal.normal().normalized() + kDown).norm() < 1e-15);
 }
 
-// The line passes through a corner of the triangle or through its middle: the bound includes the rounding of the points.
-TEST_CASE("the bound holds for steep portals of rounded points") {
+// The line passes through a vertex of the triangle or through its middle. The bound includes the rounding of the points.
+TEST_CASE("portal: the bound holds for steep portals of rounded points") {
   constexpr double kCoarse = 1e-9;
   std::mt19937_64 engine(6);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -92,7 +92,7 @@ TEST_CASE("the bound holds for steep portals of rounded points") {
   CHECK(pierced > 2000);
 }
 
-TEST_CASE("each point in front of the portal raises it, and the bound holds") {
+TEST_CASE("portal: each point in front of the portal raises it, and the bound holds") {
   std::mt19937_64 engine(5);
   std::normal_distribution<double> gauss;
   for (int k = 0; k < 200; ++k) {

@@ -23,7 +23,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// Draws bodies of every kind, points, segments and flat hulls among them; `points` holds those of a hull.
+/// Draws bodies of every kind, including points, segments and flat hulls. `points` stores the points of a hull.
 std::shared_ptr<const Shape> any_shape(RandomRays& random, int k, double size, std::vector<Vector3>& points) {
   const auto length = [&] { return size * random.uniform(0.05, 1); };
   switch (k % 7) {
@@ -49,7 +49,7 @@ std::shared_ptr<const Shape> any_shape(RandomRays& random, int k, double size, s
 
 }  // namespace
 
-TEST_CASE("scale, place and attitude make no difference") {
+TEST_CASE("rays: scale, place and orientation change no answer") {
   RandomRays random(160);
   for (int k = 0; k < 500; ++k) {
     CAPTURE(k);
@@ -66,7 +66,7 @@ TEST_CASE("scale, place and attitude make no difference") {
       CHECK((other.point / scale - hit.point).norm() <= other.distance_error / scale + hit.distance_error + 1e-13);
     }
     const Matrix3 R = random.rotation();
-    for (const double far : {1.0, 1e4}) {  // m; the input itself is rounded to 1e-12 m there
+    for (const double far : {1.0, 1e4}) {  // m; at this distance the input is rounded to 1e-12 m
       const Pose pose{far * random.direction(), R};
       const RayHit other = find_ray_hit(surface, pose, R * ray.origin + pose.position, R * ray.direction, kInfinity);
       REQUIRE(other.hit);
@@ -76,13 +76,13 @@ TEST_CASE("scale, place and attitude make no difference") {
       CHECK(std::abs(other.distance - hit.distance) <= allowed);
       CHECK((R.transpose() * (other.point - pose.position) - hit.point).norm() <= allowed + input_error);
     }
-    // The ray starts 1e10 away, as for a program that wants "any distance"; the direction is rounded to 1e-6 m there.
+    // The ray starts 1e10 away, as from a program that wants "any distance". The direction is rounded to 1e-6 m there.
     const RayHit far = find_ray_hit(surface, {}, ray.at(-1e10), ray.direction, kInfinity);
     if (far.hit) CHECK(distance_to_boundary(surface, far) <= 1e-9 * unit + 1e-13);
   }
 }
 
-TEST_CASE("through the centre along the axes, where everything is degenerate") {
+TEST_CASE("rays through the centre along the axes hit, although every search direction is degenerate") {
   for (const Superellipsoid& shape : superellipsoids(1.01, 1000)) {
     CAPTURE(text(shape));
     for (int axis = 0; axis < 3; ++axis) {
@@ -101,7 +101,7 @@ TEST_CASE("through the centre along the axes, where everything is degenerate") {
   }
 }
 
-TEST_CASE("tangent rays, origins on the boundary: an answer on the boundary or none, and no trap") {
+TEST_CASE("tangent rays and rays from the boundary hit on the boundary or miss, without a trap") {
   RandomRays random(180);
   for (int k = 0; k < 2000; ++k) {
     CAPTURE(k);
@@ -122,7 +122,7 @@ TEST_CASE("tangent rays, origins on the boundary: an answer on the boundary or n
   }
 }
 
-TEST_CASE("any shape, any size, from anywhere: a sound answer, and no trap") {
+TEST_CASE("rays at any shape of any size from anywhere have a valid answer, without a trap") {
   RandomRays random(240);
   std::vector<Vector3> points;
   int hits = 0;
@@ -156,7 +156,7 @@ TEST_CASE("any shape, any size, from anywhere: a sound answer, and no trap") {
   CHECK(hits > 5000);
 }
 
-TEST_CASE("the proximity of a body and a ray") {
+TEST_CASE("the gap of a sphere and a ray is the distance of the centre from the ray less the radius") {
   RandomRays random(200);
   for (int k = 0; k < 1000; ++k) {
     CAPTURE(k);
@@ -177,7 +177,7 @@ TEST_CASE("the proximity of a body and a ray") {
   }
 }
 
-TEST_CASE("refusals, limits and numbers that are not finite") {
+TEST_CASE("rays: invalid arguments are refused, and the limit of evaluations is reported") {
   const Superellipsoid shape({1, 0.5, 0.7}, 3, 5);
   const Vector3 o(-3, 0.1, 0.2), v = Vector3(1, 0.02, 0.03).normalized();
   CHECK_THROWS_WITH_AS(find_ray_hit(shape, {}, o, v, -1), "length of the ray = -1 m is outside [0, inf] m", std::invalid_argument);

@@ -1,4 +1,4 @@
-// Rays against superellipsoids, and their hits by the implicit equation alone.
+// Rays against superellipsoids, and their hits by the implicit equation only.
 #pragma once
 
 #include <cfenv>
@@ -15,7 +15,7 @@ namespace supernormal::test {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Exceptions of floating-point numbers that a program may have switched on, as those of a query that goes wrong.
+/// Floating-point exceptions that a program may trap: signs of a faulty query.
 inline constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 
 struct Ray {
@@ -48,8 +48,8 @@ class RandomRays {
     return {half_axes, delta, between(kind.least_exponent, kind.largest_exponent)};
   }
 
-  /// A ray past the body: its line goes through `factor` times a point of the silhouette, so that it hits when factor < 1. It
-  /// begins in front of the body.
+  /// A ray past the body. Its line goes through `factor` times a point of the silhouette, so it hits if factor < 1. It begins in
+  /// front of the body.
   Ray past(const Superellipsoid& shape, double factor) {
     const Vector3 v = direction();
     const Vector3 w = direction().cross(v).normalized();
@@ -57,7 +57,7 @@ class RandomRays {
     return {factor * shape.point(w) - start * v, v};
   }
 
-  /// A point `factor` times as far out as the boundary.
+  /// `factor` times a point of the boundary.
   Vector3 point(const Superellipsoid& shape, double factor) {
     const Vector3 x = direction();
     return x * (factor / gauge(shape, x));
@@ -79,9 +79,9 @@ class WithoutHessian final : public Shape {
   const Shape& shape_;
 };
 
-/// The gauge along a line is convex: its least value is found by trisection, the crossings of 1 by bisection.
+/// The gauge along a line is convex. Its smallest value is found by trisection, the crossings of 1 by bisection.
 struct Crossings {
-  double least = 0;            // the least value of the gauge
+  double least = 0;            // the smallest value of the gauge
   double entry = 0, exit = 0;  // distances along the ray
 };
 
@@ -118,8 +118,8 @@ inline Vector3 level_normal(const Superellipsoid& shape, const Vector3& point) {
   return n.normalized();
 }
 
-/// An upper bound of the distance of a hit from the boundary: radially, by the implicit equation, or to the boundary point with
-/// that normal.
+/// An upper bound of the distance of a hit from the boundary: radially by the implicit equation, or to the boundary point with this
+/// normal.
 inline double distance_to_boundary(const Superellipsoid& shape, const RayHit& hit) {
   const double radial = std::abs(gauge(shape, hit.point) - 1) * hit.point.norm();
   return std::min(radial, (shape.point(hit.normal) - hit.point).norm());

@@ -38,9 +38,9 @@ void check_hit(const Superellipsoid& shape, const Ray& ray, const RayHit& hit, d
 
   CHECK(distance_to_boundary(shape, hit) <= 1e-9 * unit);
   CHECK(hit.boundary_error <= boundary_tolerance * unit);
-  // The distance is that of the implicit equation, with its own rounding.
+  // The distance agrees with the implicit equation, up to the equation's rounding.
   CHECK(std::abs(hit.distance - expected) <= hit.distance_error + 1e-14 * (size + hit.distance) / along);
-  // The normal is the one there; on a sharp edge, it is one whose boundary point is there.
+  // The normal is the normal at the point. On a sharp edge, its boundary point is the hit.
   const double turned = (level_normal(shape, hit.point) - hit.normal).norm();
   CHECK(std::min(turned, (shape.point(hit.normal) - hit.point).norm() / unit) <= normal_tolerance);
 }
@@ -56,7 +56,7 @@ void check_nothing_before(const Superellipsoid& shape, const Ray& ray, const Ray
 
 }  // namespace
 
-TEST_CASE("spheres and ellipsoids: the closed form, from outside, inside and behind") {
+TEST_CASE("rays at spheres and ellipsoids have the closed form, from outside, inside and behind") {
   RandomRays random(1);
   int outside = 0, inside = 0, none = 0;
   for (int k = 0; k < 5000; ++k) {
@@ -95,7 +95,8 @@ TEST_CASE("spheres and ellipsoids: the closed form, from outside, inside and beh
   CHECK(none > 1000);
 }
 
-TEST_CASE("superellipsoids: on the surface, nothing before, the normal there, by the implicit equation") {
+TEST_CASE(
+    "rays at superellipsoids: the hit is on the surface, nothing is before it, and the normal is right, by the implicit equation") {
   unsigned seed = 20;
   for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
     RandomRays random(++seed);
@@ -123,7 +124,7 @@ TEST_CASE("superellipsoids: on the surface, nothing before, the normal there, by
   }
 }
 
-TEST_CASE("grazing: hit or miss is decided right down to one part in 1e9") {
+TEST_CASE("grazing rays hit or miss rightly down to one part in 1e9") {
   unsigned seed = 40;
   for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
     RandomRays random(++seed);
@@ -147,7 +148,7 @@ TEST_CASE("grazing: hit or miss is decided right down to one part in 1e9") {
   }
 }
 
-TEST_CASE("grazing: within the tolerance, too, a hit is a hit and a miss is none") {
+TEST_CASE("grazing rays hit or miss rightly at a coarse tolerance, too") {
   unsigned seed = 220;
   Settings coarse;
   coarse.tolerance = 1e-3;
@@ -174,7 +175,7 @@ TEST_CASE("grazing: within the tolerance, too, a hit is a hit and a miss is none
   }
 }
 
-TEST_CASE("from inside: the exit, also along the flattest way; wholly inside: nothing") {
+TEST_CASE("rays from inside hit the exit, also along the flattest direction, and rays wholly inside hit nothing") {
   unsigned seed = 60;
   for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
     RandomRays random(++seed);
@@ -196,7 +197,7 @@ TEST_CASE("from inside: the exit, also along the flattest way; wholly inside: no
   }
 }
 
-TEST_CASE("length: just too short, just long enough; pointing away; behind") {
+TEST_CASE("rays hit exactly if they are long enough and point to the body") {
   unsigned seed = 80;
   for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
     RandomRays random(++seed);
@@ -217,7 +218,7 @@ TEST_CASE("length: just too short, just long enough; pointing away; behind") {
   }
 }
 
-TEST_CASE("without a Hessian: the same hits") {
+TEST_CASE("rays at shapes without a Hessian have the same hits") {
   unsigned seed = 100;
   for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
     RandomRays random(++seed);
@@ -245,7 +246,7 @@ TEST_CASE("without a Hessian: the same hits") {
   }
 }
 
-TEST_CASE("faces and edges: boxes by their slabs, capsules and cylinders by their distance") {
+TEST_CASE("rays at boxes agree with their slabs, and rays at capsules and cylinders with their distance") {
   RandomRays random(120);
   int hits = 0;
   for (int k = 0; k < 2000; ++k) {
@@ -272,7 +273,7 @@ TEST_CASE("faces and edges: boxes by their slabs, capsules and cylinders by thei
     ++hits;
     CHECK(hit.status == Status::Converged);
     CHECK(std::abs(hit.distance - entry) < 1e-9 * half.minCoeff() + 1e-13);
-    if (exit - entry < 1e-3) continue;  // on an edge either normal will do
+    if (exit - entry < 1e-3) continue;  // on an edge either normal is right
     CHECK(std::abs(hit.normal[face]) > 1 - 1e-9);
   }
   CHECK(hits > 1000);
@@ -294,7 +295,7 @@ TEST_CASE("faces and edges: boxes by their slabs, capsules and cylinders by thei
   }
 }
 
-TEST_CASE("rounded bodies: at the radius from the core") {
+TEST_CASE("rays at rounded bodies hit at the radius from the core") {
   unsigned seed = 140;
   for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
     RandomRays random(++seed);

@@ -11,7 +11,7 @@
 #include "scene_text.hpp"
 #include "support/temporary_folder.hpp"
 
-/// The message from loading the scene, without the temporary folder's name; "" when it is accepted.
+/// The message from loading the scene, without the name of the temporary folder; "" if it is accepted.
 inline std::string complaint(const std::string& scene, const std::string& catalogue = kCatalogueText,
                              const std::vector<std::string>& overrides = {}) {
   const TemporaryFolder folder;
@@ -31,7 +31,7 @@ inline std::string complaint(const std::string& scene, const std::string& catalo
 struct Mistake {
   const char* from;
   const char* to;
-  std::vector<const char*> says;  // where, what, and what is allowed
+  std::vector<const char*> says;  // the place, the value and the valid range
 };
 
 inline void check_says(const std::string& text, const std::vector<const char*>& says) {

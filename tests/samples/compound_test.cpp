@@ -55,8 +55,8 @@ struct Sums {
   }
 };
 
-/// Adds the cells of a cubic lattice over the bounding box of a geom in its place, each with the share of it that follows from
-/// the distance of its middle from the boundary.
+/// Adds the cells of a cubic lattice over the bounding box of a geom in its place. The fraction of each cell follows from the
+/// distance of its middle from the boundary.
 void add_cells(const Part& part, double edge, double weight, Sums& sums) {
   std::array<dReal, 6> box{};
   dGeomGetAABB(part.geom, box.data());
@@ -77,7 +77,7 @@ void add_cells(const Part& part, double edge, double weight, Sums& sums) {
 
 }  // namespace
 
-TEST_CASE("compound: two balls of unlike density, in closed form") {
+TEST_CASE("compound: two balls of different density have the closed form") {
   const World world;
   constexpr double kRadius = 0.1, kDistance = 0.3;
   const std::vector<Part> parts = {make_part(snCreateEllipsoid(nullptr, kRadius, kRadius, kRadius), 3000, 0, 0, kDistance),
@@ -98,7 +98,7 @@ TEST_CASE("compound: two balls of unlike density, in closed form") {
   dBodyDestroy(body);
 }
 
-TEST_CASE("compound: tapered, turned and moved parts against sums over a lattice of cells") {
+TEST_CASE("compound: tapered, rotated and moved parts agree with sums over a lattice of cells") {
   const World world;
   const std::vector<Part> parts = {
       make_part(snCreateSuperovoid(nullptr, 0.55, 0.5, 0.35, 3.5, 4, 0.15, 0.15), 2900, 0.1, -0.2, 0.3),
@@ -109,7 +109,7 @@ TEST_CASE("compound: tapered, turned and moved parts against sums over a lattice
   CHECK(least_gap(parts) > 0);
 
   Sums sums;
-  // The error of the linear share is proportional to the square of the edge (Steiner's formula), so Richardson's extrapolation
+  // The error of the linear fraction is proportional to the square of the edge (Steiner's formula), so Richardson's extrapolation
   // applies.
   for (const Part& part : parts) {
     add_cells(part, 0.02, 4.0 / 3, sums);
@@ -119,7 +119,7 @@ TEST_CASE("compound: tapered, turned and moved parts against sums over a lattice
   constexpr double kTolerance = 5e-4;  // twice the error of the lattice
   const double size = kTolerance * (xx + yy + zz);
   CHECK(mass.mass == supernormal::test::relative(sums.mass).epsilon(kTolerance));
-  for (const double moment : sums.first) CHECK(std::abs(moment) < kTolerance * sums.mass);  // the centre of mass is the origin
+  for (const double moment : sums.first) CHECK(std::abs(moment) < kTolerance * sums.mass);  // the centre of mass is at the origin
   CHECK(std::abs(mass.I[0] - (yy + zz)) < size);
   CHECK(std::abs(mass.I[5] - (zz + xx)) < size);
   CHECK(std::abs(mass.I[10] - (xx + yy)) < size);

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-// Tests spoil these texts one line at a time.
+// Tests make these texts invalid one line at a time.
 
 inline constexpr const char* kCatalogueText = R"([pea]
 half_axes = [3e-3, 3e-3, 3e-3]

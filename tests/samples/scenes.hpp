@@ -1,4 +1,4 @@
-// Scenes for tests: from a file's text, or of a few grains in a container.
+// Scenes for tests: from the text of a file, or with a few grains in a container.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Programs whose stdout is full or closed say so, once, and end with an exit code that is not 0.
+# Programs with a full or closed stdout report it once, and end with an exit code other than 0.
 # Usage: stdout_test.sh PROGRAM...
 set -euo pipefail
 source "$(dirname "$0")/../cli_test.bash"

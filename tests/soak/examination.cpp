@@ -17,13 +17,13 @@ using samples::Violations;
 
 constexpr int kExceptions = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 
-// The dear checks, as shares of the samples: some hundred evaluations, some ten queries.
+// The fractions of the samples that get the expensive checks of some hundred evaluations and some ten queries.
 constexpr double kMaximumShare = 1.0 / 32, kInvarianceShare = 1.0 / 512;
 
-// Of samples::check_invariance, the fewest.
+// The smallest number of queries of samples::check_invariance.
 constexpr std::uint64_t kInvarianceQueries = 7;
 
-/// Looks at one sample; collects what it finds.
+/// Examines one sample and collects the violations.
 class Examiner {
  public:
   Examiner(const Sample& sample, Random random) : sample_(sample), random_(random), rounding_(samples::rounding_of(sample.pair)) {}
@@ -69,7 +69,7 @@ class Examiner {
                   const Settings& settings, const Vector3* start) {
     std::feclearexcept(kExceptions);
     const Proximity answer = find_proximity(*shape1, pose1, *shape2, pose2, settings, start);
-    // The flags tell what a trap would tell, and the run goes on.
+    // The flags report what a trap would report, and the run continues.
     if (const int raised = std::fetestexcept(kExceptions); raised != 0) {
       violate(how, std::string("floating-point exception") + ((raised & FE_INVALID) != 0 ? ", invalid operation" : "") +
                        ((raised & FE_DIVBYZERO) != 0 ? ", division by zero" : "") +
@@ -83,7 +83,7 @@ class Examiner {
     return answer;
   }
 
-  /// `difference`: how far an answer is from what it should be, m; `allowed`: what it may be.
+  /// `difference`: the error of an answer, m; `allowed`: its limit.
   bool is_within(double difference, double allowed) {
     finding_.error = std::max(finding_.error, difference / size_);
     finding_.error_of_bound = std::max(finding_.error_of_bound, difference / allowed);
@@ -105,7 +105,7 @@ class Examiner {
     }
   }
 
-  /// A handful of directions: the line of the centres, any, and some near the answer.
+  /// A few directions: the line of the centres, random ones, and some near the answer.
   void look_around(GapFunction& gap) {
     look_at(gap, gap.offset());
     look_at(gap, random_.direction());
@@ -121,14 +121,14 @@ class Examiner {
     if (!(jet.s <= ceiling_)) violate_ceiling("n " + exact_text(Vector3(direction / length)), jet.s);
   }
 
-  /// No direction may have a larger value of the gap function than the answer says is possible.
+  /// No direction may have a larger value of the gap function than the answer allows.
   void violate_ceiling(const std::string& where, double s) {
     violate("cold", "gap " + exact_text(first_.gap) + ", at most " + exact_text(ceiling_) + " as it says, but " + exact_text(s) +
                         " at " + where);
   }
 
-  /// Another answer to the same question: the largest value of the gap function lies in the intervals of both, and where both are
-  /// global they must agree.
+  /// Another answer to the same question. The largest value of the gap function lies in the intervals of both. If both are global,
+  /// they must agree.
   void compare(const char* how, const Proximity& second) {
     if (!std::isfinite(second.gap) || !(second.error >= 0)) return violate(how, "no answer");
     if (!(std::abs(second.normal.norm() - 1) <= 1e-15)) return violate(how, "normal of length " + exact_text(second.normal.norm()));
@@ -148,7 +148,7 @@ class Examiner {
     compare("swapped", solve("swapped", pair.shape2, pair.pose2, pair.shape1, pair.pose1, sample_.settings, nullptr));
   }
 
-  /// From a normal near the answer's, as in a moving world.
+  /// From a normal near the answer's, as in a simulation.
   void ask_warm() {
     const HardCase& pair = sample_.pair;
     const Vector3 start = (normal_ + random_.log_uniform(1e-16, 1) * random_.direction()).normalized();
@@ -171,7 +171,7 @@ class Examiner {
   Random random_;
   double rounding_;
   double bound_ = 0;    // m; on the error of the first answer
-  double ceiling_ = 0;  // m; no gap is larger, as the first answer says
+  double ceiling_ = 0;  // m; upper bound of the gap by the first answer
   double size_ = 1;     // m; of the smaller body
   Proximity first_;
   Vector3 normal_ = Vector3::UnitX();  // the first answer's, in body 1's frame

@@ -1,4 +1,4 @@
-// Tests that the soak program finds faults, with faults that are there.
+// Tests that the soak program finds real faults.
 #include "examination.hpp"
 
 #include <doctest/doctest.h>
@@ -36,7 +36,7 @@ bool is_told(const Finding& finding, const std::string& what) {
   return std::ranges::any_of(finding.violations, [&](const std::string& text) { return text.find(what) != std::string::npos; });
 }
 
-/// A ball that changes its jets as it likes.
+/// A ball with arbitrary changes to its jets.
 class Liar : public Shape {
  public:
   explicit Liar(std::function<void(const Vector3& n, Jet& jet)> lie) : lie_(std::move(lie)) {}
@@ -62,7 +62,7 @@ Finding examine_liar(const std::function<void(const Vector3& n, Jet& jet)>& lie)
 
 }  // namespace
 
-TEST_CASE("nothing is wrong with two balls, queried in every way") {
+TEST_CASE("no violation is reported for two balls, queried in every way") {
   const Finding finding = examine_thoroughly(balls());
   for (const std::string& violation : finding.violations) FAIL_CHECK(violation);
   CHECK(finding.queries >= 11);
@@ -71,7 +71,7 @@ TEST_CASE("nothing is wrong with two balls, queried in every way") {
   CHECK(finding.error_of_bound <= 1);
 }
 
-TEST_CASE("a gap that is not the one that the bodies were placed with is reported") {
+TEST_CASE("a gap other than the placed gap is reported") {
   for (const double placed : {0.6, 0.4}) {
     Sample sample = balls();
     sample.placed_gap = placed;
@@ -94,7 +94,7 @@ TEST_CASE("points off the surface and numbers that are not finite are reported")
 }
 
 TEST_CASE("a maximum that is not the highest is reported") {
-  // The body has a dent that the ascent does not see: at the sides it is thinner than its points and radii of curvature say.
+  // The body has a dent that the ascent does not see. At the sides it is thinner than its points and radii of curvature say.
   const Finding finding = examine_liar([](const Vector3& n, Jet& jet) { jet.h -= std::abs(n.y()) > 0.1 ? 2 : 0; });
   CHECK_FALSE(finding.violations.empty());
 }

@@ -1,10 +1,10 @@
-// The soak program: draws samples, queries and checks them, until there have been so many queries.
+// The soak program: draws samples, queries and checks them, up to a number of queries.
 //
 //     soak --queries 1e9 --seed 1 --resume soak.txt     in pieces: Ctrl-C, and the same command again
 //     soak --seed 1 --only 4711                         one sample, in full
-//     soak --queries 1e8 --seed 1 --sharp               looks for faults where they have been found most often, and longer
+//     soak --queries 1e8 --seed 1 --sharp               searches longer where most faults have been found
 //
-// Exit code 0: no violation; 1: some, each with the command that shows it again; 2: a mistake in the command; 130: interrupted.
+// Exit code 0: no violation; 1: some, each with the command that repeats it; 2: a mistake in the command; 130: interrupted.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
@@ -75,7 +75,7 @@ void print(const Proximity& answer) {
               exact_text(answer.global_error).c_str());
 }
 
-/// Examines one sample in full. With `trap`, for a debugger, an exception ends the program where it is raised.
+/// Examines one sample in full. With `trap`, for a debugger, an exception ends the program at its origin.
 int examine_only(const SampleSource& source, const Options& options) {
   const auto index = static_cast<std::uint64_t>(options.only);
   Sample sample;

@@ -1,4 +1,4 @@
-// Random numbers of a sample: a function of the seed and the sample's number, the same on every machine.
+// Random numbers of a sample. They depend only on the seed and the sample's number, on every machine.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,7 +10,7 @@
 
 namespace supernormal::soak {
 
-/// SplitMix64 (Steele, Lea, Flood 2014): its start takes no time, which matters because every sample has a generator of its own.
+/// SplitMix64 (Steele, Lea, Flood 2014). It starts at once, which matters because every sample has its own generator.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t sample) : state_(mixed(seed + kStep) ^ mixed(sample * kStep + 1)) {}
@@ -22,7 +22,7 @@ class Random {
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   double log_uniform(double low, double high) { return low * std::pow(high / low, uniform()); }
 
-  /// A number in 0 ... end - 1; the bias, of end/2^64, does not matter.
+  /// A number in 0 ... end - 1. Its bias of end/2^64 is negligible.
   std::size_t below(std::size_t end) { return static_cast<std::size_t>(next() % end); }
 
   bool chance(double probability) { return uniform() < probability; }
@@ -43,7 +43,7 @@ class Random {
         .toRotationMatrix();
   }
 
-  /// A turn by `angle` about any axis.
+  /// A rotation by `angle` about a random axis.
   Matrix3 turn(double angle) { return Eigen::AngleAxisd(angle, direction()).toRotationMatrix(); }
 
  private:

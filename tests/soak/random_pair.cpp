@@ -19,14 +19,14 @@ Vector3 draw_axes(Random& random, const SuperellipsoidClass& kind) {
   return Vector3{axis(), axis(), axis()};
 }
 
-/// The classes that bodies are drawn from.
+/// The classes of the drawn bodies.
 struct Kind {
   SuperellipsoidClass sizes;
-  std::span<const SuperellipsoidClass> exponents;  // each exponent is from any of them
+  std::span<const SuperellipsoidClass> exponents;  // the classes from which each exponent is drawn
 };
 
 double draw_exponent(Random& random, const Kind& kind) {
-  // With one class there is no draw, so that the samples of the whole mix stay the same.
+  // With one class there is no draw, so the samples of the whole mix stay the same.
   const SuperellipsoidClass& one =
       kind.exponents.size() == 1 ? kind.exponents[0] : kind.exponents[random.below(kind.exponents.size())];
   return random.log_uniform(one.least_exponent, one.largest_exponent);
@@ -73,7 +73,7 @@ Body draw_other(Random& random, const Kind& kind) {
   }
 }
 
-/// Draws a normal; a coordinate may vanish, or nearly so.
+/// Draws a normal. A coordinate may be 0 or nearly 0.
 Vector3 draw_normal(Random& random) {
   Vector3 n = random.direction();
   if (random.chance(0.7)) return n;
@@ -91,7 +91,7 @@ Matrix3 draw_rotation(Random& random) {
   return random.turn(random.log_uniform(1e-16, 1));
 }
 
-/// Draws a gap in units of the smallest half-extent: from apart by twice that, through touching, to overlapped by all of it.
+/// Draws a gap in units of the smallest half-extent: from 2 through touching to -1.
 double draw_relative_gap(Random& random) {
   const double choice = random.uniform();
   if (choice < 0.1) return 0;
@@ -137,7 +137,7 @@ void draw_random_pair(Random& random, std::span<const SuperellipsoidClass> class
   pair.pose1 = {};
   pair.pose2.rotation = draw_rotation(random);
   const double unit = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
-  if (random.chance(0.05)) {  // one body is within the other
+  if (random.chance(0.05)) {  // one body is inside the other
     pair.pose2.position = unit * random.log_uniform(1e-16, 1) * random.direction();
     sample.placed_gap.reset();
   } else {

@@ -11,7 +11,7 @@ namespace {
 using samples::Body;
 using samples::HardCase;
 
-// Changes reach from the rounding of a number to another number.
+// Changes range from the rounding of a number to another number.
 constexpr double kLeastChange = 1e-16, kLargestChange = 1;
 
 double change(Random& random) { return random.log_uniform(kLeastChange, kLargestChange); }
@@ -28,7 +28,7 @@ void change_body(Body& body, Random& random) {
   if (is_round) body.lengths.y() = body.lengths.x();
   body.delta = changed_exponent(body.delta, by, random);
   body.epsilon = changed_exponent(body.epsilon, by, random);
-  const double taper = changed(1, by, random);  // the same for both: different ones are rarely convex
+  const double taper = changed(1, by, random);  // the same for both, because bodies with different tapers are rarely convex
   body.taper_x *= taper;
   body.taper_y *= taper;
   body.rounding = changed(body.rounding, by, random);
@@ -42,7 +42,7 @@ void change_shape(Body& body, std::shared_ptr<const Shape>& shape, Random& rando
     shape = samples::make_shape(other);
     body = std::move(other);
   } catch (const std::invalid_argument&) {
-    // The change is out of the shape's range, and the original is as good.
+    // The change leaves the shape's range, and the original will do.
   }
 }
 

@@ -13,26 +13,27 @@
 namespace supernormal::soak {
 
 struct Sample {
-  samples::HardCase pair;  ///< the name says where it comes from
+  samples::HardCase pair;  ///< the name says its origin
   Settings settings;
-  /// m; the value of the gap function at a normal that the bodies were placed on: at or above zero this is the gap, below zero
-  /// the gap is not less.
+  /// m; the value of the gap function at the normal at which the bodies were placed. From 0 on it is the gap. Below 0 the gap is
+  /// not less.
   std::optional<double> placed_gap;
 };
 
-/// The sources that samples are drawn from.
+/// The sources of samples.
 enum class Mix {
   Everything,
-  Sharp,  ///< random pairs with exponents of any classes alone, sharp beside flat: where faults have been found most often
+  Sharp,  ///< only random pairs with exponents of any classes, sharp beside flat, where most faults have been found
 };
 
-/// Draws samples: of everything, half from the catalogue of hard cases, changed slightly or considerably, half random pairs of
-/// bodies of a class (those of tests/data/superellipsoid_pairs.csv, and the other shapes), from apart to one within the other.
+/// Draws samples. Of the whole mix, half are from the catalogue of hard cases, with small or large changes. Half are random pairs
+/// of bodies of a class (the classes of tests/data/superellipsoid_pairs.csv, and the other shapes), from apart to one inside the
+/// other.
 class SampleSource {
  public:
   explicit SampleSource(std::uint64_t seed, Mix mix = Mix::Everything);
 
-  /// Draws sample number `index`, which is always the same for a seed.
+  /// Draws sample number `index`, which depends only on the seed.
   void draw(std::uint64_t index, Sample& sample) const;
 
   /// The random numbers for the checks of a sample.

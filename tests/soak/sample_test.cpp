@@ -22,7 +22,7 @@ bool is_same(const Sample& a, const Sample& b) {
 
 }  // namespace
 
-TEST_CASE("a sample is a function of seed and number, whatever was drawn before") {
+TEST_CASE("a sample is a function of seed and number, not of the samples before") {
   const SampleSource source(7), again(7), other(8);
   Sample a, b, c;
   int same_with_other_seed = 0;
@@ -59,7 +59,7 @@ TEST_CASE("samples cover the catalogue and the random classes, from apart to one
   for (const int count : {apart, touching, shallow, deep}) CHECK(count > 100);
 }
 
-TEST_CASE("the sharp mix has bodies that are sharp in one section and flat in another, alone") {
+TEST_CASE("the sharp mix has only bodies that are sharp in one section and flat in another") {
   const SampleSource source(7, Mix::Sharp);
   int sharp_beside_flat = 0;
   Sample sample;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The soak program from outside: the number of threads changes nothing, pieces add up, mistakes are told.
+# The soak program from outside: the number of threads changes nothing, pieces add up, mistakes are reported.
 # Usage: soak_cli_test.sh PROGRAM
 set -euo pipefail
 source "$(dirname "$0")/../cli_test.bash"
@@ -29,7 +29,7 @@ expect 2 "$program" --sharp --resume "$work/sharp"
 expect 2 "$program" --querys 100
 expect 0 "$program" --help
 
-# Interrupted, it says what it has, and keeps it.
+# When interrupted, it prints its results and saves them.
 "$program" --queries 1e12 --seed 3 --resume "$work/stopped" >"$work/log" 2>&1 &
 pid=$!
 sleep 1

@@ -1,4 +1,4 @@
-// Tests that the former content of the stack does not decide an answer: every hard case, and samples of the soak program.
+// Tests that the former content of the stack changes no answer, for every hard case and samples of the soak program.
 #include <doctest/doctest.h>
 
 #include "sample.hpp"
@@ -24,7 +24,7 @@ void check_stack(const samples::HardCase& one, const Settings& settings) {
 
 }  // namespace
 
-TEST_CASE("hard cases: the same digits over any stack, and nothing computed with what was not set") {
+TEST_CASE("hard cases give the same digits over any stack, and compute nothing with uninitialized memory") {
   Settings certified;
   certified.certify_depth = true;
   certified.max_evaluations = 300;
@@ -34,7 +34,7 @@ TEST_CASE("hard cases: the same digits over any stack, and nothing computed with
   }
 }
 
-TEST_CASE("random pairs: the same digits over any stack, and nothing computed with what was not set") {
+TEST_CASE("random pairs give the same digits over any stack, and compute nothing with uninitialized memory") {
   for (const Mix mix : {Mix::Everything, Mix::Sharp}) {
     const SampleSource source(22, mix);
     Sample sample;

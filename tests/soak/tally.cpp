@@ -33,7 +33,7 @@ std::vector<std::pair<const char*, std::uint64_t Tally::*>> counters() {
 }  // namespace
 
 void Ranking::add(const Entry& entry) {
-  // Ties go to the smaller number, so that the ranking does not depend on which thread came first.
+  // Ties go to the smaller number, so the ranking does not depend on the order of the threads.
   const auto comes_before = [](const Entry& a, const Entry& b) {
     return a.value != b.value ? a.value > b.value : a.sample < b.sample;
   };

@@ -1,4 +1,4 @@
-// The results of the soak program so far, and the file that keeps them.
+// The results of the soak program so far, and their file.
 #pragma once
 
 #include <cstdint>
@@ -31,10 +31,11 @@ class Ranking {
 
 struct Tally {
   std::uint64_t samples = 0, queries = 0, evaluations = 0;
-  std::uint64_t not_global = 0, not_converged = 0;  ///< samples with an answer that does not claim to be global; to have converged
-  std::uint64_t violations = 0;                     ///< samples with at least one violation
-  double seconds = 0;                               ///< real time
-  std::vector<std::uint64_t> violated;              ///< the first of the samples with violations
+  std::uint64_t not_global = 0,
+                not_converged = 0;      ///< samples with an answer that does not claim to be global, or to have converged
+  std::uint64_t violations = 0;         ///< samples with at least one violation
+  double seconds = 0;                   ///< real time
+  std::vector<std::uint64_t> violated;  ///< the first of the samples with violations
   Ranking by_error, by_error_of_bound, by_evaluations;
 
   void add(std::uint64_t sample, const Finding& finding);
@@ -43,11 +44,11 @@ struct Tally {
   void add(const Tally& other);
 };
 
-/// Writes a new file and renames it: whenever the program ends, the file is whole.
+/// Writes a new file and renames it, so the file is always complete.
 void save(const Tally& tally, std::uint64_t seed, const std::string& path);
 
-/// Loads a saved tally; a new one when there is no such file. Throws std::runtime_error when the file is no tally, or one of
-/// another seed.
+/// Loads a saved tally, or a new one if there is no file. Throws std::runtime_error if the file is not a tally, or is of another
+/// seed.
 Tally load(std::uint64_t seed, const std::string& path);
 
 }  // namespace supernormal::soak

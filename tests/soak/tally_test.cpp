@@ -31,7 +31,7 @@ std::vector<std::uint64_t> samples_of(const Ranking& ranking) {
   return samples;
 }
 
-/// The tally of samples first ... end - 1, whose errors go up and down.
+/// The tally of samples first ... end - 1 with errors that go up and down.
 Tally tally_of(std::uint64_t first, std::uint64_t end) {
   Tally tally;
   for (std::uint64_t k = first; k < end; ++k)
@@ -69,14 +69,14 @@ TEST_CASE("the largest values are kept, largest first, ties by number") {
   CHECK(samples_of(ranking) == std::vector<std::uint64_t>{15, 9, 11, 12, 14});
 }
 
-TEST_CASE("tallies of parts, in any order, are the tally of the whole") {
+TEST_CASE("tallies of parts in any order add up to the tally of the whole") {
   Tally parts = tally_of(60, 200);
   parts.add(tally_of(0, 60));
   check_same(parts, tally_of(0, 200));
   CHECK(parts.violated.front() == 3);
 }
 
-TEST_CASE("a saved tally is read back; a new one where there is no file") {
+TEST_CASE("a saved tally is read back, and a missing file gives a new one") {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "state").string();
   check_same(load(5, path), Tally());
@@ -89,7 +89,7 @@ TEST_CASE("a saved tally is read back; a new one where there is no file") {
   for (std::size_t k = 0; k < 5; ++k) CHECK(again.by_error.entries()[k].value == tally.by_error.entries()[k].value);
 }
 
-TEST_CASE("a file of another seed, or that is none, is refused") {
+TEST_CASE("a tally of another seed, or a file that is not a tally, is refused") {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "state").string();
   save(tally_of(0, 10), 5, path);

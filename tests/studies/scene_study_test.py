@@ -1,4 +1,4 @@
-"""What studies of scenes compute of their runs, held to closed forms; and every study fills its templates."""
+"""The computations of the studies of scenes against closed forms; and every study fills its templates."""
 
 import importlib.machinery
 import importlib.util

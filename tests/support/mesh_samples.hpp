@@ -1,4 +1,4 @@
-// Surfaces and bodies that the tests of mesh contacts share.
+// Surfaces and bodies for the tests of mesh contacts.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -40,7 +40,7 @@ struct TriangleMesh {
   }
 };
 
-/// A level square of cells * cells * 2 triangles with the middle at the origin.
+/// A level square of cells * cells * 2 triangles, centred at the origin.
 inline TriangleMesh floor_mesh(int cells, double cell) {
   TriangleMesh mesh;
   for (int i = 0; i <= cells; ++i) {
@@ -57,8 +57,8 @@ inline TriangleMesh floor_mesh(int cells, double cell) {
   return mesh;
 }
 
-/// The closed surface of the hull of points in general position or with quadrangles, from every supporting triangle, outward. It
-/// is slow for many points.
+/// The closed surface of the hull of points in general position or with quadrangles, from every supporting triangle, outward. Slow
+/// for many points.
 inline TriangleMesh hull_mesh(const std::vector<Vector3>& points) {
   TriangleMesh mesh;
   mesh.vertices = points;
@@ -96,7 +96,7 @@ inline TriangleMesh icosahedron_mesh() {
   return hull_mesh(points);
 }
 
-/// A box of triangles; with `inward` it is a room instead of a block.
+/// A box of triangles. With `inward` it is a room instead of a block.
 inline TriangleMesh box_mesh(const Vector3& half_lengths, bool inward = false) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {
@@ -154,7 +154,7 @@ class Draw {
   std::mt19937_64 engine_;
 };
 
-/// The contacts, copied from one query object that is used again and again.
+/// The contacts, copied from one reused query object.
 inline std::vector<MeshContact> contacts_of(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles) {
   static MeshContacts query;
   const std::span<const MeshContact> found = query.find(shape, pose, triangles, {});
@@ -166,7 +166,7 @@ inline Vector3 normal_of(const MeshTriangle& t) {
   return (t.vertices[1] - t.vertices[0]).cross(t.vertices[2] - t.vertices[0]).normalized();
 }
 
-/// The pose of the body that has moved `way` (unit) from the middle of the hull until the gap is the wanted one, m.
+/// The pose of the body moved along `way` (unit) from the middle of the hull until it has the wanted gap, m.
 inline Pose placed_at_gap(double wanted, const Shape& body, const Matrix3& rotation, const Shape& hull, const Pose& hull_pose,
                           const Vector3& way) {
   Pose pose{hull_pose.position, rotation};

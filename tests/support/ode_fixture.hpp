@@ -1,4 +1,4 @@
-// Helpers that the tests of the ODE layer share: ODE for the time of a test case, poses, contacts.
+// Shared helpers of the tests of the ODE layer: ODE during a test case, poses, contacts.
 #pragma once
 
 #include <ode/ode.h>
@@ -15,9 +15,9 @@
 
 namespace supernormal::test {
 
-inline constexpr int kRepetitions = 10000;  ///< of a battery, each with bodies and poses of its own
+inline constexpr int kRepetitions = 10000;  ///< repetitions in a battery, each with its own bodies and poses
 
-/// A program that uses ODE and us, from its beginning to its end: nothing is left for the next test case.
+/// A program that uses ODE and this library, from its start to its end. Nothing remains for the next test case.
 class OdeSession {
  public:
   OdeSession() {
@@ -71,7 +71,7 @@ class Random {
 
   double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11U) * 0x1p-53); }
 
-  /// A number in [low, high] whose logarithm is evenly distributed.
+  /// A number in [low, high] with an evenly distributed logarithm.
   double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
 
   Vec direction() {
@@ -98,8 +98,8 @@ inline void move(dGeomID geom, const Vec& by) { place(geom, to_vec(dGeomGetPosit
 
 inline constexpr bool kIsSinglePrecision = sizeof(dReal) == sizeof(float);
 
-/// A tolerance of double precision. With single precision it is larger by the rounding of dReal: some units in the last place of
-/// poses, normals and depths of about this size, which is all that ODE is told.
+/// A tolerance for double precision. In single precision it grows by the rounding of dReal: some units in the last place of poses,
+/// normals and depths of about this size.
 inline double within_rounding(double tolerance, double size = 1) {
   constexpr double kEpsilon = std::numeric_limits<dReal>::epsilon();
   return kIsSinglePrecision ? std::max(tolerance, 32 * kEpsilon * size) : tolerance;
@@ -128,10 +128,10 @@ inline snStatistics statistics() {
   return out;
 }
 
-/// Whether the last refusal says this.
+/// Whether the last refusal contains this text.
 inline bool refused_with(const std::string& text) { return std::string(snLastError()).find(text) != std::string::npos; }
 
-/// The exponent of an ellipsoid, of a brick, or of what is in between.
+/// The exponent of an ellipsoid, of a brick, or in between.
 inline double any_exponent(Random& random) {
   constexpr double kExponents[] = {2, 4, 8, 20, 60};
   return kExponents[static_cast<int>(random.uniform(0, 5))];

@@ -1,4 +1,4 @@
-// Helpers that the tests of motion share: an ODE world that steps our bodies as a program does, and the energies of its bodies.
+// Shared helpers of the tests of motion: an ODE world that steps our bodies as a program does, and the energies of its bodies.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -14,8 +14,8 @@ namespace supernormal::test {
 inline constexpr double kGravity = 9.81;  // m/s^2
 inline constexpr double kDegree = std::numbers::pi / 180;
 
-/// A world, its space (destroyed with it) and the near callback of every ODE program, with ODE's defaults unless a test says
-/// otherwise. The softness of constraints is the default of double precision: that of single precision, 1e-5 s/kg, lets a body of
+/// A world, its space (destroyed with it) and the near callback of every ODE program. It has ODE's defaults unless a test changes
+/// them. The softness of constraints is the default in double precision. The default in single precision, 1e-5 s/kg, lets a body of
 /// 3 kg creep down a slope at 0.04 mm/s.
 class World {
  public:
@@ -50,7 +50,7 @@ class World {
     return body;
   }
 
-  /// Adds the plane z = 0, rising along x at an angle (rad).
+  /// Adds the plane z = 0, tilted so that it rises along x at an angle (rad).
   void add_plane(double incline = 0) const { dCreatePlane(space_, dReal(-std::sin(incline)), 0, dReal(std::cos(incline)), 0); }
 
   void quick_step(double dt) {
@@ -68,10 +68,10 @@ class World {
   static constexpr int kRoom = 8;
 
   dSurfaceParameters surface{};  ///< parameters of every contact; frictionless unless set
-  int room = kRoom;              ///< room for the contacts of a pair, at most kRoom
+  int room = kRoom;              ///< max_contacts of a pair, at most kRoom
   int contacts = 0;              ///< contacts in the last step
   int most_of_a_pair = 0;        ///< most contacts of a pair in any step
-  double depth = 0;              ///< m, the deepest contact of the last step
+  double depth = 0;              ///< m; depth of the deepest contact in the last step
 
  private:
   void make_contacts(double dt) {
@@ -128,10 +128,10 @@ inline double kinetic_energy(dBodyID body) {
   return 0.5 * (mass_of(body) * dot(v, v) + dot(to_vec(dBodyGetAngularVel(body)), spin_momentum(body)));
 }
 
-/// The kinetic energy and that in the field of gravity, from z = 0; J.
+/// The kinetic energy, plus the potential energy of gravity from z = 0; J.
 inline double energy(dBodyID body) { return kinetic_energy(body) + mass_of(body) * kGravity * dBodyGetPosition(body)[2]; }
 
-/// Sets the attitude to a turn by an angle (rad) about an axis.
+/// Sets the orientation to a rotation by an angle (rad) about an axis.
 inline void turn(dBodyID body, const Vec& axis, double angle) {
   dMatrix3 R;
   dRFromAxisAndAngle(R, dReal(axis[0]), dReal(axis[1]), dReal(axis[2]), dReal(angle));

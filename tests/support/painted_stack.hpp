@@ -1,4 +1,4 @@
-// Repeats a query with different rubbish on the stack: memory that was never set must not decide an answer.
+// Repeats a query with different contents of the stack. Uninitialized memory must not change an answer.
 #pragma once
 
 #include <array>
@@ -11,12 +11,11 @@
 
 namespace supernormal::test {
 
-/// A signalling NaN, as a double and as the second of two floats: with the traps of traps.hpp set, computing with it ends the
-/// program.
+/// A signalling NaN, as a double and as the second of two floats. With the traps of traps.hpp, computing with it ends the program.
 inline constexpr std::uint64_t kSignallingNan = 0x7FF4'0000'7FA0'0000;
 
-/// Possible contents of a variable that is never set: zeros, a signalling NaN, moderate, huge and tiny numbers, and as an integer
-/// a negative one.
+/// Possible contents of an uninitialized variable: zeros, a signalling NaN, moderate, huge and tiny numbers, and as an integer a
+/// negative one.
 inline constexpr std::array<std::uint64_t, 6> kPaints = {0,
                                                          kSignallingNan,
                                                          std::bit_cast<std::uint64_t>(-1.0),
@@ -24,10 +23,10 @@ inline constexpr std::array<std::uint64_t, 6> kPaints = {0,
                                                          std::bit_cast<std::uint64_t>(-1e-300),
                                                          0xFFFF'FFFF'FFFF'FFFF};
 
-/// Bytes; a query takes less.
+/// Bytes; a query needs less.
 inline constexpr std::size_t kPaintedSize = 64 * 1024;
 
-/// Fills the stack below the caller's frame, where the frames of the functions that it calls next will be.
+/// Fills the stack below the caller's frame, where the next called functions have their frames.
 [[gnu::noinline]] inline void paint_stack(std::uint64_t paint) {
   std::array<volatile std::uint64_t, kPaintedSize / sizeof paint> below;
   for (volatile std::uint64_t& word : below) word = paint;
@@ -45,7 +44,7 @@ inline Numbers numbers_of(const Proximity& answer) {
   return numbers;
 }
 
-/// Compares to the bit, where any NaN equals any other, and no number.
+/// Compares to the bit. Any NaN equals any other NaN, and no number.
 inline bool are_identical(const Numbers& a, const Numbers& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -54,15 +53,14 @@ inline bool are_identical(const Numbers& a, const Numbers& b) {
   return true;
 }
 
-/// The answer after the stack has been painted. It is a function of its own, so that the painted part begins where the frame of
-/// `ask` will.
+/// The answer after the stack has been painted. It is a function of its own, so that the painted part begins at the frame of `ask`.
 template <typename Ask>
 [[gnu::noinline]] auto ask_on_painted_stack(std::uint64_t paint, const Ask& ask) {
   paint_stack(paint);
   return ask();
 }
 
-/// Whether ask() answers the same over every paint. numbers_of() must be defined for its answers.
+/// Whether ask() gives the same answer over every paint. numbers_of() must be defined for its answers.
 template <typename Ask>
 bool is_same_on_every_stack(const Ask& ask) {
   const Numbers first = numbers_of(ask_on_painted_stack(kPaints[0], ask));

@@ -23,7 +23,7 @@ namespace supernormal::test {
 
 enum class RandomPartner { Superellipsoid, WithoutHessian, Box, Capsule, Cylinder, Polytope };
 
-/// Body 1 is a superellipsoid of the class; body 2 another one, or a body with faces and edges. Without Hessians both are
+/// Body 1 is a superellipsoid of the class. Body 2 is another one, or a body with faces and edges. Without Hessians both are
 /// callbacks.
 struct RandomKind {
   std::string name;
@@ -53,7 +53,7 @@ struct RandomPair {
   std::shared_ptr<const Shape> shape1, shape2;
   Pose pose2;
   double unit = 0;    ///< m; the smallest half-extent of the two
-  double placed = 0;  ///< m; s at the normal that the bodies were placed at, where s is stationary
+  double placed = 0;  ///< m; s at the normal at which the bodies were placed, where s is stationary
 
   double rolling_radius() const { return shape1->rolling_radius() + shape2->rolling_radius(); }
 };
@@ -65,7 +65,7 @@ class RandomBodies {
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
   double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
 
-  /// Two bodies at any attitude.
+  /// Two bodies in any orientation.
   RandomPair draw_apart() {
     RandomPair pair{body(), nullptr, {}, 0, 0};
     pair.shape2 = partner();
@@ -76,8 +76,8 @@ class RandomBodies {
     return pair;
   }
 
-  /// Moves body 2 so that the witness points of a random normal are `gap` (m) apart along it: that is the gap where it is positive,
-  /// or no more than the rolling radius below; deeper, another normal may be higher.
+  /// Moves body 2 so that the witness points of a random normal are `gap` (m) apart along it. This is the gap if it is positive, or
+  /// no deeper than the rolling radius. If it is deeper, another normal may be higher.
   void place(RandomPair& pair, double gap) {
     const Vector3 n = direction();
     const Vector3 point2 = pair.pose2.rotation * pair.shape2->point(-(pair.pose2.rotation.transpose() * n));
@@ -85,7 +85,7 @@ class RandomBodies {
     pair.placed = gap;
   }
 
-  /// Both; `gap` in units of the smallest half-extent.
+  /// Both of these; `gap` in units of the smallest half-extent.
   RandomPair draw(double gap) {
     RandomPair pair = draw_apart();
     place(pair, gap * pair.unit);
@@ -93,7 +93,7 @@ class RandomBodies {
   }
 
  private:
-  // Braces, here and below: evaluated in this order.
+  // Braces, here and below, fix the order of evaluation.
   Vector3 direction() { return Vector3{gauss_(engine_), gauss_(engine_), gauss_(engine_)}.normalized(); }
 
   Vector3 lengths() {
@@ -138,7 +138,7 @@ class RandomBodies {
   RandomKind kind_;
   std::mt19937_64 engine_;
   std::normal_distribution<double> gauss_;
-  std::vector<std::vector<Vector3>> corners_;  // of the polytopes, which refer to them
+  std::vector<std::vector<Vector3>> corners_;  // points of the polytopes, which refer to them
 };
 
 }  // namespace supernormal::test

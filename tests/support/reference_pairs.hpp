@@ -1,4 +1,4 @@
-// The 1600 pairs with known answers (tests/data/superellipsoid_pairs.csv; tests/data/README.md says how they were made).
+// The 1600 pairs with known answers (tests/data/superellipsoid_pairs.csv; tests/data/README.md describes their origin).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -37,13 +37,13 @@ struct ReferencePair {
   bool is_apart_or_touching() const { return nominal >= -1e-3; }
 };
 
-/// An ellipsoid if it is one: the shape that a program would choose.
+/// An Ellipsoid if both exponents are 2: the shape that a program would choose.
 inline std::shared_ptr<const Shape> make_shape(const Superellipsoid& shape) {
   if (shape.delta() == 2 && shape.epsilon() == 2) return std::make_shared<Ellipsoid>(shape.half_axes());
   return std::make_shared<Superellipsoid>(shape);
 }
 
-/// The left side of the implicit equation as a norm: 1 on the boundary, and 1 + x at a point that is x times as far out.
+/// The left side of the implicit equation as a norm: 1 on the boundary, and 1 + x at a point 1 + x times as far out.
 inline double gauge(const Superellipsoid& shape, const Vector3& point) {
   const Vector3 x = point.cwiseAbs().cwiseQuotient(shape.half_axes());
   const double delta = shape.delta(), epsilon = shape.epsilon();
@@ -91,7 +91,7 @@ inline std::vector<ReferencePair> load_reference_pairs() {
   return pairs;
 }
 
-/// The pairs, which are read once.
+/// The pairs, read once.
 inline const std::vector<ReferencePair>& reference_pairs() {
   static const std::vector<ReferencePair> pairs = load_reference_pairs();
   return pairs;

@@ -1,4 +1,4 @@
-// What a constructor says that refuses its arguments.
+// The message of a constructor that refuses its arguments.
 #pragma once
 
 #include <functional>

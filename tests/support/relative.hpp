@@ -26,8 +26,8 @@ class Relative {
   double epsilon_;
 };
 
-/// Equal to `expected` within less than .epsilon(e) times its size. doctest's own Approx adds 1 to that: for a millimetre, in
-/// metres, it would check nothing. Nothing is near 0.
+/// Equal to `expected` within less than .epsilon(e) times its size. doctest's own Approx adds 1 to that size, so it would check
+/// nothing for a millimetre in metres. No number equals relative(0).
 constexpr Relative relative(double expected) { return Relative(expected); }
 
 }  // namespace supernormal::test

@@ -1,4 +1,4 @@
-// Normals and shapes that the tests of the shapes share, and a numerical derivative with an error estimate.
+// Normals and shapes for the tests of the shapes, and a numerical derivative with an error estimate.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -41,7 +41,7 @@ inline std::vector<Vector3> random_normals(int count, unsigned seed) {
   return normals;
 }
 
-/// Axes and coordinate planes, exactly and beside them at distances down to denormal numbers, with every sign; -0 too.
+/// Normals on the axes and coordinate planes, and beside them at distances down to denormal numbers, with every sign; -0 too.
 inline std::vector<Vector3> singular_normals() {
   std::vector<Vector3> normals;
   const double beside[] = {0.0, -0.0, 5e-324, 1e-310, -1e-300, 1e-160, -1e-60, 1e-30, 1e-16, -1e-8, 1e-3};

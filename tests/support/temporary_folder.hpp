@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-/// A new folder that vanishes with this object.
+/// A new folder, deleted with this object.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -1,4 +1,4 @@
-// Floating-point traps: an exception that is raised ends the program.
+// Floating-point traps: a raised exception ends the program.
 #pragma once
 
 #include <unistd.h>
@@ -10,7 +10,7 @@
 
 namespace supernormal::test {
 
-/// Traps exceptions while it lives; an exception ends the program with the name of the query.
+/// Traps exceptions while it lives. An exception ends the program with the name of the query.
 class Traps {
  public:
   static constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
@@ -31,7 +31,7 @@ class Traps {
   Traps& operator=(Traps&&) = delete;
 
  private:
-  /// The handler calls only functions that a signal handler may call.
+  /// The handler calls only functions that are allowed in a signal handler.
   static void say_what_was_asked(int /*signal*/) {
     for (const char* part : {"floating-point exception in \"", asked, "\"\n"}) {
       if (write(STDERR_FILENO, part, std::strlen(part)) < 0) break;

@@ -1,4 +1,4 @@
-// Bodies in the form in which a program defines its own.
+// Bodies in the form of a program's own shape.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace supernormal::test {
 
-/// The same body as one of a program's own, without a Hessian.
+/// The same body as a user shape, without a Hessian.
 inline CallbackShape without_hessian(const std::shared_ptr<const Shape>& shape) {
   return {[shape](const Vector3& n) { return shape->support(n); }, [shape](const Vector3& n) { return shape->point(n); }};
 }

@@ -1,4 +1,4 @@
-// Holds scene.glb against gltf-validator and against the trajectory.
+// Checks scene.glb with gltf-validator and against the trajectory.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";

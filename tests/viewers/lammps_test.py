@@ -1,4 +1,4 @@
-"""Reads the LAMMPS dumps of runs with ASE's reader and holds them against the trajectories.
+"""Reads the LAMMPS dumps of runs with ASE's reader and compares them with the trajectories.
 
 lammps_test.py RUNS: the folder of the run "box". Exit code 77: ASE is not there.
 """

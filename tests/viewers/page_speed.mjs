@@ -1,4 +1,4 @@
-// How fast the page of a run is: bytes, seconds to the first picture, frames a second while it plays, draw calls.
+// The speed of the page of a run: bytes, seconds to the first picture, frames a second while it plays, draw calls.
 //   node page_speed.mjs VIEW.html
 import { statSync } from "node:fs";
 import { resolve } from "node:path";

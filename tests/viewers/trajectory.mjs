@@ -1,4 +1,4 @@
-// The tables of a run, against which viewers are held.
+// The tables of a run, with which viewers are compared.
 import { readFileSync } from "node:fs";
 
 function rowsOf(path) {

@@ -1,4 +1,4 @@
-"""Reads the VTK files of runs with VTK's own reader and holds them against the trajectories.
+"""Reads the VTK files of runs with VTK's own reader and compares them with the trajectories.
 
 vtk_test.py RUNS: the folder of the runs "box", "hopper", "cell" and "drum". Exit code 77: VTK is not there.
 """
@@ -32,7 +32,7 @@ def read_rows(path):
 
 
 def check_grains(run):
-    """Every position and attitude is that of the trajectory, digit for digit."""
+    """Every position and orientation equals the trajectory's, digit for digit."""
     rows = read_rows(run / "trajectory.csv")
     start = 0
     for time, data in read_series(run / "grains.pvd"):
@@ -67,7 +67,7 @@ def check_container(run, first, last):
 
 
 def check_parts(run):
-    """The shell of the drum, the first part, has turned as the table says. Its ends are discs, and it has a box inside."""
+    """The shell of the drum, the first part, has rotated as in the table. Its ends are discs, and it has a box inside."""
     sides, end_sides = 24, 64
     shell, end, box = (2 * sides, 2 * sides), (end_sides - 2, end_sides), (12, 12)
     drum = tuple(of_shell + 2 * of_end + of_box for of_shell, of_end, of_box in zip(shell, end, box, strict=True))

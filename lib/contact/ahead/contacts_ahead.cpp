@@ -5,7 +5,7 @@
 
 #include "contact/ahead/meeting.hpp"
 #include "contact/ahead/nearness.hpp"
-#include "contact/ahead/small_turn.hpp"
+#include "contact/ahead/small_rotation.hpp"
 #include "shapes/validation.hpp"
 
 namespace supernormal {
@@ -15,18 +15,18 @@ namespace {
 /// displacements; `share` is the weight of body 1.
 void take_back(ContactManifold& manifold, const BodyAhead& body1, const BodyAhead& body2, double time, double share,
                double gap_now) {
-  const Vector3 way1 = time * body1.motion.velocity;
-  const Vector3 way2 = time * body2.motion.velocity;
-  const Vector3 way = share * way1 + (1 - share) * way2;
-  const double closed = manifold.deepest.normal.dot(way1 - way2);
+  const Vector3 displacement1 = time * body1.motion.velocity;
+  const Vector3 displacement2 = time * body2.motion.velocity;
+  const Vector3 displacement = share * displacement1 + (1 - share) * displacement2;
+  const double closed = manifold.deepest.normal.dot(displacement1 - displacement2);
   // Bodies that are apart now do not overlap now. The tangent planes at the impact may say otherwise.
   const double greatest_depth = std::max(0.0, -gap_now);
   const auto depth_now = [&](double depth) { return std::min(depth - closed, greatest_depth); };
   manifold.deepest.gap = -depth_now(-manifold.deepest.gap);
-  manifold.deepest.point1 -= way1;
-  manifold.deepest.point2 -= way2;
-  manifold.deepest.contact -= way;
-  for (ManifoldCorner& corner : manifold.corners) corner = {corner.point - way, depth_now(corner.depth)};
+  manifold.deepest.point1 -= displacement1;
+  manifold.deepest.point2 -= displacement2;
+  manifold.deepest.contact -= displacement;
+  for (ManifoldCorner& corner : manifold.corners) corner = {corner.point - displacement, depth_now(corner.depth)};
 }
 
 ContactManifold none(const Proximity& now, int evaluations) {
@@ -66,7 +66,7 @@ ContactManifold find_contacts_ahead(const BodyAhead& body1, const BodyAhead& bod
   take_back(manifold, body1, body2, meeting.time, share, now.gap);
   manifold.deepest.evaluations = meeting.evaluations;
   manifold.reach = reach;
-  limit_turn(body1, body2, time, share, manifold);
+  limit_rotation(body1, body2, time, share, manifold);
   if (body1.motion.mobility > 0 && body2.motion.mobility > 0) {
     act_between_centres(body1, body2, time, share, meeting.time, manifold);
   }
@@ -83,7 +83,7 @@ ContactManifold find_plane_contacts_ahead(const BodyAhead& body, double time, co
   const double tilt = tilt_ahead(body.motion, {}, time, approach_of(body.motion, {}, time, now.normal, now.gap), size);
   ContactManifold manifold = find_plane_manifold_of_gaps(body.shape, body.pose, now, tilt);
   manifold.reach = reach;
-  limit_turn(body, {body.shape, body.pose, {}}, time, 1, manifold);
+  limit_rotation(body, {body.shape, body.pose, {}}, time, 1, manifold);
   return manifold;
 }
 

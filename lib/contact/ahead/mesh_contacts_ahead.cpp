@@ -7,7 +7,7 @@
 
 #include "contact/ahead/meeting.hpp"
 #include "contact/ahead/nearness.hpp"
-#include "contact/ahead/small_turn.hpp"
+#include "contact/ahead/small_rotation.hpp"
 #include "contact/mesh/mesh_triangle.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/polytope.hpp"
@@ -197,7 +197,7 @@ bool MeshContactsAhead::holds_back(const Vector3& velocity) const {
   });
 }
 
-/// A body that already overlaps the surface keeps its present contacts, whatever its motion.
+/// A body that already overlaps the surface keeps its present contacts, at any motion.
 void MeshContactsAhead::add_overlaps(const Search& search) {
   const std::span<const MeshContact> contacts =
       contacts_.find(search.body.shape, search.body.pose, search.triangles, search.settings);
@@ -207,9 +207,9 @@ void MeshContactsAhead::add_overlaps(const Search& search) {
   }
 }
 
-/// The sweep of a body that is apart from the surface overlaps it by no more than its radius. It may do so from behind a sheet,
-/// where all in front of the sheet is overlap: that is no contact of the body. Or at a border, whose normal need not be one that
-/// tells the body apart: such a contact does not hold the body back from where it is.
+/// The sweep of a body that is apart from the surface overlaps it by no more than its radius. There are two exceptions, which are
+/// no contacts of the body. Behind a sheet, everything in front of the sheet is overlap. At a border, the contact's normal need not
+/// separate the body, so the contact must not push it.
 void MeshContactsAhead::add_contacts(const Search& search, const Vector3& way) {
   // The swept body refers to the shape without owning it.
   const Rounded swept(std::shared_ptr<const Shape>(std::shared_ptr<const Shape>(), &search.body.shape), search.near);
@@ -224,7 +224,7 @@ void MeshContactsAhead::add_contacts(const Search& search, const Vector3& way) {
   }
 }
 
-/// Whether the body, where it is on its way, overlaps no triangle although the contacts of its sweep say so.
+/// Whether the body, at its position on the path, overlaps no triangle although the contacts of its sweep say so.
 bool MeshContactsAhead::is_apart_now(const Search& search, std::span<const MeshContact> of_sweep) {
   const Shape& shape = search.body.shape;
   const Pose& pose = search.body.pose;
@@ -232,7 +232,7 @@ bool MeshContactsAhead::is_apart_now(const Search& search, std::span<const MeshC
   for (const MeshContact& contact : of_sweep) {
     if (contact.proximity.gap >= -search.near) continue;
     overlaps = true;
-    // What rests overlaps by rounding: a triangle between its deepest and its highest point proves it at once.
+    // A resting body overlaps by rounding. A triangle between its deepest and its highest point proves the overlap at once.
     const Vector3 normal = pose.rotation.transpose() * contact.proximity.normal;
     const Vector3 deepest = pose.position + pose.rotation * shape.point(normal);
     const Vector3 highest = pose.position + pose.rotation * shape.point(-normal);
@@ -256,7 +256,7 @@ void MeshContactsAhead::add(const Search& search, const Proximity& there, int tr
   draw_in_corners(manifold, search.triangles);
   take_back(manifold, way, search.share);
   manifold.reach = search.reach;
-  limit_turn(search.now, {search.now.shape, search.now.pose, search.surface}, search.time, search.share, manifold);
+  limit_rotation(search.now, {search.now.shape, search.now.pose, search.surface}, search.time, search.share, manifold);
   const auto same = std::find_if(found_.begin(), found_.end(), [&](const MeshManifold& other) {
     return (other.manifold.deepest.normal - there.normal).norm() < kSameNormal &&
            other.manifold.deepest.gap < manifold.deepest.gap + kSameGap * search.near;

@@ -15,14 +15,14 @@ inline constexpr double kSlack = 0.01;
 inline constexpr double kLargestTilt = 0.5;
 
 /// The farthest that rotation moves a point of the body within `time`, m: at most to the other side.
-inline double turn_of(const MotionAhead& motion, double time) {
+inline double shift_by_rotation(const MotionAhead& motion, double time) {
   return motion.arm * std::min(2.0, motion.angular_velocity.norm() * time);
 }
 
 /// How much more than by their velocities two bodies may approach within `time`, m.
 inline double nearness_of_both(const MotionAhead& motion1, const MotionAhead& motion2, double time, double size) {
   const double acceleration = std::max(motion1.acceleration, motion2.acceleration);
-  return turn_of(motion1, time) + turn_of(motion2, time) + acceleration * time * time + kSlack * size;
+  return shift_by_rotation(motion1, time) + shift_by_rotation(motion2, time) + acceleration * time * time + kSlack * size;
 }
 
 /// How far two bodies would overlap after `time` without contact forces, along the unit normal from body 1 to body 2, m. Negative:
@@ -35,8 +35,9 @@ inline double approach_of(const MotionAhead& motion1, const MotionAhead& motion2
 /// The tilt of the manifold points on which the bodies may land within `time`, rad. An impulse that stops an `approach` (m) at one
 /// end of a body of half-extent `size` (m) rotates it by approach / size. The present rotation adds to this.
 inline double tilt_ahead(const MotionAhead& motion1, const MotionAhead& motion2, double time, double approach, double size) {
-  const double turn = (motion1.angular_velocity.norm() + motion2.angular_velocity.norm()) * time + std::max(0.0, approach) / size;
-  return std::clamp(turn, kLeastTilt, kLargestTilt);
+  const double rotation =
+      (motion1.angular_velocity.norm() + motion2.angular_velocity.norm()) * time + std::max(0.0, approach) / size;
+  return std::clamp(rotation, kLeastTilt, kLargestTilt);
 }
 
 inline bool is_finite(const MotionAhead& motion) {

@@ -10,17 +10,18 @@
 namespace supernormal {
 namespace {
 
-// A line of contact is this much wider than nothing, relative to the smallest extent of both bodies along the plane.
+// The width of a line of contact, relative to the smallest extent of both bodies along the plane.
 constexpr double kThinnest = 1e-3;
 
-// Corners are looked for from so many times the reach of the region: far enough to find those of a square that is turned by
-// 25 degrees, near enough to move along an edge, and not to jump, when it is turned by 45.
+// Manifold points are the nearest points to four points outside, at this multiple of the region's radius. This is far enough to
+// find the corners of a square that is turned by 25 degrees. It is near enough that points move along an edge, and do not jump,
+// when the square is turned by 45 degrees.
 constexpr double kLookFrom = 1.5;
 
 /// A support polygon in the coordinates of the contact, counter-clockwise.
 class Side {
  public:
-  /// A line gets the width `thin`, m, so that two of them have a region in common.
+  /// A line gets the width `thin`, m, so that two lines have a region in common.
   Side(const SupportPolygon& polygon, const ContactFrame& frame, bool sees_it_from_below, double thin)
       : axis_(frame.plane.project(polygon.axis())), area_(polygon.area()) {
     const Vector2 support_point = frame.project(polygon.support_point());
@@ -34,7 +35,7 @@ class Side {
 
   const ConvexPolygon& outline() const { return outline_; }
 
-  /// The direction of the axes, the same for all four of them, as a complex number whose length grows as the body gets smaller.
+  /// The direction of the axes as a complex number, equal for all four of them. Its length increases as the body gets smaller.
   Vector2 direction() const { return fourth_power(axis_) / (area_ * area_); }
 
  private:
@@ -43,7 +44,7 @@ class Side {
   double area_;
 };
 
-/// The common directions of the axes of both bodies, in which the smaller body has more weight.
+/// The common directions of the axes of both bodies. The smaller body has more weight.
 std::array<Vector2, 2> common_axes(const Side& side1, const Side& side2) {
   const Vector2 sum = side1.direction() + side2.direction();
   const Vector2 first = sum.squaredNorm() > 0 ? direction_of_fourth_power(sum) : Vector2(Vector2::UnitX());
@@ -58,7 +59,7 @@ ConvexPolygon common_region(const ConvexPolygon& outline1, const ConvexPolygon& 
 
 /// Finds four corners of a region that is not empty.
 CornerList corners_of(const ConvexPolygon& region, const Side& side1, const Side& side2, const ContactFrame& frame,
-                      const Vector2& lean) {
+                      const Vector2& slope) {
   double squared_reach = 0;
   for (int k = 0; k < region.size(); ++k) squared_reach = std::max(squared_reach, region[k].squaredNorm());
   const double reach = std::sqrt(squared_reach);
@@ -68,7 +69,7 @@ CornerList corners_of(const ConvexPolygon& region, const Side& side1, const Side
   for (std::size_t k = 0; k < diagonals.size(); ++k) {
     const Vector2 corner = region.nearest_to(kLookFrom * reach * diagonals[k]);
     corners.points[k] = frame.lift(corner);
-    corners.leans[k] = lean.dot(corner);
+    corners.separations[k] = slope.dot(corner);
   }
   return corners;
 }
@@ -86,16 +87,16 @@ std::optional<CornerList> find_common_corners(const SupportPolygon& polygon1, co
   const Side side2(polygon2, frame, true, thin);
   const ConvexPolygon region = common_region(side1.outline(), side2.outline());
   if (region.size() == 0) return std::nullopt;
-  const Vector2 lean = frame.plane.project(polygon1.slope() + polygon2.slope());
-  return corners_of(region, side1, side2, frame, lean);
+  const Vector2 slope = frame.plane.project(polygon1.slope() + polygon2.slope());
+  return corners_of(region, side1, side2, frame, slope);
 }
 
 CornerList corners_over_plane(const SupportPolygon& polygon, const Vector3& normal) {
   CornerList corners;
   for (std::size_t k = 0; k < corners.points.size(); ++k) {
-    corners.leans[k] = polygon.slope().dot(polygon.vertices()[k]);
-    // On the face, whose rounding does not count: a body that rolls on a line has the radius of its equator.
-    corners.points[k] = polygon.support_point() + polygon.vertices()[k] - std::max(0.0, corners.leans[k]) * normal;
+    corners.separations[k] = polygon.slope().dot(polygon.vertices()[k]);
+    // On the sloped face, without its rounding. So a body that rolls on a line rolls with the radius of its equator.
+    corners.points[k] = polygon.support_point() + polygon.vertices()[k] - std::max(0.0, corners.separations[k]) * normal;
   }
   return corners;
 }

@@ -1,4 +1,4 @@
-// The corners of the region on which two bodies may rest on one another.
+// The manifold points of two bodies: the corners of the region on which they may rest.
 #pragma once
 
 #include <array>
@@ -10,22 +10,22 @@
 
 namespace supernormal {
 
-// Corners that are nearer to each other than this share of the body's extent are one; from twice that on they are two, and in
-// between they move together.
+// Manifold points nearer to each other than this fraction of the body's extent become one. From twice this distance on they are
+// separate. In between they move together.
 inline constexpr double kSamePlace = 0.01;
 
-/// Points on which the bodies may rest, and how far the faces lean away from one another there, m.
+/// Points on which the bodies may rest, and the separation of the two tilted faces there, m.
 struct CornerList {
   std::array<Vector3, ContactManifold::kMaxCorners> points;
-  std::array<double, ContactManifold::kMaxCorners> leans;
+  std::array<double, ContactManifold::kMaxCorners> separations;
 };
 
-/// Whether the body may rest on more than one point. Plates and segments have no thickness to be deep in, nor have shapes that are
-/// thinner than a body of ours may be.
+/// Whether the body may rest on more than one point. Plates and segments have no thickness to overlap in. Nor have shapes thinner
+/// than the valid range.
 bool may_have_corners(const Shape& shape);
 
-/// The corners of what the support polygons of two bodies have in common, counter-clockwise about the normal, which points from
-/// body 1 to body 2, in the plane through `origin`; none where the polygons do not meet.
+/// The corners of the intersection of two support polygons, counter-clockwise about the normal, in the plane through `origin`. The
+/// normal points from body 1 to body 2. Empty if the polygons do not intersect.
 std::optional<CornerList> find_common_corners(const SupportPolygon& polygon1, const SupportPolygon& polygon2, const Vector3& normal,
                                               const Vector3& origin);
 

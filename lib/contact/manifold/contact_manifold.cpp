@@ -11,44 +11,45 @@
 namespace supernormal {
 namespace {
 
-// A support point that is below a contact by less than this share of the smallest half-extent is there but for rounding.
+// A support point below a contact by less than this fraction of the smallest half-extent differs from it by rounding only.
 constexpr double kBelow = 1e-12;
 
-// Two corners that are nearer than this share of that length differ by rounding only.
+// Two manifold points nearer than this fraction of same_place differ by rounding only.
 constexpr double kMoved = 0.01;
 
-// Two corners are equally deep when their depths differ by less than this share.
+// Two manifold points are equally deep if their depths differ by less than this fraction.
 constexpr double kSameDepth = 1e-9;
 
-// A corner of depth 0 has this share of the deepest point's depth as its weight where two are united; with contacts ahead, one
-// that is ContactManifold::shallow above the deepest has this share of that.
-constexpr double kLeastShare = 0.01;
+// The weight of a point of depth 0 when two points are merged, as a fraction of the deepest point's depth. With contacts ahead, the
+// weight of a point ContactManifold::shallow above the deepest, as a fraction of `shallow`.
+constexpr double kLeastWeight = 0.01;
 
-/// At any depth: what rests has one of rounding alone, and a body that stands on a point for a step slides.
+/// At any depth: a resting body has a depth of rounding only, and a body that stands on one point for a step slides.
 bool may_have_corners(const Shape& shape, const Proximity& proximity) {
   const bool is_answer = proximity.status != Status::InvalidInput && proximity.status != Status::Apart;
   return is_answer && may_have_corners(shape) && proximity.gap < 0;
 }
 
-/// Faces count as flat between their corners: what counts is by how much a corner leans more than another. A corner that leans by
-/// more than `depth`, where it does not lean, and `largest_lean` (m) is drawn in towards the deepest point, to where the faces
-/// lean by as much.
-void write(const CornerList& corners, double largest_lean, double depth, ContactManifold& manifold) {
-  const double least = *std::min_element(corners.leans.begin(), corners.leans.end());
+/// Faces count as flat between the manifold points, so only differences of separations matter. If the separation of a point exceeds
+/// `depth` and `allowed_separation` (m), the point is in the air. It moves in towards the deepest point, to where the separation is
+/// just as much.
+void write(const CornerList& corners, double allowed_separation, double depth, ContactManifold& manifold) {
+  const double least = *std::min_element(corners.separations.begin(), corners.separations.end());
   const Vector3& deepest = manifold.deepest.contact;
-  const double left_at_deepest = std::max(0.0, depth + largest_lean + std::min(0.0, least));
+  const double margin_at_deepest = std::max(0.0, depth + allowed_separation + std::min(0.0, least));
   for (std::size_t k = 0; k < corners.points.size(); ++k) {
-    const double lean = corners.leans[k] - least;
-    const double left = depth + largest_lean - lean;
-    const double share = left < 0 ? left_at_deepest / (left_at_deepest - left) : 1;
-    manifold.corners[k] = {deepest + share * (corners.points[k] - deepest), std::max(0.0, depth - share * lean)};
+    const double separation = corners.separations[k] - least;
+    const double margin = depth + allowed_separation - separation;
+    const double share = margin < 0 ? margin_at_deepest / (margin_at_deepest - margin) : 1;
+    manifold.corners[k] = {deepest + share * (corners.points[k] - deepest), std::max(0.0, depth - share * separation)};
   }
   manifold.corner_count = ContactManifold::kMaxCorners;
 }
 
-/// Moves both corners to one place between them, with the depth of the deeper one, so that the deepest contact stays as deep as
-/// the overlap. The deeper of two has more weight: where the body leans, its place matters. Corners up to `floor` have the least.
-void unite(ManifoldCorner& corner, ManifoldCorner& other, double floor, double least_weight) {
+/// Moves both points to one place between them, with the depth of the deeper one. So the deepest contact stays as deep as the
+/// overlap. The deeper point has more weight, because its place matters when the body is tilted. Points up to the depth `floor`
+/// have the least weight.
+void merge(ManifoldCorner& corner, ManifoldCorner& other, double floor, double least_weight) {
   const double weight = std::max(0.0, corner.depth - floor) + least_weight;
   const double weight_of_other = std::max(0.0, other.depth - floor) + least_weight;
   const double share = weight_of_other / (weight + weight_of_other);
@@ -57,22 +58,22 @@ void unite(ManifoldCorner& corner, ManifoldCorner& other, double floor, double l
   other = corner;
 }
 
-/// Rotates the corners so that the first two are the neighbours that are least deep, where these are less deep by `shallow` (m).
-/// United with a corner that is far above, a deep one stays where it is, and the far one is held no more: a body that comes down
-/// on the other three has its centre over their border. With contacts of overlaps no corner is so far above.
-void put_highest_pair_first(std::array<ManifoldCorner, ContactManifold::kMaxCorners>& corners, double shallow) {
+/// Rotates the list so that the first two are the shallowest neighbours, if these are shallower than the first pair by `shallow`
+/// (m). A deep point merged with a point far above stays where it is, and nothing supports the far one. The centre of a body that
+/// comes down on the other three would then be over their border. In an overlap no point is so far above.
+void put_shallowest_pair_first(std::array<ManifoldCorner, ContactManifold::kMaxCorners>& corners, double shallow) {
   const auto depth_of_pair = [&](std::size_t k) { return std::max(corners[k].depth, corners[(k + 1) % corners.size()].depth); };
-  std::size_t highest = 0;
+  std::size_t shallowest = 0;
   for (std::size_t k = 1; k < corners.size(); ++k) {
-    if (depth_of_pair(k) < depth_of_pair(highest)) highest = k;
+    if (depth_of_pair(k) < depth_of_pair(shallowest)) shallowest = k;
   }
-  if (depth_of_pair(0) - depth_of_pair(highest) <= shallow) return;
-  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(highest), corners.end());
+  if (depth_of_pair(0) - depth_of_pair(shallowest) <= shallow) return;
+  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(shallowest), corners.end());
 }
 
-/// Moves corners that are near to each other to their mean, as deep as the deepest of them: not at all from twice the distance on,
-/// to one place within it.
-void draw_together(std::span<ManifoldCorner> corners, double distance) {
+/// Moves manifold points that are near each other to their mean, as deep as the deepest. Points at `distance` coincide, points at
+/// twice the distance do not move.
+void move_together(std::span<ManifoldCorner> corners, double distance) {
   std::array<ManifoldCorner, ContactManifold::kMaxCorners> drawn;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     Vector3 sum = Vector3::Zero();
@@ -89,7 +90,7 @@ void draw_together(std::span<ManifoldCorner> corners, double distance) {
   std::copy_n(drawn.begin(), corners.size(), corners.begin());
 }
 
-/// Keeps one of several corners at the same place, as deep as the deepest of them.
+/// Keeps one of several manifold points at the same place, as deep as the deepest.
 void remove_repeated(ContactManifold& manifold) {
   const double distance = kMoved * manifold.same_place;
   const auto kept = manifold.corners.begin();
@@ -104,21 +105,21 @@ void remove_repeated(ContactManifold& manifold) {
   manifold.corner_count = static_cast<int>(end - kept);
 }
 
-/// Whether the corners are at more places than an edge has.
+/// Whether the manifold points are at more places than the two ends of an edge.
 bool is_face(ContactManifold manifold) {
-  draw_together(manifold.corners, manifold.same_place);
+  move_together(manifold.corners, manifold.same_place);
   remove_repeated(manifold);
   return manifold.corner_count > 2;
 }
 
-/// Sorts the corners by depth. Those that are equally deep but for rounding stay in order around the contact, because quickstep's
+/// Sorts the manifold points by depth. Points of equal depth up to rounding stay in order around the contact, because quickstep's
 /// forces depend on the order.
 void put_deepest_first(std::span<ManifoldCorner> corners, double shallow) {
   double depth = corners.front().depth;
   for (const ManifoldCorner& corner : corners) depth = std::max(depth, corner.depth);
   const double unit = kSameDepth * std::max(depth, shallow);
   const auto units_above = [&](const ManifoldCorner& corner) { return std::round((depth - corner.depth) / unit); };
-  // By insertion: std::stable_sort would ask for memory.
+  // By insertion: std::stable_sort would allocate memory.
   for (auto next = corners.begin(); next != corners.end(); ++next) {
     const auto place = std::upper_bound(
         corners.begin(), next, *next,
@@ -141,7 +142,7 @@ ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, co
   manifold.evaluations += polygon2.evaluations();
   if (!polygon2.has_width()) return manifold;
   const std::optional<CornerList> corners = find_common_corners(polygon1, polygon2, proximity.normal, proximity.contact);
-  if (corners) write(*corners, std::min(polygon1.largest_lean(), polygon2.largest_lean()), depth, manifold);
+  if (corners) write(*corners, std::min(polygon1.allowed_separation(), polygon2.allowed_separation()), depth, manifold);
   manifold.same_place = kSamePlace * std::min(polygon1.size(), polygon2.size());
   manifold.margin = std::max(0.0, polygon1.largest_separation() + polygon2.largest_separation() - depth);
   return manifold;
@@ -150,7 +151,7 @@ ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, co
 ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity) {
   ContactManifold manifold(proximity);
   if (!may_have_corners(shape, proximity)) return manifold;
-  // At the border of a sheet the contact is beside the point on which the body would stand if the sheet went on.
+  // At the border of a sheet the contact may be beside the point on which the body would stand if the sheet continued.
   const Vector3 support_point = pose.rotation * shape.point(pose.rotation.transpose() * proximity.normal) + pose.position;
   const double below = std::max(0.0, proximity.normal.dot(support_point - proximity.point1));
   const bool is_beside = below > kBelow * shape.half_extents().minCoeff();
@@ -159,17 +160,18 @@ ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose
   const SupportPolygon polygon(shape, pose, proximity.normal, stands_on, depth);
   manifold.evaluations = polygon.evaluations();
   if (!polygon.has_width()) return manifold;
-  write(corners_over_plane(polygon, proximity.normal), polygon.largest_lean(), depth, manifold);
+  write(corners_over_plane(polygon, proximity.normal), polygon.allowed_separation(), depth, manifold);
   manifold.same_place = kSamePlace * polygon.size();
   manifold.margin = std::max(0.0, polygon.largest_separation() - depth);
   return manifold;
 }
 
-// Which corners are united does not depend on where they are, and corners that approach each other are drawn together before they
-// become one: so no force jumps. Quickstep starts each step from zero and ends before it has converged, so that the contact that
-// comes first carries more: with the deepest first, bodies drift least (lib/contact/README.md).
-// Two contacts let a body turn about the line through them. Where it has all its velocity yet, a face is stopped at one place, near
-// the line through its centre of mass (ahead/small_turn).
+// Which points are merged does not depend on their places, and points that approach each other move together before they become
+// one. So no force jumps. Quickstep starts each step from zero and ends before it has converged, so the first contact carries more.
+// Bodies drift least if the deepest is first (lib/contact/README.md).
+//
+// Two contacts let a body rotate about the line through them. A body that is about to meet a face still has all its velocity. With
+// max_contacts 2 it is stopped at one place, near the line through its centre of mass (ahead/small_rotation).
 ContactManifold reduced_to(ContactManifold manifold, int room) {
   if (room < 2) manifold.corner_count = 0;
   if (manifold.corner_count == 0) return manifold;
@@ -181,14 +183,14 @@ ContactManifold reduced_to(ContactManifold manifold, int room) {
   }
   const double depth = -manifold.deepest.gap;
   const double shallow = std::max(depth, manifold.shallow);
-  const double least_weight = kLeastShare * shallow;
-  if (room == 3) put_highest_pair_first(corners, shallow);
-  if (room < 4) unite(corners[0], corners[1], depth - shallow, least_weight);
-  if (room < 3) unite(corners[2], corners[3], depth - shallow, least_weight);
-  draw_together(corners, manifold.same_place);
+  const double least_weight = kLeastWeight * shallow;
+  if (room == 3) put_shallowest_pair_first(corners, shallow);
+  if (room < 4) merge(corners[0], corners[1], depth - shallow, least_weight);
+  if (room < 3) merge(corners[2], corners[3], depth - shallow, least_weight);
+  move_together(corners, manifold.same_place);
   remove_repeated(manifold);
   put_deepest_first({corners.begin(), static_cast<std::size_t>(manifold.corner_count)}, manifold.shallow);
-  corners[0].depth = depth;  // but for rounding it is
+  corners[0].depth = depth;  // equal up to rounding
   return manifold;
 }
 

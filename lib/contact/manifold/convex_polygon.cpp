@@ -7,22 +7,22 @@ namespace supernormal {
 
 double ConvexPolygon::area() const {
   double twice = 0;
-  for (int k = 1; k + 1 < size_; ++k) twice += cross((*this)[k] - corners_[0], (*this)[k + 1] - corners_[0]);
+  for (int k = 1; k + 1 < size_; ++k) twice += cross((*this)[k] - vertices_[0], (*this)[k + 1] - vertices_[0]);
   return 0.5 * twice;
 }
 
-// Clips by Sutherland and Hodgman's algorithm (1974): the other polygon's edges cut this one, one after the other. If edges lie on
-// edges, as in a stack, rounding decides which corners are kept, and no branch predictor foresees it: so corners are written in any
-// case, and only their count depends on it.
+// Clips by Sutherland and Hodgman's algorithm (1974): the edges of the other polygon cut this one, one after the other. If edges
+// coincide, as in a stack, rounding decides which vertices are kept, and no branch predictor foresees it. So every vertex is
+// written, and only the count depends on the decision.
 ConvexPolygon ConvexPolygon::intersected(const ConvexPolygon& other) const {
-  using Corners = std::array<Vector2, kCapacity + 2>;
-  std::array<Corners, 2> buffers;  // one holds the corners that are cut, the other those that are kept; they take turns
-  std::copy_n(corners_.begin(), size_, buffers[0].begin());
+  using Vertices = std::array<Vector2, kCapacity + 2>;
+  std::array<Vertices, 2> buffers;  // one holds the vertices to be cut, the other the vertices kept; they alternate
+  std::copy_n(vertices_.begin(), size_, buffers[0].begin());
   auto count = static_cast<std::size_t>(size_);
   std::size_t current = 0;
   for (int edge = 0; edge < other.size() && count > 0; ++edge) {
-    const Corners& rest = buffers[current];
-    Corners& kept = buffers[1 - current];
+    const Vertices& rest = buffers[current];
+    Vertices& kept = buffers[1 - current];
     const Vector2& from = other[edge];
     const Vector2 along = other[edge + 1 < other.size() ? edge + 1 : 0] - from;
     std::size_t kept_count = 0;
@@ -43,13 +43,13 @@ ConvexPolygon ConvexPolygon::intersected(const ConvexPolygon& other) const {
     current = 1 - current;
   }
   ConvexPolygon rest;
-  std::copy_n(buffers[current].begin(), count, rest.corners_.begin());
+  std::copy_n(buffers[current].begin(), count, rest.vertices_.begin());
   rest.size_ = static_cast<int>(count);
   return rest;
 }
 
 Vector2 ConvexPolygon::nearest_to(const Vector2& point) const {
-  Vector2 nearest = corners_[0];
+  Vector2 nearest = vertices_[0];
   double least = HUGE_VAL;
   for (int k = 0; k < size_; ++k) {
     const Vector2 here = (*this)[k];

@@ -18,27 +18,27 @@ struct ContactFrame {
   Eigen::Vector3d lift(const Vector2& point) const { return origin + plane.lift(point); }
 };
 
-/// A convex polygon, counter-clockwise, or a degenerate one: a segment, a point, nothing.
+/// A convex polygon, counter-clockwise. It may be degenerate: a segment, a point or empty.
 class ConvexPolygon {
  public:
-  /// Two quadrangles meet in a polygon of at most eight corners.
+  /// Two quadrangles intersect in a polygon of at most eight vertices.
   static constexpr int kCapacity = 8;
 
-  void add(const Vector2& corner) { corners_[static_cast<std::size_t>(size_++)] = corner; }
+  void add(const Vector2& vertex) { vertices_[static_cast<std::size_t>(size_++)] = vertex; }
   int size() const { return size_; }
-  const Vector2& operator[](int k) const { return corners_[static_cast<std::size_t>(k)]; }
+  const Vector2& operator[](int k) const { return vertices_[static_cast<std::size_t>(k)]; }
 
   double area() const;  ///< m^2
 
-  /// The intersection of both. A corner of one that is repeated, or inside of its neighbours by rounding, does no harm. This
-  /// polygon may be a segment; the other one needs an interior.
+  /// The intersection of both. Vertices that are repeated, or inside of their neighbours by rounding, do no harm. This polygon may
+  /// be a segment; the other one must have an interior.
   ConvexPolygon intersected(const ConvexPolygon& other) const;
 
-  /// The point of the polygon that is nearest to a point outside of it. The polygon must have a corner.
+  /// The point of the polygon nearest to a point outside. The polygon must have a vertex.
   Vector2 nearest_to(const Vector2& point) const;
 
  private:
-  std::array<Vector2, kCapacity> corners_;
+  std::array<Vector2, kCapacity> vertices_;
   int size_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// The manifold of bodies that are apart, touch or overlap slightly, by the gaps of its corners.
+// The manifold of bodies that are apart, touch or overlap slightly, with the gap of each manifold point.
 #include <algorithm>
 #include <optional>
 
@@ -9,18 +9,18 @@
 namespace supernormal {
 namespace {
 
-// Where two corners are united, one that is higher by this share of the distance within which corners are one weighs least.
+// A point this fraction of same_place above the other one has the least weight when the two are merged.
 constexpr double kShallow = 0.1;
 
 bool may_stand(const Shape& shape, const Proximity& proximity) {
   return proximity.status != Status::InvalidInput && may_have_corners(shape);
 }
 
-/// `gap` is that of the corner that leans least, m.
+/// `gap` is the gap of the manifold point with the smallest separation, m.
 void write_gaps(const CornerList& corners, double gap, double size, ContactManifold& manifold) {
-  const double least = *std::min_element(corners.leans.begin(), corners.leans.end());
+  const double least = *std::min_element(corners.separations.begin(), corners.separations.end());
   for (std::size_t k = 0; k < corners.points.size(); ++k) {
-    manifold.corners[k] = {corners.points[k], least - corners.leans[k] - gap};
+    manifold.corners[k] = {corners.points[k], least - corners.separations[k] - gap};
   }
   manifold.corner_count = ContactManifold::kMaxCorners;
   manifold.same_place = kSamePlace * size;
@@ -52,7 +52,7 @@ ContactManifold find_plane_manifold_of_gaps(const Shape& shape, const Pose& pose
   const SupportPolygon polygon = SupportPolygon::of_tilt(shape, pose, proximity.normal, support_point, tilt);
   manifold.evaluations = 1 + polygon.evaluations();
   if (!polygon.has_width()) return manifold;
-  // At the border of a sheet the contact is beside the point on which the body would stand if the sheet went on.
+  // At the border of a sheet the contact may be beside the point on which the body would stand if the sheet continued.
   const double below = std::max(0.0, proximity.normal.dot(support_point - proximity.point1));
   write_gaps(corners_over_plane(polygon, proximity.normal), proximity.gap - below, polygon.size(), manifold);
   return manifold;

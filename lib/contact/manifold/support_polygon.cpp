@@ -10,39 +10,39 @@
 namespace supernormal {
 namespace {
 
-// The reach: how far apart the bodies may be where they rest on one another. It is so many least extents (of the half-height, both
-// half-extents in the plane, and what stands there) at any depth, so that what a body stands on does not shrink to a point as
-// quickstep takes the depth away; and so many depths more, for bodies that fall: with less of it those with round edges take longer
-// to rest than a dBox.
+// The reach: the bodies may be this far apart at a vertex. The first term is in least extents, at any depth. The least extent is
+// the smallest of the half-height, both half-extents in the plane and the thickness of the other body. So the polygon does not
+// shrink to a point when quickstep takes the depth away. The second term is in depths, for bodies that fall. With a smaller one,
+// bodies with round edges take longer to rest than a dBox.
 constexpr double kReach = 2e-3;
 constexpr double kReachOfDepth = 12;
 
-// Largest reach, in least extents, but at least the depth: beyond it the vertices would hold a body that leans in the air in a
-// fall.
+// Largest reach, in least extents, but at least the depth. With a larger reach the vertices would support a tilted falling body in
+// the air.
 constexpr double kLargestReach = 0.07;
 
-// Share of the reach by which a corner may lean more than another: with more of it, bodies rest leaning. It is less where the
-// corners are nearer to the deepest point than so many least extents, as those of a stubby capsule are: the same rise is a larger
-// angle there.
-constexpr double kLean = 0.5;
+// Allowed separation of a manifold point beyond the depth, as a fraction of the reach. With a larger fraction, bodies fall asleep
+// tilted. The allowed separation is smaller if all vertices are within kSmallPolygon least extents of the deepest point, as for a
+// stubby capsule. The same separation is a larger angle there.
+constexpr double kAllowedSeparation = 0.5;
 constexpr double kSmallPolygon = 0.5;
 
-// A face like |x|^e with this exponent has its vertices exactly at the reach; a flatter one has them nearer to its end.
+// A face like |x|^e with this exponent has its vertices exactly at the reach. The vertices of a flatter face are nearer to its end.
 constexpr double kFaceExponent = 8;
 
-// Largest tilt, half-heights over half-extents: beyond it the vertices would be on the sides of the body.
+// Largest tilt, half-heights over half-extents. With a larger tilt the vertices would be on the sides of the body.
 constexpr double kLargestTilt = 1;
 
-// What is round at its ends looks round from a larger tilt than this: it is looked at again from here.
+// At a larger tilt than this, a flat body with round ends looks round. So the widths are taken at this tilt, too.
 constexpr double kNear = 0.3;
 
-// Exponents of faces like |x|^e: up to the first the body is round, from the second on it is flat. The closed forms of rocking
-// bodies hold up to an exponent of 4, whose fraction is up to 4 % less than 1/4 at the tilts below; bodies come to rest with the
-// second.
+// Exponents of faces like |x|^e: the body is round up to the first, and flat from the second on. The closed forms of rocking bodies
+// hold up to exponent 4. The fraction of this exponent is up to 4 % less than 1/4 at the tilts below. Bodies come to rest with the
+// second exponent.
 constexpr double kRoundExponent = 4.5;
 constexpr double kFlatExponent = 6;
 
-// Two ends that are nearer to each other than this, in half-extents, differ by rounding: the body ends in an edge or a vertex.
+// In half-extents; two ends nearer to each other than this differ by rounding. The body then ends in an edge or a vertex.
 constexpr double kLeastLength = 1e-6;
 
 // A polygon is long from this ratio of its sides on.
@@ -50,20 +50,20 @@ constexpr double kLong = 2;
 
 using Tilt = std::array<double, 2>;  // of the normal, n + tilt[0] axes[0] + tilt[1] axes[1]
 
-// The four tilts along the axes, and the four along the diagonals, in units of the largest tilt along either axis; those of the
-// diagonals are counter-clockwise. Vertex k is between the tilts kAlong[k][0] and kAlong[k][1] along the axes.
+// The four tilts along the axes and the four along the diagonals, in units of the largest tilt along either axis. The diagonals are
+// counter-clockwise. Vertex k lies between the tilts kAlong[k][0] and kAlong[k][1] along the axes.
 constexpr std::array<Tilt, 4> kAxes = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 constexpr std::array<Tilt, 4> kDiagonals = {{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
 constexpr std::array<std::array<std::size_t, 2>, 4> kAlong = {{{0, 2}, {1, 2}, {1, 3}, {0, 3}}};
 
-/// The ramp is 0 up to `zero` and 1 from `one` on, either of which may be the larger. Callers pass constants, so that the compiler
-/// computes the quotient.
+/// The ramp is 0 up to `zero` and 1 from `one` on. Either may be the larger one. Callers pass constants, so the compiler computes
+/// the quotient.
 inline double ramp(double value, double zero, double one) { return std::clamp((value - zero) * (1 / (one - zero)), 0.0, 1.0); }
 
-/// The axes of a body as they lie in the tangent plane: two directions at right angles, such that all the body's axes, and their
-/// opposites, are near one of them or its opposite. Axes are added as complex numbers to the power of four, in which these are
-/// all the same. So the result depends on the normal continuously, except where the three axes are alike, towards the vertices of
-/// a box. All is in the body's frame.
+/// The axes of a body projected into the tangent plane: two perpendicular directions. Each axis of the body is near one of them or
+/// its opposite. The axes are added as complex numbers to the fourth power, where all of these directions are equal. So the result
+/// is continuous in the normal. The exceptions are the normals at which the three axes look alike, towards the vertices of a box.
+/// Everything is in the body's frame.
 std::array<Vector3, 2> axes_in_plane(const Vector3& n) {
   int along_normal = 0;
   n.cwiseAbs().maxCoeff(&along_normal);
@@ -75,8 +75,8 @@ std::array<Vector3, 2> axes_in_plane(const Vector3& n) {
   return {plane.lift(first), plane.lift({-first.y(), first.x()})};
 }
 
-// (kFaceExponent reach / (2 height))^(1 - 1 / kFaceExponent): the slope, in half-heights over half-extents, where a face of that
-// exponent has half of the reach as its separation along either axis.
+// (kFaceExponent reach / (2 height))^(1 - 1 / kFaceExponent): the slope at which a face of this exponent has the separation reach /
+// 2 along either axis, in half-heights over half-extents.
 double tangent_of_tilt(double reach, double height) {
   const double x = 0.5 * kFaceExponent * reach / height;
   return std::min(kLargestTilt, std::sqrt(x * std::sqrt(x * std::sqrt(x))));
@@ -112,7 +112,7 @@ struct SupportPolygon::View {
         axes(axes_in_plane(normal)) {}
 };
 
-/// The points of a body whose normals are tilted against n by up to the same angle, in units of the half-extents.
+/// The points of a body whose normals are tilted against n by the same angle, in units of the half-extents.
 class SupportPolygon::Tilts {
  public:
   Tilts(const View& view, double height, const std::array<double, 2>& extents, const std::array<double, 2>& tangents)
@@ -131,9 +131,9 @@ class SupportPolygon::Tilts {
   const SupportPoints& ends() const { return ends_; }
 
   /// The points of the four diagonals.
-  SupportPoints corners() const { return without_ball(points_of(kDiagonals), kDiagonals); }
+  SupportPoints diagonals() const { return without_ball(points_of(kDiagonals), kDiagonals); }
 
-  /// The slope of the line through both ends of an axis; level where they are at one place.
+  /// The slope of the line through both ends of each axis; 0 if they coincide.
   Tilt slope() const {
     Tilt slope{};
     for (std::size_t a = 0; a < 2; ++a) {
@@ -143,8 +143,8 @@ class SupportPolygon::Tilts {
     return slope;
   }
 
-  /// How flat the body is along both axes as seen from the plane with that slope, on which it touches in `from`: the fraction of
-  /// the separations from the plane in their sum with those from the tilted planes, and 1 along an axis along which it ends in a
+  /// The fraction D / (D + R) along both axes, for the tangent plane with this slope, which touches the body in `from`. D and R are
+  /// the separations from this plane and from the tilted planes. The fraction is 1 along an axis along which the body ends in a
   /// point.
   std::array<double, 2> fractions(const Tilt& slope, const SupportPoint& from) const {
     std::array<double, 2> fractions = {1, 1};
@@ -183,7 +183,7 @@ class SupportPolygon::Tilts {
   double length(std::size_t axis) const { return ends_[2 * axis].along[axis] - ends_[2 * axis + 1].along[axis]; }
   bool has_length(std::size_t axis) const { return length(axis) > kLeastLength * extents_[axis]; }
 
-  /// The support function of the ellipsoid with the body's half-extents: in these units it has the fraction 1/2 at every tilt.
+  /// The support function of the ellipsoid with the body's half-extents. In these units its fraction is 1/2 at every tilt.
   double size_of(const Tilt& tilt) const { return tilted(tilt).cwiseProduct(half_extents_).norm(); }
 
   Vector3 tilted(const Tilt& tilt) const { return n_ + tilt[0] * axes_[0] + tilt[1] * axes_[1]; }
@@ -193,8 +193,9 @@ class SupportPolygon::Tilts {
     return {{axes_[0].dot(offset), axes_[1].dot(offset)}, std::max(0.0, -n_.dot(offset))};
   }
 
-  /// What a ball rolls in is the sum of the ball and another body, whose faces and edges end where those of the whole do. So its
-  /// points, moved by the ball's point of the untilted normal, are where the body stands.
+  /// A body in which a ball can roll is the sum of the ball and another body. The faces and edges of the sum end where the faces
+  /// and edges of the other body end. So the body stands on the points of the other body, moved by the ball's point of the normal
+  /// n.
   SupportPoints without_ball(SupportPoints points, const std::array<Tilt, 4>& tilts) const {
     if (rolling_radius_ == 0) return points;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -239,11 +240,11 @@ class SupportPolygon::Tilts {
 SupportPolygon::SupportPolygon(const View& view)
     : support_point_(view.support_point_there), axes_({view.pose.rotation * view.axes[0], view.pose.rotation * view.axes[1]}) {
   const Vector3 half_extents = view.shape.half_extents();
-  // The extents are those of the ellipsoid with the body's half-extents.
+  // The extents of the ellipsoid with the body's half-extents.
   const auto extent = [&](const Vector3& u) { return u.cwiseProduct(half_extents).norm(); };
   extents_ = {extent(view.axes[0]), extent(view.axes[1])};
   height_ = extent(view.normal);
-  // Of a tall body the height says nothing of how far it may lean.
+  // The height of a tall body does not limit how far it may tilt.
   least_extent_ = std::min({height_, extents_[0], extents_[1]});
 }
 
@@ -274,28 +275,28 @@ void SupportPolygon::find(const View& view, const std::array<double, 2>& tangent
     return Tilts(view, height_, extents_, of_tilts);
   };
   const Tilts tilts = tilts_of(tangents);
-  widths_ = widths_seen_by(tilts);
+  widths_ = widths_by(tilts);
   if (std::max(tangents[0], tangents[1]) > kNear && std::min(widths_[0], widths_[1]) < 1) {
     const Tilts near = tilts_of({std::min(tangents[0], kNear), std::min(tangents[1], kNear)});
-    const std::array<double, 2> from_near = widths_seen_by(near);
+    const std::array<double, 2> from_near = widths_by(near);
     widths_ = {std::max(widths_[0], from_near[0]), std::max(widths_[1], from_near[1])};
   }
   const Tilt slope = tilts.slope();
   slope_ = widths_[0] * slope[0] * axes_[0] + widths_[1] * slope[1] * axes_[1];
   if (!has_width()) return;
   place_vertices(tilts);
-  turn_across();
+  put_axis_across();
 }
 
-double SupportPolygon::largest_lean() const {
+double SupportPolygon::allowed_separation() const {
   double farthest = 0;
   for (const Vector3& vertex : vertices_) farthest = std::max(farthest, vertex.norm());
-  return kLean * reach_ * std::min(1.0, farthest / (kSmallPolygon * least_extent_));
+  return kAllowedSeparation * reach_ * std::min(1.0, farthest / (kSmallPolygon * least_extent_));
 }
 
-// How flat the body is along both axes. The fraction is small where the body is flat and the plane is parallel to the face;
-// elsewhere the view from the face decides.
-std::array<double, 2> SupportPolygon::widths_seen_by(const Tilts& tilts) {
+// The fraction is small where the body is flat and the plane is parallel to the face. Otherwise the tangent plane parallel to the
+// face decides.
+std::array<double, 2> SupportPolygon::widths_by(const Tilts& tilts) {
   std::array<double, 2> fractions = tilts.fractions({}, {});
   if (std::max(fractions[0], fractions[1]) > 1 / kFlatExponent) {
     const Tilt slope = tilts.slope();
@@ -308,24 +309,24 @@ std::array<double, 2> SupportPolygon::widths_seen_by(const Tilts& tilts) {
 }
 
 void SupportPolygon::place_vertices(const Tilts& tilts) {
-  SupportPoints corners{};
+  SupportPoints diagonals{};
   if (widths_[0] > 0 && widths_[1] > 0) {
-    corners = tilts.corners();
+    diagonals = tilts.diagonals();
     evaluations_ += 4;
   }
-  const double share0 = widths_[0] * (1 - widths_[1]);
-  const double share1 = widths_[1] * (1 - widths_[0]);
-  const double share_of_corner = widths_[0] * widths_[1];
+  const double weight0 = widths_[0] * (1 - widths_[1]);
+  const double weight1 = widths_[1] * (1 - widths_[0]);
+  const double weight_of_diagonal = widths_[0] * widths_[1];
   for (std::size_t k = 0; k < 4; ++k) {
     const SupportPoint& end0 = tilts.ends()[kAlong[k][0]];
     const SupportPoint& end1 = tilts.ends()[kAlong[k][1]];
-    const auto mixed = [&](double of_end0, double of_end1, double of_corner) {
-      return share0 * of_end0 + share1 * of_end1 + share_of_corner * of_corner;
+    const auto mixed = [&](double of_end0, double of_end1, double of_diagonal) {
+      return weight0 * of_end0 + weight1 * of_end1 + weight_of_diagonal * of_diagonal;
     };
-    const Vector3 vertex = mixed(end0.along[0], end1.along[0], corners[k].along[0]) * axes_[0] +
-                           mixed(end0.along[1], end1.along[1], corners[k].along[1]) * axes_[1];
-    const double separation = mixed(end0.separation, end1.separation, corners[k].separation);
-    // What is farther away than a face that leans is no part of it: it is drawn in along a chord of the body.
+    const Vector3 vertex = mixed(end0.along[0], end1.along[0], diagonals[k].along[0]) * axes_[0] +
+                           mixed(end0.along[1], end1.along[1], diagonals[k].along[1]) * axes_[1];
+    const double separation = mixed(end0.separation, end1.separation, diagonals[k].separation);
+    // A point farther away than the sloped face plus the reach is no part of the face. It moves in along a chord of the body.
     const double beside_face = separation - std::max(0.0, slope_.dot(vertex));
     const double share = beside_face > reach_ ? reach_ / beside_face : 1;
     vertices_[k] = share * vertex;
@@ -333,8 +334,8 @@ void SupportPolygon::place_vertices(const Tilts& tilts) {
   }
 }
 
-// Where two corners are united, those that differ along the first axis are: they are to be at the same end.
-void SupportPolygon::turn_across() {
+// Makes the first axis the short one. Merging joins the manifold points that differ along this axis, which must be at the same end.
+void SupportPolygon::put_axis_across() {
   const double length0 = widths_[0] * extents_[0];
   const double length1 = widths_[1] * extents_[1];
   is_long_ = std::max(length0, length1) > kLong * std::min(length0, length1);

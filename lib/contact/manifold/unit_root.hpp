@@ -15,7 +15,7 @@ inline Vector2 fourth_power(const Vector2& z) {
   return product(square, square);
 }
 
-/// A square root, of any length, with a real part that is not negative: it halves the angle, as a diagonal of a rhombus does. The
+/// A square root of any length, with a real part that is not negative. It halves the angle, as a diagonal of a rhombus does. The
 /// result is 0 if z is negative and real.
 inline Vector2 direction_of_square(const Vector2& z) { return {z.x() + z.norm(), z.y()}; }
 

@@ -179,9 +179,11 @@ void MeshContactSearch::find_on_arc(SupportProbe& probe, int f, int side, const 
 }
 
 // The deepest point may lie under no face although the solid continues there. There are two such cases:
-// - - A sharp tip is pressed into the corner of floor and wall. Above the tip there is the wall, not the floor. The solid continues
+//
+// * A sharp tip is pressed into the corner of floor and wall. Above the tip there is the wall, not the floor. The solid continues
 //   below the wall, and so does the contact with the floor.
-// - - A thin rod stands deep in the floor. Above its tip the floor is outside the body's box, and its triangles are unknown.
+// * A thin rod stands deep in the floor. Above its tip the floor is outside the body's box, and its triangles are unknown.
+//
 // The contact may only continue as far as the solid: beyond a low wall the plane of the floor is in the air. Where the body leaves
 // that plane it must be in the solid. Then a known face lies between that point and the other end of the body.
 void MeshContactSearch::find_beyond_rim(SupportProbe& probe, std::size_t p) {

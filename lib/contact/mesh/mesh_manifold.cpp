@@ -43,17 +43,17 @@ struct Stretch {
   double border = 0;  // `to` without the crack
 };
 
-/// The part of the segment from the origin to `corner` over the triangle or an adjacent crack, as fractions of the segment. from >
-/// to if there is none.
+/// The part of the segment from the origin to `corner` over the triangle or an adjacent crack, as fractions of the segment. If
+/// there is none, from > to.
 Stretch stretch_over(const Floor& floor, const MeshTriangle& triangle, const Vector3& corner) {
   Stretch stretch{0, 1, 1};
-  const Vector3 way = corner - floor.origin;
-  const double crack = kCrack * std::max(way.norm(), longest_side(triangle));
+  const Vector3 to_corner = corner - floor.origin;
+  const double crack = kCrack * std::max(to_corner.norm(), longest_side(triangle));
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3 start = triangle.vertices[k] - floor.origin;
     const Vector3 inward = floor.normal.cross(triangle.vertices[(k + 1) % 3] - triangle.vertices[k]).normalized();
-    // The line is inside, inward.(share way - start) >= 0, or outside by less than a crack.
-    const double slope = inward.dot(way);
+    // The segment's point t to_corner is inside, inward.(t to_corner - start) >= 0, or outside by less than a crack.
+    const double slope = inward.dot(to_corner);
     const double offset = inward.dot(start);
     if (slope > 0) {
       stretch.from = std::max(stretch.from, (offset - crack) / slope);
@@ -68,19 +68,19 @@ Stretch stretch_over(const Floor& floor, const MeshTriangle& triangle, const Vec
 }
 
 /// How far the floor extends from the origin towards `corner`, as a fraction of the segment.
-double share_on_floor(const Floor& floor, std::span<const MeshTriangle> triangles, const Vector3& corner) {
+double fraction_on_floor(const Floor& floor, std::span<const MeshTriangle> triangles, const Vector3& corner) {
   double reached = 0;
   double border = 0;
-  bool goes_on = true;
-  while (goes_on && reached < 1) {
-    goes_on = false;
+  bool is_extended = true;
+  while (is_extended && reached < 1) {
+    is_extended = false;
     for (const MeshTriangle& triangle : triangles) {
       if (!floor.has(triangle)) continue;
       const Stretch stretch = stretch_over(floor, triangle, corner);
       if (stretch.from > reached + kCrack || stretch.to <= reached) continue;
       reached = stretch.to;
       border = std::max(border, stretch.border);
-      goes_on = true;
+      is_extended = true;
     }
   }
   return reached < 1 ? border : 1;
@@ -88,21 +88,21 @@ double share_on_floor(const Floor& floor, std::span<const MeshTriangle> triangle
 
 }  // namespace
 
-// Manifold points in the air are drawn in towards the mean of the contact and the points on the floor. The contact itself may lie
-// on the border: drawn in towards it, they would all end there.
+// Manifold points in the air move in towards the mean of the contact and the points on the floor. The contact itself may be on the
+// border, and towards it they would all end there.
 void draw_in_corners(ContactManifold& manifold, std::span<const MeshTriangle> triangles) {
   if (manifold.corner_count == 0) return;
   const double depth = -manifold.deepest.gap;
   Floor floor{-manifold.deepest.normal, manifold.deepest.point2, std::max(0.0, depth)};
-  std::array<double, ContactManifold::kMaxCorners> shares{};
+  std::array<double, ContactManifold::kMaxCorners> fractions{};
   bool is_on_face = false;
   double on_floor = 1;
   ManifoldCorner middle{manifold.deepest.contact, depth};
-  for (std::size_t k = 0; k < shares.size(); ++k) {
+  for (std::size_t k = 0; k < fractions.size(); ++k) {
     const ManifoldCorner& corner = manifold.corners[k];
-    shares[k] = share_on_floor(floor, triangles, corner.point);
-    is_on_face = is_on_face || shares[k] > 0;
-    if (shares[k] < 1) continue;
+    fractions[k] = fraction_on_floor(floor, triangles, corner.point);
+    is_on_face = is_on_face || fractions[k] > 0;
+    if (fractions[k] < 1) continue;
     ++on_floor;
     middle.point += (corner.point - middle.point) / on_floor;
     middle.depth += (corner.depth - middle.depth) / on_floor;
@@ -112,12 +112,12 @@ void draw_in_corners(ContactManifold& manifold, std::span<const MeshTriangle> tr
     return;
   }
   floor.origin = middle.point - floor.normal.dot(middle.point - manifold.deepest.point2) * floor.normal;
-  for (std::size_t k = 0; k < shares.size(); ++k) {
-    if (shares[k] >= 1) continue;
+  for (std::size_t k = 0; k < fractions.size(); ++k) {
+    if (fractions[k] >= 1) continue;
     ManifoldCorner& corner = manifold.corners[k];
-    const double share = share_on_floor(floor, triangles, corner.point);
-    corner.point = middle.point + share * (corner.point - middle.point);
-    corner.depth = middle.depth + share * (corner.depth - middle.depth);
+    const double fraction = fraction_on_floor(floor, triangles, corner.point);
+    corner.point = middle.point + fraction * (corner.point - middle.point);
+    corner.depth = middle.depth + fraction * (corner.depth - middle.depth);
   }
 }
 

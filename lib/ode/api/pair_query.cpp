@@ -19,7 +19,7 @@ namespace supernormal::ode {
 namespace {
 
 // The result of the core for two geoms. Body 1 is ours.
-Proximity query(dGeomID ours, dGeomID collider, Goal goal) {
+Proximity query(dGeomID ours, dGeomID collider, QueryKind kind) {
   require_body(ours);
   PairQuery* const pair_query = find_query(dGeomGetClass(collider));
   if (pair_query == nullptr) {
@@ -27,7 +27,7 @@ Proximity query(dGeomID ours, dGeomID collider, Goal goal) {
         "the collider is " + geom_class_name(collider) +
         ", but must be a body made by snCreate… or one of ODE's own geoms (not a space, not a dGeomTransform)");
   }
-  Proximity result = pair_query(ours, collider, goal).deepest;
+  Proximity result = pair_query(ours, collider, kind).deepest;
   if (result.status == Status::InvalidInput || !std::isfinite(result.gap)) {
     refuse_pair(ours, collider);
   }
@@ -79,11 +79,11 @@ void require_two(dGeomID g1, dGeomID g2, const void* out) {
   if (g1 == g2) throw std::invalid_argument("g1 and g2 are the same geom, but must be two");
 }
 
-int answer_query(const char* function, dGeomID g1, dGeomID g2, Goal goal, snProximity* out) {
+int answer_query(const char* function, dGeomID g1, dGeomID g2, QueryKind kind, snProximity* out) {
   return guarded(function, 0, [&] {
     require_two(g1, g2, out);
     const bool swapped = find_body(g1) == nullptr;
-    write(swapped ? query(g2, g1, goal) : query(g1, g2, goal), swapped, *out);
+    write(swapped ? query(g2, g1, kind) : query(g1, g2, kind), swapped, *out);
     return 1;
   });
 }
@@ -109,11 +109,11 @@ int answer_impact(dGeomID g1, dGeomID g2, double horizon, snImpact* out) {
 using namespace supernormal::ode;
 
 extern "C" int snGeomProximity(dGeomID g1, dGeomID g2, snProximity* out) {
-  return answer_query("snGeomProximity", g1, g2, Goal::Distance, out);
+  return answer_query("snGeomProximity", g1, g2, QueryKind::Distance, out);
 }
 
 extern "C" int snGeomProximityCertified(dGeomID g1, dGeomID g2, snProximity* out) {
-  return answer_query("snGeomProximityCertified", g1, g2, Goal::CertifiedDistance, out);
+  return answer_query("snGeomProximityCertified", g1, g2, QueryKind::CertifiedDistance, out);
 }
 
 extern "C" int snGeomTimeOfImpact(dGeomID g1, dGeomID g2, dReal horizon, snImpact* out) {

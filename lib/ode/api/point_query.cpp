@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "ode/colliders/goal.hpp"
+#include "ode/colliders/query_kind.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/support/last_error.hpp"
@@ -20,7 +20,7 @@ extern "C" dReal snGeomPointDepth(dGeomID geom, dReal x, dReal y, dReal z) {
   return guarded("snGeomPointDepth", std::numeric_limits<dReal>::quiet_NaN(), [&] {
     const Body& body = require_body(geom);
     const Pose point_pose{require_place(Vector3(x, y, z)), Matrix3::Identity()};
-    const Settings settings = for_goal(body.settings(), Goal::Distance);
+    const Settings settings = settings_for(body.settings(), QueryKind::Distance);
     const Proximity result = find_proximity(body.shape(), pose_of(geom), Sphere(0), point_pose, settings);
     if (result.status == Status::InvalidInput) throw std::invalid_argument("the pose of geom" + no_answer_because());
     return to_real(0 - result.gap);  // 0 - 0 is +0, not -0

@@ -110,7 +110,8 @@ void Batch::solve_job(std::size_t index) {
   const auto [g1, g2] = job.pair.geoms();
   dContactGeom* const first = &job_contacts_[index * static_cast<std::size_t>(max_contacts_of_job_)];
   try {
-    const ContactManifold manifold = job.pair.solve(job.cached, max_contacts_ > 1 ? Goal::Contacts : Goal::OneContact, job.last);
+    const ContactManifold manifold =
+        job.pair.solve(job.cached, max_contacts_ > 1 ? QueryKind::Contacts : QueryKind::OneContact, job.last);
     job.count = write_contacts(manifold, {g1, g2, max_contacts_of_job_, first, sizeof(dContactGeom)});
   } catch (...) {
     job.is_refused = true;  // a user shape threw: collide the pair again where the error can be reported

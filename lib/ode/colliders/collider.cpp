@@ -16,7 +16,7 @@ template <PairQuery kQuery>
 int collide_by(dGeomID ours, dGeomID collider, int flags, dContactGeom* contacts, int skip) {
   return guarded("dCollide", 0, [&] {
     const ContactArray out{ours, collider, flags, contacts, skip};
-    const ContactManifold manifold = kQuery(ours, collider, out.max_contacts() > 1 ? Goal::Contacts : Goal::OneContact);
+    const ContactManifold manifold = kQuery(ours, collider, out.max_contacts() > 1 ? QueryKind::Contacts : QueryKind::OneContact);
     if (manifold.deepest.status == Status::InvalidInput) refuse_pair(ours, collider);
     return write_contacts(manifold, out);
   });

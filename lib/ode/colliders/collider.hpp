@@ -5,15 +5,15 @@
 
 #include <ode/ode.h>
 
-#include "ode/colliders/goal.hpp"
+#include "ode/colliders/query_kind.hpp"
 #include "supernormal/contact/contact_manifold.hpp"
 
 namespace supernormal::ode {
 
 /// A query finds the proximity of a geom of ours and a collider (the other geom of the pair, of any class). Frame: world. The
-/// normal points from ours to the collider. For Goal::Contacts the result includes the contact manifold. A query counts itself in
-/// the statistics. Throws like the core.
-using PairQuery = ContactManifold(dGeomID ours, dGeomID collider, Goal goal);
+/// normal points from ours to the collider. For QueryKind::Contacts the result includes the contact manifold. A query counts itself
+/// in the statistics. Throws like the core.
+using PairQuery = ContactManifold(dGeomID ours, dGeomID collider, QueryKind kind);
 
 PairQuery query_body;  // both geoms are ours
 PairQuery query_plane;

@@ -25,14 +25,14 @@ BodyAhead moving(const PosedShape& posed) {
 
 /// Solves two shapes. `last.pose` must be set. The cached normal is in a frame with the orientation `frame`. `size` goes to
 /// find_cached_normal(). Contacts are predicted `time` (s) ahead.
-ContactManifold solve(const PosedShape& one, const PosedShape& other, const Settings& settings, Goal goal, double time,
+ContactManifold solve(const PosedShape& one, const PosedShape& other, const Settings& settings, QueryKind kind, double time,
                       const Matrix3& frame, double size, const CachedNormal& cached, LastNormal& last) {
   Vector3 first_normal;
   const bool is_warm = find_cached_normal(cached, last.pose, size, first_normal);
   // The solver expects the normal in the frame of the first shape.
   if (is_warm && &frame != &one.pose.rotation) first_normal = one.pose.rotation.transpose() * (frame * first_normal);
-  const bool looks_ahead = time > 0 && is_for_contacts(goal);
-  const Settings asked = for_goal(settings, looks_ahead ? Goal::Distance : goal);
+  const bool looks_ahead = time > 0 && is_for_contacts(kind);
+  const Settings asked = settings_for(settings, looks_ahead ? QueryKind::Distance : kind);
   const Proximity result = find_proximity(one.shape, one.pose, other.shape, other.pose, asked, is_warm ? &first_normal : nullptr);
   last.is_known = result.status != Status::InvalidInput;
   last.normal.noalias() = frame.transpose() * result.normal;
@@ -42,8 +42,8 @@ ContactManifold solve(const PosedShape& one, const PosedShape& other, const Sett
     return ahead;
   }
   count_query(result, is_warm);
-  return goal == Goal::Contacts ? find_contact_manifold(one.shape, one.pose, other.shape, other.pose, result)
-                                : ContactManifold(result);
+  return kind == QueryKind::Contacts ? find_contact_manifold(one.shape, one.pose, other.shape, other.pose, result)
+                                     : ContactManifold(result);
 }
 
 }  // namespace
@@ -61,14 +61,14 @@ BodyPair::BodyPair(dGeomID g1, dGeomID g2)
 
 PairKey BodyPair::key() const { return PairKey::of_bodies(body1_->serial(), body2_->serial()); }
 
-ContactManifold BodyPair::solve(const CachedNormal& cached, Goal goal, LastNormal& last) const {
+ContactManifold BodyPair::solve(const CachedNormal& cached, QueryKind kind, LastNormal& last) const {
   const Pose pose1 = pose_of(geom1_);
   const Pose pose2 = pose_of(geom2_);
   last.pose = RelativePose::of(pose1, pose2);
   const double time = std::max(body1_->look_ahead(), body2_->look_ahead());
   const PosedShape one{geom1_, body1_->shape(), pose1};
   const PosedShape other{geom2_, body2_->shape(), pose2};
-  ContactManifold manifold = ode::solve(one, other, combined(body1_->settings(), body2_->settings()), goal, time, pose1.rotation,
+  ContactManifold manifold = ode::solve(one, other, combined(body1_->settings(), body2_->settings()), kind, time, pose1.rotation,
                                         std::min(body1_->size(), body2_->size()), cached, last);
   if (is_swapped_) {
     manifold.deepest.normal = -manifold.deepest.normal;
@@ -77,7 +77,7 @@ ContactManifold BodyPair::solve(const CachedNormal& cached, Goal goal, LastNorma
   return manifold;
 }
 
-ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, Goal goal) {
+ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, QueryKind kind) {
   const Body& body = require_body(ours);
   const Pose pose = pose_of(ours);
   LastNormal last;
@@ -87,7 +87,7 @@ ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, Goal goa
   const PosedShape one{ours, body.shape(), pose};
   const PosedShape other{collider.geom, collider.shape, collider.pose};
   ContactManifold manifold =
-      solve(one, other, body.settings(), goal, time, collider.pose.rotation, body.size(), reserve_entry(key), last);
+      solve(one, other, body.settings(), kind, time, collider.pose.rotation, body.size(), reserve_entry(key), last);
   last.store(key);
   return manifold;
 }

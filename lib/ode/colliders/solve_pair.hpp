@@ -28,7 +28,7 @@ struct LastNormal {
   }
 };
 
-/// A pair of our bodies. Body 1 of the query is the older body, whatever the order of the arguments. Spaces pass a pair in either
+/// A pair of our bodies. Body 1 of the query is the older body, in either order of the arguments. Spaces pass a pair in either
 /// order, and both orders give the same digits.
 class BodyPair {
  public:
@@ -40,7 +40,7 @@ class BodyPair {
 
   /// The result as seen from g1. Reads only the two geoms and changes only the statistics of this thread: pairs may be solved in
   /// parallel while no geom moves.
-  ContactManifold solve(const CachedNormal& cached, Goal goal, LastNormal& last) const;
+  ContactManifold solve(const CachedNormal& cached, QueryKind kind, LastNormal& last) const;
 
  private:
   dGeomID geom1_, geom2_;
@@ -59,8 +59,8 @@ struct ColliderShape {
 
 /// Solves the pair of a body of ours and such a collider, with a warm start if a normal is cached. Counts the query.
 ///
-/// The cached normal is in the frame of the collider. The key is the direction from there to our body. A body on a dBox floor, or
-/// rolling along a wall, keeps its normal and nearly its place, however it rotates.
-ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, Goal goal);
+/// The cached normal is in the frame of the collider. The key is the direction from the collider to our body. So a body on a dBox
+/// floor, or rolling along a wall, keeps its normal and nearly its key, at any rotation.
+ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, QueryKind kind);
 
 }  // namespace supernormal::ode

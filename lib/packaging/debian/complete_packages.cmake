@@ -1,5 +1,5 @@
 # Run by cpack before it makes the packages: adds what Debian's policy asks for to the staged files, and computes the symbols files.
-# A library that exports another symbol than lib/debian/<package>.symbols says ends cpack with the difference.
+# If a library exports a symbol that is not in <package>.symbols, cpack fails and prints the difference.
 set(date $ENV{SOURCE_DATE_EPOCH})
 if(date STREQUAL "")
   string(TIMESTAMP date "%s" UTC)
@@ -22,7 +22,7 @@ function(add_documents package root)
   execute_process(COMMAND gzip -9n ${folder}/changelog COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# write_symbols(package root): to dpkg-gensymbols a symbol is missing only after the version that brought it, so it is told a later one.
+# write_symbols(package root): dpkg-gensymbols misses a symbol only after the version that introduced it, so it gets a later version.
 function(write_symbols package root)
   file(GLOB libraries ${root}/${CPACK_SUPERNORMAL_LIB_DIR}/lib*.so.${CPACK_PACKAGE_VERSION})
   set(control ${CPACK_SUPERNORMAL_CONTROL_DIR}/${package})

@@ -57,7 +57,7 @@ if(BUILD_SHARED_LIBS)
   # Besides the symbols files, for packages that are built without dpkg-gensymbols.
   set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
   set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
-  # Where dpkg-shlibdeps finds the core, which is no package yet when that of the ODE layer is made.
+  # Here dpkg-shlibdeps finds the core, which is not yet a package when the ODE layer's package is made.
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)
   supernormal_add_runtime_package(supernormal_core_runtime libsupernormal-core "${about_core}
 This package holds the shared library of the core.")

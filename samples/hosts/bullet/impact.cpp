@@ -23,7 +23,7 @@ using namespace supernormal::impact_hosts;
 
 btScalar scalar(double value) { return static_cast<btScalar>(value); }
 
-/// Bullet's own shape where it has one, `scale` times as large.
+/// Bullet's own shape if it has one, `scale` times as large.
 std::shared_ptr<btConvexShape> shape_of(const Shape& shape, double scale) {
   if (const auto* ball = dynamic_cast<const Sphere*>(&shape)) {
     return std::make_shared<btSphereShape>(scalar(scale * ball->radius()));
@@ -46,7 +46,7 @@ std::shared_ptr<btConvexShape> shape_of(const Shape& shape, double scale) {
   } else {
     throw std::logic_error("no shape of Bullet for this class of shape");
   }
-  sharp->setMargin(0);  // with one, Bullet would round its edges
+  sharp->setMargin(0);  // with a margin, Bullet would round its edges
   return sharp;
 }
 
@@ -83,7 +83,7 @@ double time_by_straight(const BulletBody& one, const BulletBody& other) {
   return time_by(cast, one, other);
 }
 
-/// Bullet stops at a gap of 1e-3 of its unit of length: `scale` is how many of these a metre has.
+/// Bullet stops at a gap of 1e-3 of its unit of length. `scale` is the number of these units in a metre.
 Contestant contestant(const char* name, double (*search)(const BulletBody&, const BulletBody&), double scale, bool follows_turns) {
   return {name,
           [=](const MovingPair& pair) {

@@ -1,4 +1,4 @@
-// Bullet with our bodies. Needs the core alone, no ODE.
+// Bullet with our bodies. Needs only the core, not ODE.
 #pragma once
 
 #include <BulletCollision/CollisionShapes/btConvexInternalShape.h>
@@ -34,7 +34,7 @@ class SmoothShape : public btConvexInternalShape {
 
   btVector3 localGetSupportingVertexWithoutMargin(const btVector3& direction) const override {
     Jet jet;
-    shape_->evaluate(from_bullet(direction), Order::Point, jet);  // of any length: the point is the same
+    shape_->evaluate(from_bullet(direction), Order::Point, jet);  // any length gives the same point
     return to_bullet(jet.r);
   }
   btVector3 localGetSupportingVertex(const btVector3& direction) const override {

@@ -1,4 +1,4 @@
-// Bodies at rest on a floor in DART, with its own ODE detector and with ours: half-axes of (0.2, 0.1, 0.1) m rest at 0.1 m.
+// Bodies at rest on a floor in DART, with its own ODE detector and with ours. Half-axes of (0.2, 0.1, 0.1) m rest at 0.1 m.
 #include <cmath>
 #include <cstdio>
 #include <dart/constraint/ConstraintSolver.hpp>
@@ -38,7 +38,7 @@ dart::dynamics::SkeletonPtr make_body(const ShapePtr& shape, double height) {
   return skeleton;
 }
 
-/// The height, m, of a body two seconds after it was let go a little above its rest.
+/// The height, m, of a body two seconds after its release slightly above its rest.
 double rest_height(const ShapePtr& shape, const dart::collision::CollisionDetectorPtr& detector) {
   auto world = dart::simulation::World::create();
   world->getConstraintSolver()->setCollisionDetector(detector);
@@ -64,7 +64,7 @@ int main() {
   const auto brick = std::make_shared<SuperellipsoidShape>(Eigen::Vector3d(0.2, 0.1, 0.1), 20, 20);
   const bool all_rest =
       rests_at("ellipsoid (0.2, 0.1, 0.1) m", ellipsoid, 0.1) & rests_at("superellipsoid, exponents 20", brick, 0.1);
-  // Every detector of DART has given its reference on ODE back by now; ours is still there.
+  // DART's detectors have released their references on ODE by now. Ours still holds one.
   dGeomID sphere = snCreateEllipsoid(nullptr, 1, 1, 1);
   const bool survives = sphere != nullptr;
   if (survives) dGeomDestroy(sphere);

@@ -10,7 +10,7 @@ using dart::collision::CollisionObject;
 using dart::collision::OdeCollisionGroup;
 using dart::collision::OdeCollisionObject;
 
-/// A geom of ours, which dies with the owner.
+/// A geom of ours, destroyed with its owner.
 struct GeomDeleter {
   void operator()(dGeomID geom) const { dGeomDestroy(geom); }
 };
@@ -21,14 +21,14 @@ OwnedGeom owned(dGeomID geom) {
   return OwnedGeom(geom);
 }
 
-/// DART shows the geom of a collision object to derived classes only.
+/// DART gives only derived classes access to the geom of a collision object.
 struct GeomReader : OdeCollisionObject {
   static dGeomID geom_of(const CollisionObject* object) {
     return (static_cast<const OdeCollisionObject*>(object)->*&GeomReader::getOdeGeomId)();
   }
 };
 
-/// Ours for the shape; null if DART's will do.
+/// Our geom for the shape; null if DART's will do.
 OwnedGeom make_geom(const dart::dynamics::Shape& shape) {
   if (shape.getType() == dart::dynamics::EllipsoidShape::getStaticType()) {
     const Eigen::Vector3d half = static_cast<const dart::dynamics::EllipsoidShape&>(shape).getRadii();
@@ -49,7 +49,7 @@ class SupernormalGroup : public OdeCollisionGroup {
     OdeCollisionGroup::addCollisionObjectToEngine(object);
     OwnedGeom ours = make_geom(*object->getShape());
     if (ours == nullptr) return;
-    // DART's own geom stays where DART expects it, without a part in collisions. The data of a geom is its collision object.
+    // DART's own geom stays where DART expects it, but takes no part in collisions. The data of a geom is its collision object.
     dGeomID theirs = GeomReader::geom_of(object);
     dGeomDisable(theirs);
     dGeomSetBody(ours.get(), dGeomGetBody(theirs));
@@ -76,7 +76,7 @@ class SupernormalGroup : public OdeCollisionGroup {
   std::unordered_map<const CollisionObject*, OwnedGeom> geoms_;
 };
 
-/// Mass properties by way of a geom, which has them exactly.
+/// Mass properties from a geom, which has them exactly.
 dMass mass_of(const SuperellipsoidShape& shape, double total_mass) {
   const OwnedGeom geom = owned(shape.create_geom());
   dMass mass;
@@ -88,7 +88,7 @@ dMass mass_of(const SuperellipsoidShape& shape, double total_mass) {
 
 SuperellipsoidShape::SuperellipsoidShape(const Eigen::Vector3d& half_axes, double delta, double epsilon)
     : half_axes_(half_axes), delta_(delta), epsilon_(epsilon) {
-  owned(create_geom());  // refuses bad parameters at once
+  owned(create_geom());  // refuses invalid parameters at once
 }
 
 const std::string& SuperellipsoidShape::static_type() {

@@ -1,4 +1,4 @@
-// DART with real ellipsoids and superellipsoids: its ODE detector makes spheres of 1 cm of the shapes that it does not know.
+// DART with real ellipsoids and superellipsoids. Its ODE detector replaces unknown shapes by spheres of 1 cm.
 #pragma once
 
 #include <supernormal/supernormal.h>
@@ -9,7 +9,7 @@
 
 namespace supernormal::dart_host {
 
-/// A shape that DART does not have; half-axes in m, exponents as those of snCreateSuperellipsoid. DART takes its inertia from
+/// A shape that DART does not have; half-axes in m, exponents as in snCreateSuperellipsoid. DART takes its inertia from
 /// computeInertia().
 class SuperellipsoidShape : public dart::dynamics::Shape {
  public:
@@ -19,7 +19,7 @@ class SuperellipsoidShape : public dart::dynamics::Shape {
   const std::string& getType() const override { return static_type(); }
   Eigen::Matrix3d computeInertia(double mass) const override;
 
-  /// A geom of this shape, in no space. Throws std::runtime_error with the library's message when it refuses the parameters.
+  /// A geom of this shape, in no space. Throws std::runtime_error with the library's message if the library refuses the parameters.
   dGeomID create_geom() const;
 
  protected:
@@ -31,8 +31,8 @@ class SuperellipsoidShape : public dart::dynamics::Shape {
   double delta_, epsilon_;
 };
 
-/// DART's ODE detector, but for EllipsoidShape and SuperellipsoidShape: their geoms are replaced by ours, on the same body, in the
-/// same space. Use it as DART's own: world->getConstraintSolver()->setCollisionDetector(SupernormalDetector::create()).
+/// DART's ODE detector, except for EllipsoidShape and SuperellipsoidShape. Their geoms are replaced by ours, on the same body, in
+/// the same space. Use it like DART's own: world->getConstraintSolver()->setCollisionDetector(SupernormalDetector::create()).
 class SupernormalDetector : public dart::collision::OdeCollisionDetector {
  public:
   static std::shared_ptr<SupernormalDetector> create();

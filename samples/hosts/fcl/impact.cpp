@@ -51,6 +51,6 @@ int main() {
   const Contestant fcl{"FCL", [](const MovingPair& pair) {
                          return [one = FclBody(pair.one), other = FclBody(pair.other)] { return time_by_fcl(one, other); };
                        }};
-  constexpr Bodies kKinds[] = {Bodies::Colliders};  // it has no conservative advancement of ellipsoids
+  constexpr Bodies kKinds[] = {Bodies::Colliders};  // FCL has no conservative advancement for ellipsoids
   return compare(kKinds, {fcl}) ? 0 : 1;
 }

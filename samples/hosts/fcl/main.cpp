@@ -1,5 +1,5 @@
-// Random pairs of superellipsoids through FCL's broad phase; their distances by FCL's GJK with our support functions and by our
-// solver, ours also where all that it is given is a support function.
+// Random pairs of superellipsoids through FCL's broad phase. The distances come from FCL's GJK with our support functions, and from
+// our solver, also with only a support function.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -19,7 +19,7 @@ struct Found {
   double worst_to_gjk = 0, worst_to_callback = 0;
 };
 
-/// A shape of which only support function and boundary point are known.
+/// A shape with only its support function and boundary point.
 CallbackShape without_hessian(const Shape& shape) {
   return {[&shape](const Vector3& n) { return shape.support(n); }, [&shape](const Vector3& n) { return shape.point(n); }};
 }
@@ -41,7 +41,7 @@ bool compare(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* object2, voi
   double distance = 0;
   gjk.shapeDistance(shape1, pose1, shape2, pose2, &distance);
   found.worst_to_gjk = std::max(found.worst_to_gjk, std::abs(distance - ours.gap));
-  return false;  // go on
+  return false;  // continue
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// FCL with our bodies, and our solver for those who have a support function only. Needs the core alone, no ODE.
+// FCL with our bodies, and our solver for shapes that have only a support function. Needs only the core, not ODE.
 #pragma once
 
 #include <fcl/fcl.h>
@@ -9,8 +9,8 @@
 
 namespace supernormal::fcl_host {
 
-/// A shape of ours as a geometry of FCL. FCL's broad phase takes it like any other; its narrow phase, which looks shapes up in a
-/// table of its own, is called with the shape's type: fcl::detail::GJKSolver_libccd<double>().shapeDistance(shape, pose, …).
+/// A shape of ours as a geometry of FCL. FCL's broad phase accepts it like any other. FCL's narrow phase looks shapes up in its own
+/// table, so call it with the shape's type: fcl::detail::GJKSolver_libccd<double>().shapeDistance(shape, pose, …).
 class SmoothShape : public fcl::ShapeBased {
  public:
   explicit SmoothShape(std::shared_ptr<const Shape> shape) : shape_(std::move(shape)) { SmoothShape::computeLocalAABB(); }

@@ -12,9 +12,9 @@ namespace {
 
 constexpr int kPairs = 1000;
 constexpr int kRuns = 5;
-constexpr double kDeep = 1e-6;  // m; an overlap that is more than rounding of a host
+constexpr double kDeep = 1e-6;  // m; a deeper overlap is more than a host's rounding
 
-// rad; the second is below the quarter of a half-turn to which Bullet cuts each motion.
+// rad; the second one is below the quarter of a half-turn into which Bullet cuts each motion.
 constexpr double kTurns[] = {0, 0.75, 2};
 
 const char* name_of(Bodies bodies) {
@@ -28,7 +28,7 @@ const char* name_of(Bodies bodies) {
   }
 }
 
-/// s, of this process so far; std::clock is too coarse for one search.
+/// s; the processor time of this process so far. std::clock is too coarse for one search.
 double processor_time() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -37,8 +37,8 @@ double processor_time() {
 
 struct Tally {
   int impacts = 0, missed = 0, late = 0, invented = 0;
-  double seconds = 0;          // of all pairs
-  double sum = 0, widest = 0;  // m; of the gaps at the times found
+  double seconds = 0;          // s; of all pairs
+  double sum = 0, widest = 0;  // m; sum and maximum of the gaps at the times found
 
   int found() const { return impacts - missed; }
 
@@ -55,7 +55,7 @@ struct Tally {
     const double gap = std::abs(pair.gap(time));
     sum += gap;
     widest = std::max(widest, gap);
-    // Until the time of the truth the bodies are proved apart.
+    // Until the true time the bodies are proved apart.
     double deepest = 0;
     for (int k = 0; k <= 100 && time > truth.time; ++k) {
       deepest = std::min(deepest, pair.gap(truth.time + (time - truth.time) * k / 100));
@@ -78,7 +78,7 @@ Contestant ours(const std::string& name, double tolerance) {
           }};
 }
 
-/// Lets all search for the impact of a pair.
+/// Runs all searches for the impact of a pair.
 void run(const std::vector<Contestant>& contestants, const MovingPair& pair, std::vector<Tally>& tallies) {
   std::vector<std::function<double()>> searches;
   searches.reserve(contestants.size());

@@ -1,4 +1,4 @@
-// Times of impact by a host and by us, on the same pairs in the same run.
+// Times of impact by a host and by this library, on the same pairs in the same run.
 #pragma once
 
 #include <functional>
@@ -10,22 +10,24 @@
 
 namespace supernormal::impact_hosts {
 
-/// What a search returns that finds no impact until the horizon, s.
+/// The result of a search that finds no impact until the horizon, s.
 inline constexpr double kNoImpact = 2 * kHorizon;
 
-/// A way to find times of impact.
+/// A method that finds times of impact.
 struct Contestant {
   std::string name;
-  /// Makes the host's bodies of a pair, and returns the search, which alone is timed: the time of the impact in s, or kNoImpact.
+  /// Makes the host's bodies of a pair, and returns the search. Only the search is timed. It returns the time of the impact in s,
+  /// or kNoImpact.
   std::function<std::function<double()>(const MovingPair&)> prepare;
-  bool follows_turns = true;  ///< whether bodies that turn may be given to it
+  bool follows_turns = true;  ///< whether the bodies may rotate
 };
 
 /// Compares the host's contestants with ours on 1000 pairs of every kind, and prints a line for each. The truth is our search with
-/// a tolerance of 1e-12; the error of a time is the gap that the bodies have then. Processor time, the least of five runs, in turn.
+/// a tolerance of 1e-12. The error of a time is the gap of the bodies at that time. Times are processor times, the smallest of five
+/// alternating runs.
 ///
-/// Returns whether ours, to 1e-9, has found every impact and nothing else, and each contestant of the host more than half of the
-/// impacts of bodies that go straight: one that finds fewer has been given other bodies.
+/// Returns true if two conditions hold. Ours, to 1e-9, has found every impact and nothing else. Each contestant of the host has
+/// found more than half of the impacts of bodies that do not rotate; a contestant that finds fewer got other bodies.
 bool compare(std::span<const Bodies> kinds, const std::vector<Contestant>& host);
 
 }  // namespace supernormal::impact_hosts

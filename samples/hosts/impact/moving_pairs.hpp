@@ -34,7 +34,7 @@ enum class Bodies {
 
 class RandomPairs {
  public:
-  /// Each body turns by up to `most_turn` (rad) within the horizon.
+  /// Each body rotates by up to `most_turn` (rad) within the horizon.
   MovingPair draw(Bodies bodies, double most_turn) {
     MovingPair pair{{draw_shape(bodies), {}}, {draw_shape(bodies), {}}};
     for (MovingBody* body : {&pair.one, &pair.other}) {

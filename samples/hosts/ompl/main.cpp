@@ -1,5 +1,5 @@
-// A motion planned by OMPL's OpenDE extension, which finds its way by simulating in ODE: an ellipsoid of ours is pushed over a
-// floor, past a pillar of ours, to a goal.
+// A motion planned by OMPL's OpenDE extension, which simulates in ODE. An ellipsoid of ours is pushed over a floor, past a pillar
+// of ours, to a goal.
 #include <ompl/base/goals/GoalRegion.h>
 #include <ompl/control/planners/rrt/RRT.h>
 #include <ompl/extensions/ode/OpenDESimpleSetup.h>
@@ -25,7 +25,7 @@ dGeomID require(dGeomID geom) {
   return geom;
 }
 
-/// The world that the planner simulates. It lives longer than the planner; ODE is closed after it.
+/// The world that the planner simulates. It outlives the planner, and ODE is closed after it.
 class Floor : public control::OpenDEEnvironment {
  public:
   Floor() {
@@ -58,7 +58,7 @@ class Floor : public control::OpenDEEnvironment {
     upper = {6, 6};
   }
   void applyControl(const double* force) const override { dBodyAddForce(body_, force[0], force[1], 0); }
-  /// It may lie on the floor, but not touch the pillar.
+  /// The body may lie on the floor, but not touch the pillar.
   bool isValidCollision(dGeomID geom1, dGeomID geom2, const dContact&) const override {
     const bool has_body = dGeomGetBody(geom1) != nullptr || dGeomGetBody(geom2) != nullptr;  // the pillar stands on the floor
     return !has_body || (geom1 != pillar_ && geom2 != pillar_);

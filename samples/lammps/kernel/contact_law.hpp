@@ -26,9 +26,9 @@ struct ContactForce {
 };
 
 /// The contact force for the elastic normal force `elastic`:
-/// - - a damped normal force, which never pulls;
-/// - - Coulomb friction with a tangential spring, which rotates with the contact;
-/// - - a rolling spring.
+/// - a damped normal force, which never pulls;
+/// - Coulomb friction with a tangential spring, which rotates with the contact;
+/// - a rolling spring.
 /// `history` holds the springs and the normal at `step` (s) earlier, and is advanced. With a step of 0 it is only read.
 ContactForce contact_force(const Contact& contact, const NormalForce& elastic, const ContactMaterial& material, const Body& body1,
                            const Body& body2, double step, ContactHistory& history);

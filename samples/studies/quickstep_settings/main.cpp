@@ -1,5 +1,5 @@
-// Measures the influence of quickstep's settings on Supernormal's bodies: one is changed at a time, on small scenes, and printed
-// as Markdown tables.
+// Measures the influence of quickstep's settings on Supernormal's bodies. It changes one setting at a time, on small scenes, and
+// prints Markdown tables.
 
 #include <supernormal/supernormal.h>
 
@@ -66,7 +66,7 @@ std::vector<Variant> variants() {
   };
 }
 
-/// Prints the unrest of bodies that are all kept awake.
+/// Prints the remaining motion of bodies that are all kept awake.
 void print_unrest() {
   const std::vector<Column> columns = {{"stack of 10, 5 cm", 0.05, 4, fill_stack},
                                        {"20 times heavier on 2, 5 cm", 0.05, 4, fill_heavy},

@@ -1,4 +1,4 @@
-// Small worlds on which settings are tried.
+// Small worlds for the settings.
 #pragma once
 
 #include <ode/ode.h>
@@ -19,7 +19,7 @@ class Scene {
   Scene& operator=(const Scene&) = delete;
   Scene& operator=(Scene&&) = delete;
 
-  /// A body with half-axes 2, 1.4 and 1 times the size and both exponents alike; position in sizes, density in kg/m^3.
+  /// A body with half-axes 2, 1.4 and 1 times the size, and equal exponents. Position in sizes, density in kg/m^3.
   void add(double exponent, double density, std::array<double, 3> position, std::array<double, 4> quaternion = {1, 0, 0, 0});
   void add_walls(double half_width);  ///< in sizes
 
@@ -37,8 +37,8 @@ class Scene {
 };
 
 void fill_brick(Scene& scene);   ///< a boxy body (exponents 20), dropped tilted
-void fill_stack(Scene& scene);   ///< ten boxy bodies dropped on one another, a little tilted
-void fill_heavy(Scene& scene);   ///< likewise two boxy bodies and on them one that is twenty times as heavy
+void fill_stack(Scene& scene);   ///< ten boxy bodies dropped on one another, slightly tilted
+void fill_heavy(Scene& scene);   ///< likewise two boxy bodies, and on them a body that is twenty times as heavy
 void fill_pebble(Scene& scene);  ///< an ellipsoid, dropped tilted
 void fill_sunk(Scene& scene);    ///< a boxy body that starts 30 % of its smallest half-axis deep in the floor
 void fill_grains(Scene& scene);  ///< forty grains, round and boxy, dropped between walls

@@ -18,7 +18,7 @@ void apply(const Settings& s, const Scene& scene) {
   if (s.softness > 0) dWorldSetCFM(world, dReal(s.softness * s.step / scene.mass()));
   dWorldSetContactSurfaceLayer(world, dReal(s.surface_layer * scene.size()));
   if (s.correcting_velocity > 0) dWorldSetContactMaxCorrectingVel(world, dReal(s.correcting_velocity));
-  for (const dBodyID body : scene.bodies()) {  // the world's values apply to bodies created afterwards
+  for (const dBodyID body : scene.bodies()) {  // the world's values apply to bodies created later
     dBodySetAngularDamping(body, dReal(s.angular_damping));
     dBodySetAngularDampingThreshold(body, 0);
     dBodySetAutoDisableFlag(body, s.auto_disable ? 1 : 0);

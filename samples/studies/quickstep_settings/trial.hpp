@@ -1,4 +1,4 @@
-// A scene that is stepped with some settings, and the outcome.
+// A run of a scene with some settings, and its outcome.
 #pragma once
 
 #include "scenes.hpp"
@@ -13,7 +13,7 @@ struct Settings {
   double softness = 0;             ///< CFM times the mass of a body, over the step: 0.1 makes a contact 10 % softer than rigid
   double surface_layer = 0;        ///< relative to the smallest half-axis
   double correcting_velocity = 0;  ///< m/s; 0: unlimited
-  double angular_damping = 0;      ///< share of the velocity that each step takes away
+  double angular_damping = 0;      ///< fraction of the velocity that each step removes
   bool auto_disable = false;
   int average_samples = 1;
   double linear_threshold = 0.01;   ///< m/s
@@ -21,9 +21,9 @@ struct Settings {
 };
 
 struct Outcome {
-  double speed;    ///< m/s, root mean square over the mass and over the second half of the time
-  double overlap;  ///< the deepest in the second half, relative to the smallest half-axis
-  double asleep;   ///< s, when the last body fell asleep; negative: never
+  double speed;    ///< m/s; root mean square over the mass, in the second half of the time
+  double overlap;  ///< the deepest overlap in the second half, relative to the smallest half-axis
+  double asleep;   ///< s; when the last body fell asleep; negative: never
   double rise;     ///< largest height of a body's centre above its start, relative to the smallest half-axis
 };
 

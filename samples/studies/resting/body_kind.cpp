@@ -11,12 +11,12 @@ namespace resting {
 namespace {
 
 constexpr double kDensity = 1000;   // kg/m^3
-constexpr double kRounding = 0.25;  // of the edges, half-heights
+constexpr double kRounding = 0.25;  // radius of the rounded edges, half-heights
 constexpr double kTaper = 0.3;
 
 using HalfAxes = std::array<double, 3>;
 
-/// m; of the body in its own frame, whose z axis is the axis of what is round.
+/// m; half-extents in the body's frame, whose z axis is the axis of the round section.
 HalfAxes half_axes_of(BodyKind kind, double h) {
   switch (kind) {
     case BodyKind::Brick:
@@ -41,10 +41,10 @@ HalfAxes half_axes_of(BodyKind kind, double h) {
 
 bool is_box(BodyKind kind) { return kind == BodyKind::Brick || kind == BodyKind::RoundedBrick || kind == BodyKind::UserBrick; }
 
-/// m; half of the length of what is straight.
+/// m; half of the straight length.
 double length_of(BodyKind kind, const HalfAxes& a) { return kind == BodyKind::Pillow ? a[1] : a[2]; }
 
-/// A user's box and cylinder. Their functions take the half-axes as user data.
+/// A user-defined box and cylinder. Their functions get the half-axes as user data.
 dReal box_support(const void* user, const dReal n[3]) {
   const auto& a = *static_cast<const std::array<dReal, 3>*>(user);
   return a[0] * std::abs(n[0]) + a[1] * std::abs(n[1]) + a[2] * std::abs(n[2]);
@@ -162,7 +162,7 @@ bool has_exponent(BodyKind kind) { return kind != BodyKind::UserBrick && kind !=
 dGeomID create_body(dSpaceID space, BodyKind kind, double exponent, double half_height, dMass& mass) {
   const dGeomID geom = create_geom(space, kind, exponent, half_height);
   if (geom == nullptr) throw std::runtime_error(snLastError());
-  // The integrals over the normals do not see the volume behind sharp faces, and the centre of mass of a cone is not at its origin.
+  // The integrals over the normals miss the volume behind sharp faces, and the centre of mass of a cone is not at its origin.
   const bool is_counterparts = !has_exponent(kind) || kind == BodyKind::Cone;
   if (is_counterparts) {
     set_mass_of_counterpart(kind, half_height, mass);

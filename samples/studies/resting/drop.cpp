@@ -13,10 +13,10 @@ namespace {
 constexpr double kLongest = 10;       // s
 constexpr double kFloorSize = 40;     // half-heights, from the middle to the border
 constexpr double kLeastTilt = 1;      // degrees
-constexpr double kGoldenAngle = 2.4;  // rad; no two drops turn about the same axis
+constexpr double kGoldenAngle = 2.4;  // rad; no two drops have the same axis of tilt
 constexpr int kSamples = 9;           // samples of the heightfield along each side
 
-/// The floor with its top at z = 0; ODE refers to the arrays of a mesh or a heightfield for as long as the geom lives.
+/// The floor with its top at z = 0. ODE refers to the arrays of a mesh or a heightfield as long as the geom lives.
 class Floor {
  public:
   Floor() = default;
@@ -81,7 +81,7 @@ class Floor {
 }  // namespace
 
 Rest drop(const Row& row, const Attitudes& attitudes, int number) {
-  Floor floor;  // it must outlive the geom that refers to it
+  Floor floor;  // must outlive the geom that refers to it
   World world(dSimpleSpaceCreate(nullptr), row.step, row.room, row.looks_ahead);
   floor.lay(row.floor, world.space(), kFloorSize * row.half_height);
   if (row.correcting_velocity > 0) dWorldSetContactMaxCorrectingVel(world.id(), static_cast<dReal>(row.correcting_velocity));

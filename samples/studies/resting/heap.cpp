@@ -13,14 +13,14 @@ namespace {
 constexpr double kLongest = 10;  // s
 constexpr int kNeedles = 60;
 constexpr double kSlenderness = 40;  // half-length to half-thickness
-constexpr double kHeavy = 62;        // mass of the body that three light ones carry, in units of one of them
+constexpr double kHeavy = 62;        // mass of the body on the three light ones, in units of one of them
 
 struct Place {
   double x, y, z;     // m
   double yaw, pitch;  // rad
 };
 
-/// A heap that falls.
+/// A falling heap.
 class Scene {
  public:
   Scene(const HeapRow& row, int number)

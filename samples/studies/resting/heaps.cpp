@@ -1,5 +1,5 @@
-// Tests whether heaps come to rest as those of dBoxes do: bundles of needles, needles across one another, and a heavy cube on
-// three light ones.
+// Tests whether heaps come to rest as well as heaps of dBoxes: bundles of needles, crossed needles, and a heavy cube on three light
+// ones.
 
 #include <ode/ode.h>
 #include <supernormal/supernormal.h>

@@ -1,5 +1,5 @@
-// Tests whether bodies come to rest as a dBox or a dCylinder of their size does, whatever the step, the floor, the size and the
-// room for contacts: drops each body 24 times and prints every row that is worse than its counterpart's, then how many there are.
+// Tests whether bodies come to rest as well as a dBox or a dCylinder of their size, at any step, floor, size and max_contacts.
+// Drops each body 24 times. Prints every row that is worse than its counterpart's, then their number.
 
 #include <ode/ode.h>
 #include <supernormal/supernormal.h>
@@ -21,10 +21,11 @@ using namespace resting;
 
 namespace {
 
-// A row is as good as that of the counterpart when as many bodies sleep, after no more than twice the time, and none of those that
-// the counterpart holds has sunk into the floor. What rolls sleeps by luck, so there only the last counts.
+// A row is as good as the counterpart's row if three conditions hold. As many bodies fall asleep. They take at most twice the time.
+// No body sinks into the floor if the counterpart's does not. For rolling bodies only the last condition counts, because their
+// sleep is random.
 constexpr double kSlower = 2;
-// Half-heights; if the counterpart itself comes to rest lower than that, its height less a hundredth is the limit.
+// Half-heights. If the counterpart itself comes to rest lower, the limit is its height less a hundredth.
 constexpr double kHeld = -0.1;
 constexpr double kSlack = 0.01;
 
@@ -51,8 +52,8 @@ struct Options {
 struct Summary {
   int asleep = 0;
   double median = 0;   ///< s; bodies that never sleep count with the whole time
-  double highest = 0;  ///< height of the highest centre of those asleep, half-heights
-  double lowest = 0;   ///< height of the lowest point of all at the end, half-heights
+  double highest = 0;  ///< height of the highest centre of the sleeping bodies, half-heights
+  double lowest = 0;   ///< height of the lowest point of all bodies at the end, half-heights
 };
 
 Summary summarise(const Row& row, const Attitudes& attitudes) {

@@ -1,4 +1,4 @@
-// A world of bodies that fall, set up as a first program of ODE would.
+// A world of falling bodies, set up as in a first program with ODE.
 #pragma once
 
 #include <ode/ode.h>
@@ -10,8 +10,8 @@ namespace resting {
 /// ODE's defaults, gravity along -z, auto-disable, and Coulomb friction of 0.5 between all surfaces.
 class World {
  public:
-  /// `space` is destroyed with the world; `step` is in s, `room` for contacts a pair, 1 to 8. With `looks_ahead` the bodies of
-  /// Supernormal have contacts before they overlap.
+  /// `space` is destroyed with the world. `step`: s. `room`: max_contacts, 1 to 8. With `looks_ahead` the bodies of Supernormal
+  /// have contacts before they overlap.
   World(dSpaceID space, double step, int room, bool looks_ahead);
   ~World();
   World(const World&) = delete;
@@ -22,14 +22,13 @@ class World {
   dWorldID id() const { return world_; }
   dSpaceID space() const { return space_; }
 
-  /// Adds a superellipsoid with that exponent in both sections, or a dBox where it is 0; half-axes in m. Throws
-  /// std::runtime_error.
+  /// Adds a superellipsoid with this exponent in both sections, or a dBox if it is 0. Half-axes in m. Throws std::runtime_error.
   dBodyID add(double exponent, const std::array<double, 3>& half_axes);
 
-  /// Adds a body of that mass with the geom, which must be in the space.
+  /// Adds a body of this mass with the geom, which must be in the space.
   dBodyID add(dGeomID geom, const dMass& mass);
 
-  /// Makes a step. `number` seeds quickstep's order of rows, so that a run repeats.
+  /// Makes a step. `number` seeds quickstep's order of rows, so a run repeats.
   void step(int number);
 
   /// m; the depth of the deepest contact in the last step.

@@ -1,4 +1,4 @@
-// Ellipsoids that hit one another without friction or loss.
+// Ellipsoids that hit each other without friction or loss.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
@@ -31,7 +31,7 @@ Totals totals(const std::vector<dBodyID>& bodies) {
   return sum;
 }
 
-/// Adds a cloud of triaxial ellipsoids that fly about and do not rotate yet.
+/// Adds a cloud of triaxial ellipsoids that fly in all directions, without rotation.
 std::vector<dBodyID> add_cloud(Lab& lab, double pitch) {
   std::mt19937_64 engine(3);
   const auto random = [&] { return 2 * static_cast<double>(engine() >> 11U) * 0x1p-53 - 1; };
@@ -51,7 +51,7 @@ std::vector<dBodyID> add_cloud(Lab& lab, double pitch) {
 }
 
 void make_elastic(const Lab& lab) {
-  dWorldSetERP(lab.world(), 0);  // only the bounce: no push out of the overlap of a step in addition
+  dWorldSetERP(lab.world(), 0);  // only the bounce, without a push out of the overlap
   dWorldSetCFM(lab.world(), 0);
   dWorldSetQuickStepNumIterations(lab.world(), 50);
 }

@@ -1,4 +1,4 @@
-// A plane, a few bodies and the effects that the experiment names.
+// A plane, a few bodies and the effects of an experiment.
 #pragma once
 
 #include <supernormal/supernormal.h>
@@ -29,7 +29,7 @@ class Lab {
   dSpaceID space() const { return space_; }
   double step_length() const { return step_; }
 
-  /// Adds the plane z = 0, with the friction that the effects give it.
+  /// Adds the plane z = 0, with the friction of the effects.
   void add_floor();
   dBodyID add(dGeomID geom, double density);
   dBodyID add(dGeomID geom, const dMass& mass);

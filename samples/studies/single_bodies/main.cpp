@@ -1,4 +1,4 @@
-// Single bodies and small clouds with a closed-form or published result: prints both beside each other as a Markdown table.
+// Single bodies and small clouds with a closed-form or published result. Prints both side by side as a Markdown table.
 
 #include <cstdio>
 #include <cstring>
@@ -43,7 +43,7 @@ bool is_wanted(const char* name, int argc, char** argv) {
   return argc == 1;
 }
 
-/// Returns the exit code, which is 2 for a name that is not one of the experiments.
+/// Returns the exit code: 2 for an unknown experiment.
 int run_program(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     bool known = false;

@@ -12,7 +12,7 @@
 namespace single_bodies {
 namespace {
 
-/// Creates the ellipsoid on a body of its own, at the origin.
+/// Creates the ellipsoid on its own body, at the origin.
 dBodyID create_body(dWorldID world, dSpaceID space) {
   const dGeomID geom = snCreateEllipsoid(space, dReal(0.2), dReal(0.03), dReal(0.02));
   if (geom == nullptr) throw std::runtime_error(snLastError());

@@ -10,10 +10,10 @@ namespace {
 
 fx::Gravity earth() { return {{0, 0, -kGravity}}; }
 
-/// Gravity on an incline that falls along x, seen from the incline.
+/// Gravity in the frame of an incline that falls along x.
 fx::Gravity incline_of(double angle) { return {{kGravity * std::sin(angle), 0, -kGravity * std::cos(angle)}}; }
 
-/// s; the mean of ten periods of an ellipsoid that is let go at a small tilt.
+/// s; the mean of ten periods of an ellipsoid that is released at a small tilt.
 double rocking_period(const std::vector<fx::Effect>& effects) {
   const double tilt = 0.01;
   Lab lab(effects, 1e-4);
@@ -38,7 +38,7 @@ double rocking_period(const std::vector<fx::Effect>& effects) {
   return (last - first) / 10;
 }
 
-/// The downhill acceleration of a body with a circular equator, over that of sliding without friction.
+/// The downhill acceleration of a body with a circular equator, over the acceleration of sliding without friction.
 double rolling_ratio(double epsilon) {
   const double angle = 10 * kDegree;
   Lab lab({incline_of(angle), fx::Friction{0.8, {}}}, 1e-4);
@@ -50,13 +50,13 @@ double rolling_ratio(double epsilon) {
   return velocity(body).x() / (kGravity * std::sin(angle));
 }
 
-/// Degrees; the incline at which a body with a superelliptic section of equal half-axes turns over, when it gets steeper by a
+/// Degrees; the incline at which a body with a superelliptic section of equal half-axes tips over. The incline gets steeper by a
 /// degree in ten seconds.
 double greatest_incline(double exponent, double start) {
   Lab lab({earth(), fx::Friction{2, {}}, fx::Damping{0, 5}}, 1e-3);
   lab.add_floor();
   const auto e = static_cast<dReal>(exponent);
-  // The section is in xz; the body is long across it, so that it tips about y only.
+  // The section is in the xz-plane. The body is long across it, so it only tips about y.
   const dBodyID body = lab.add(snCreateSuperellipsoid(lab.space(), dReal(0.1), dReal(0.3), dReal(0.1), e, e), 1000);
   set_position(body, {0, 0, 0.1});
   double angle = 0;
@@ -74,8 +74,8 @@ struct Flight {
   double time, x, top;
 };
 
-/// The place where a point lands for the `landings`-th time, with linear drag of the time constant tau and restitution e, in
-/// closed form between impacts.
+/// The place of a point's landing number `landings`, with linear drag of the time constant tau and restitution e, in closed form
+/// between impacts.
 Flight fly(double height, double speed, double tau, double e, int landings) {
   Flight flight{0, 0, height};
   double up = 0;
@@ -118,7 +118,7 @@ Results incline() {
 }
 
 Results skipping_bean() {
-  // A bean that lies across its flight shows the same area and has the same curvature wherever it flies in that plane.
+  // A bean that lies across its flight has the same projected area and the same curvature in every direction of that plane.
   const double radius = 0.004;
   const double viscosity = 0.05;
   const double e = 0.8;
@@ -144,7 +144,7 @@ Results skipping_bean() {
     ours.top = std::max(ours.top, position(bean).z() - radius);
     before = up;
   }
-  // The diameter is Leith's, with the surface of the prolate spheroid.
+  // Leith's diameter, with the surface of the prolate spheroid.
   const double pi = std::numbers::pi;
   const double c = 0.007;
   const double ecc = std::sqrt(1 - radius * radius / (c * c));

@@ -24,8 +24,8 @@ Results rattleback() {
           {"", "smallest yaw, rad", smallest, -6.81015, source}};
 }
 
-// A ball whose centre of mass lies below its centre turns upside down if it slides with friction. Whatever the friction, the
-// component of the angular momentum along the line from the centre of mass to the contact is conserved (Jellett 1872).
+// A ball with its centre of mass below its centre turns upside down if it slides with friction. At any friction, the component of
+// the angular momentum along the line from the centre of mass to the contact is conserved (Jellett 1872).
 Results tippe_top() {
   const double radius = 0.02;
   const double offset = 0.3 * radius;

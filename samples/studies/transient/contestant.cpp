@@ -16,7 +16,7 @@ using accuracy_cost::Start;
 using supernormal::Proximity;
 using supernormal::Solver;
 
-constexpr double kTolerance = 1e-9;  // of all that have one
+constexpr double kTolerance = 1e-9;  // the tolerance of all methods that have one
 constexpr double kFinest = 1e-14;
 constexpr double kCertifiedTolerance = 1e-14;
 
@@ -36,7 +36,7 @@ void add_ours(std::vector<Contestant>& all, const char* name, Solver solver, dou
                  accuracy_cost::supernormal_method(name, solver, Start::Warm, tolerance)});
 }
 
-/// One of several methods in a list takes its name from them, with the accuracy where that tells them apart.
+/// The name of a method in a list includes the number of vertices if the methods differ by it.
 void add_cold(std::vector<Contestant>& all, Methods methods, bool has_sizes) {
   for (auto& method : methods) {
     const std::string name = has_sizes ? method->name() + " (" + method->accuracy() + " vertices)" : method->name();

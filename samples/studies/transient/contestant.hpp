@@ -1,4 +1,4 @@
-// The methods that take part, as narrow phases of a world.
+// The compared methods, as narrow phases of a world.
 #pragma once
 
 #include <memory>
@@ -11,15 +11,15 @@ namespace transient {
 
 struct Contestant {
   std::string name;
-  std::string start;  ///< "cold" or "warm": from the answer of the step before
+  std::string start;  ///< "cold", or "warm": from the answer of the step before
   std::unique_ptr<accuracy_cost::Method> cold;
   std::unique_ptr<accuracy_cost::Method> warm;  ///< null: every query is cold
-  bool is_for_ellipsoids = false;               ///< and for no other bodies
+  bool is_for_ellipsoids = false;               ///< and no other bodies
 };
 
 inline constexpr const char* kCertified = "certified";
 
-/// The proximity that no search may beat: the hybrid at tolerance 1e-12, which proves the depth the smallest.
+/// The certified proximity: the hybrid at tolerance 1e-12, which proves the depth minimal.
 supernormal::Proximity certified_proximity(const accuracy_cost::Pair& pair);
 
 /// The certified answer first.

@@ -1,4 +1,4 @@
-// The experiment of the paper: superellipsoids thrown into one another and into a box, with every method as the narrow phase of the
+// The experiment of the paper: superellipsoids thrown into each other and into a box, with every method as the narrow phase of the
 // same world.
 
 #include <ode/ode.h>
@@ -22,7 +22,7 @@ namespace {
 using namespace transient;
 using accuracy_cost::BodyClass;
 
-constexpr std::size_t kMoments = 100;  // of a motion, in its file
+constexpr std::size_t kMoments = 100;  // moments of a motion, in its file
 
 struct Options {
   std::vector<std::string> classes = {"E", "M", "B", "N"};
@@ -179,7 +179,7 @@ int main(int argc, char** argv) {
     CLI::App app("Superellipsoids that collide, with every method as the narrow phase of the same world");
     std::vector<std::string> names;
     for (const Contestant& contestant : contestants()) {
-      if (std::ranges::find(names, contestant.name) == names.end()) names.push_back(contestant.name);  // once for cold and warm
+      if (std::ranges::find(names, contestant.name) == names.end()) names.push_back(contestant.name);  // one name for cold and warm
     }
     app.add_option("--classes", options.classes, "E (ellipsoids), M (exponents 1.3 to 5), B (6 to 20), N (needles)")
         ->check(CLI::IsMember(std::vector<std::string>{"E", "M", "B", "N"}))

@@ -18,16 +18,16 @@ using accuracy_cost::BodyClass;
 using supernormal::Pose;
 
 constexpr double kDensity = 1000;        // kg/m^3
-constexpr double kSpeed = 5;             // m/s, towards the middle, and as much again at random
+constexpr double kSpeed = 5;             // m/s; towards the middle, plus as much again in a random direction
 constexpr double kSpin = 2;              // rad/s, about each axis, at most
 constexpr double kGravity = 9.81;        // m/s^2
 constexpr double kFriction = 0.5;        // Coulomb's
-constexpr double kErrorReduction = 0.2;  // ODE's own; elastic bodies have none, which would add energy
+constexpr double kErrorReduction = 0.2;  // ODE's default; elastic bodies have none, because it would add energy
 constexpr double kDisturbance = 1e-12;   // m
 constexpr int kIterations = 40;          // of quickstep
 constexpr int kMostTries = 1000;         // to place a body
 
-/// m; from body to body in the lattice of the start. A body has half-axes of up to 1.5 m.
+/// m; the distance of bodies in the initial lattice. A body has half-axes of up to 1.5 m.
 double spacing_of(BodyClass body_class) { return body_class == BodyClass::Needle ? 2 : 3.3; }
 
 dGeomID create_geom(dSpaceID space, const supernormal::Shape& shape) {
@@ -129,7 +129,7 @@ void Throw::place_bodies(bool is_disturbed) {
 const std::vector<Neighbours>& Throw::neighbours() {
   neighbours_.clear();
   dSpaceCollide(space_, this, neighbour_callback);
-  // In one order, whatever the broad phase did before.
+  // In an order that does not depend on the broad phase.
   std::ranges::sort(neighbours_, {}, [](const Neighbours& pair) { return std::pair(pair.body1, pair.body2); });
   return neighbours_;
 }
@@ -163,7 +163,7 @@ void Throw::step(const std::vector<Touch>& touches) {
     dContact contact{};
     for (int axis = 0; axis < 3; ++axis) {
       contact.geom.pos[axis] = dReal(touches[k].position[axis]);
-      contact.geom.normal[axis] = -dReal(touches[k].normal[axis]);  // ODE's leads into the first body
+      contact.geom.normal[axis] = -dReal(touches[k].normal[axis]);  // ODE's normal points into the first body
     }
     contact.geom.depth = dReal(touches[k].depth);
     add_contact(contact, bodies_[neighbours_[k].body1], bodies_[neighbours_[k].body2]);

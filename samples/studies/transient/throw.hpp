@@ -1,5 +1,4 @@
-// Superellipsoids that are thrown into one another and into a box, in a world of ODE whose pairs of bodies are solved by any
-// method.
+// Superellipsoids thrown into each other and into a box, in a world of ODE with any method for the pairs of bodies.
 #pragma once
 
 #include <ode/ode.h>
@@ -18,17 +17,17 @@ using supernormal::Vector3;
 struct Setup {
   accuracy_cost::BodyClass body_class = accuracy_cost::BodyClass::Ellipsoid;
   int bodies = 8;
-  bool has_friction = false;  ///< Coulomb's 0.5, gravity and no bounce; otherwise elastic, without friction and gravity
+  bool has_friction = false;  ///< friction of 0.5, gravity and no bounce; otherwise elastic, without friction and gravity
   double step = 1e-3;         ///< s
   std::uint64_t seed = 1;
 };
 
-/// Two bodies whose bounding boxes meet, numbered.
+/// The numbers of two bodies whose bounding boxes meet.
 struct Neighbours {
   std::size_t body1, body2;
 };
 
-/// What a method says of them: where they overlap, the contact.
+/// A method's answer for the two bodies: the contact, if they overlap.
 struct Touch {
   bool overlaps = false;
   double depth = 0;                    ///< m
@@ -36,7 +35,7 @@ struct Touch {
   Vector3 position = Vector3::Zero();  ///< m
 };
 
-/// The start depends on the class, the number and the seed alone. A world can be moved by 1e-12 of a body's size at the start.
+/// The start depends only on the class, the number and the seed. A world can start displaced by 1e-12 of a body's size.
 class Throw {
  public:
   Throw(const Setup& setup, bool is_disturbed);
@@ -44,10 +43,10 @@ class Throw {
   Throw(const Throw&) = delete;
   Throw& operator=(const Throw&) = delete;
 
-  /// The pairs of now, by bounding boxes that hold the bodies exactly.
+  /// The present pairs, by exact bounding boxes.
   const std::vector<Neighbours>& neighbours();
 
-  /// A step with these contacts, one for each pair of neighbours(), and those with the walls, which are closed forms.
+  /// Makes a step with these contacts, one for each pair of neighbours(), and with the closed-form contacts at the walls.
   void step(const std::vector<Touch>& touches);
 
   std::size_t bodies() const { return bodies_.size(); }
@@ -57,7 +56,7 @@ class Throw {
   double kinetic_energy() const;  ///< J
   /// kg m/s; the largest change of the total momentum by a step in which no body touched a wall
   double momentum_drift() const { return momentum_drift_; }
-  double momentum_scale() const { return momentum_scale_; }  ///< kg m/s; the sum of all bodies' at the start
+  double momentum_scale() const { return momentum_scale_; }  ///< kg m/s; the sum over all bodies at the start
 
  private:
   static void neighbour_callback(void* self, dGeomID geom1, dGeomID geom2);
@@ -73,7 +72,7 @@ class Throw {
   dJointGroupID joints_ = dJointGroupCreate(0);
   std::vector<std::shared_ptr<const supernormal::Shape>> shapes_;
   std::vector<dBodyID> bodies_;
-  std::deque<std::size_t> numbers_;  // of the bodies; geoms point at them
+  std::deque<std::size_t> numbers_;  // numbers of the bodies; geoms refer to them
   std::vector<Neighbours> neighbours_;
   bool touches_wall_ = false;
   double momentum_drift_ = 0, momentum_scale_ = 0;

@@ -18,7 +18,7 @@ constexpr double kParted = 0.01;  // smallest half-axes
 
 using Key = std::pair<std::size_t, std::size_t>;
 
-/// What is remembered of a pair while its bounding boxes meet.
+/// The record of a pair while its bounding boxes meet.
 struct Memory {
   std::optional<Vector3> normal;  ///< the last answer's, in the frame of body 1
 };
@@ -45,12 +45,12 @@ void judge(const Pair& pair, const Answer& answer, const supernormal::Proximity&
 Touch touch_of(const Answer& answer) {
   Touch touch;
   if (answer.kind != Answer::Kind::Gap || !(answer.gap < 0)) return touch;
-  // A world takes no contact that is none.
+  // The world gets only valid contacts.
   if (!answer.contact || !answer.contact->allFinite() || !(std::abs(answer.normal.squaredNorm() - 1) < 1e-6)) return touch;
   return {true, -answer.gap, answer.normal, *answer.contact};
 }
 
-/// The pairs of a step, and what the method says of them.
+/// The pairs of a step and the method's answers.
 class Step {
  public:
   Step(Throw& world, const Contestant& contestant, std::map<Key, Memory>& memories, Outcome& outcome)
@@ -72,7 +72,7 @@ class Step {
                 {},
                 {}};
       pair.size = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
-      // What a method makes once for a body is not timed.
+      // The preparation of a body, made once, is not timed.
       if (known == memories.end()) contestant.cold->query(pair);
       const Memory memory = known == memories.end() ? Memory() : known->second;
       if (memory.normal) pair.warm_normal = *memory.normal;
@@ -107,7 +107,7 @@ class Step {
     for (std::size_t k = 0; k < pairs_.size(); ++k) judge(pairs_[k], answers_[k], certified_proximity(pairs_[k]), outcome_);
   }
 
-  /// Judges all, and returns the certified contacts.
+  /// Compares all answers with the certified ones, and returns the certified contacts.
   std::vector<Touch> certified_touches() const {
     std::vector<Touch> touches;
     touches.reserve(pairs_.size());
@@ -135,7 +135,7 @@ class Step {
   std::vector<Answer> answers_;
 };
 
-/// The largest distance of a body from its place in the certified world, in its smallest half-axes.
+/// The largest distance of a body from its position in the certified world, in its smallest half-axes.
 double distance(const Throw& world, const std::vector<Vector3>& positions) {
   double largest = 0;
   for (std::size_t body = 0; body < world.bodies(); ++body) {

@@ -30,7 +30,7 @@ Matrix3 random_rotation(Random& random) {
   return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().toRotationMatrix();
 }
 
-/// A body of mass 1 that moves without turning.
+/// A body of mass 1 that moves without rotation.
 BodyAhead moving(const Shape& shape, const Pose& pose, const Vector3& velocity) {
   MotionAhead motion;
   motion.velocity = velocity;
@@ -58,7 +58,7 @@ bool has_contact(const ContactManifold& manifold) {
 
 }  // namespace
 
-TEST_CASE("a ball that flies at a wall: one contact with the gap of now, on the ball, with the wall's normal") {
+TEST_CASE("a ball that flies at a wall has one contact on the ball, with the present gap and the wall's normal") {
   const Ellipsoid ball(Vector3(0.05, 0.05, 0.05));
   const Box wall(Vector3(1, 1, 0.01));
   for (const double speed : {1.0, 10.0, 1000.0}) {
@@ -70,16 +70,16 @@ TEST_CASE("a ball that flies at a wall: one contact with the gap of now, on the 
     CHECK(manifold.deepest.gap == doctest::Approx(gap));
     CHECK((manifold.deepest.normal + Vector3::UnitZ()).norm() < 1e-9);
     CHECK((manifold.deepest.contact - Vector3(0.1, 0.2, 0.01 + gap)).norm() < 1e-6 * gap + 1e-9);
-    // The same ball that leaves, or is slower, has none.
+    // A ball that moves away, or is slower, has none.
     CHECK(!has_contact(find(moving(ball, body.pose, Vector3(0, 0, speed)), standing(wall, {}))));
     CHECK(!has_contact(find(moving(ball, body.pose, Vector3(0, 0, -0.5 * speed)), standing(wall, {}))));
   }
 }
 
-TEST_CASE("the normal is that of the impact, not that of now") {
+TEST_CASE("the normal of a contact ahead is the normal at the impact") {
   const Ellipsoid ball(Vector3(0.05, 0.05, 0.05));
   const Box wall(Vector3(0.5, 0.5, 0.5));
-  // The nearest feature is the edge x = z = 0.5, and the ball flies past it on to the top.
+  // The nearest feature is the edge x = z = 0.5. The ball flies past it and meets the top.
   const BodyAhead body = moving(ball, {Vector3(1, 0, 0.7), Matrix3::Identity()}, Vector3(-90, 0, -16));
   const ContactManifold manifold = find(body, standing(wall, {}));
   REQUIRE(has_contact(manifold));
@@ -87,7 +87,7 @@ TEST_CASE("the normal is that of the impact, not that of now") {
   CHECK(manifold.deepest.gap == doctest::Approx(0.15));
 }
 
-TEST_CASE("random pairs: no impact is missed, and what passes by has no contact") {
+TEST_CASE("random pairs: no impact is missed, and a body that passes by has no contact") {
   Random random(5);
   int impacts = 0;
   int passes = 0;
@@ -108,7 +108,7 @@ TEST_CASE("random pairs: no impact is missed, and what passes by has no contact"
     const ContactManifold manifold = find(body1, body2);
     double least = std::numeric_limits<double>::infinity();
     double last = 0;
-    double deep = kTime;  // s; when the impact is past
+    double deep = kTime;  // s; a time after the impact
     for (int k = 0; k <= 100; ++k) {
       const double time = kTime * k / 100;
       last = find_proximity(shape1, {pose1.position + time * body1.motion.velocity, pose1.rotation}, shape2,
@@ -120,14 +120,14 @@ TEST_CASE("random pairs: no impact is missed, and what passes by has no contact"
     if (least < -0.0101 * size) {
       ++impacts;
       REQUIRE(has_contact(manifold));
-      // The way along the normal is longer than the gap: the contact is in the way, and it is no later than the impact.
+      // The displacement along the normal is longer than the gap: the contact blocks the motion, no later than the impact.
       const double closing = manifold.deepest.normal.dot(body1.motion.velocity - body2.motion.velocity);
       CHECK(closing * kTime > manifold.deepest.gap);
       CHECK(manifold.deepest.gap <= closing * deep + 1e-9);
     } else if (least > 0) {
       passes += last > 0.01 * size ? 1 : 0;
       if (last > 0.01 * size) CHECK(!has_contact(manifold));
-      // A contact with what is near at the end does not hold back the free motion.
+      // A contact with a body that is near at the end does not restrict the free motion.
       const double closing = manifold.deepest.normal.dot(body1.motion.velocity - body2.motion.velocity);
       if (has_contact(manifold)) CHECK(closing * kTime <= manifold.deepest.gap + 1e-12);
     }
@@ -149,10 +149,10 @@ TEST_CASE("a fast impact at one end acts nearer to the centre of mass") {
     return std::abs(find_plane_contacts_ahead(body, kTime, touching).deepest.contact.x());
   };
   const double free = lever_at(0.1);
-  CHECK(free > 0.06);            // its own point
-  CHECK(lever_at(0.5) == free);  // turns by less than 0.1 rad
-  CHECK(lever_at(100) < 0.001);  // would turn by 12 rad
-  // In between, the lever does not jump.
+  CHECK(free > 0.06);            // the body's own contact point
+  CHECK(lever_at(0.5) == free);  // rotates by less than 0.1 rad
+  CHECK(lever_at(100) < 0.001);  // would rotate by 12 rad
+  // In between, the lever arm does not jump.
   double before = free;
   for (int k = 0; k <= 300; ++k) {
     const double lever = lever_at(0.5 * std::pow(1.01, k));  // m/s; up to 9.9
@@ -162,7 +162,7 @@ TEST_CASE("a fast impact at one end acts nearer to the centre of mass") {
   }
 }
 
-TEST_CASE("a body that turns has its corners where it comes down, and those of two bodies are as far apart") {
+TEST_CASE("the faster a body rotates, the farther apart are its manifold points ahead, on a plane and on a body") {
   const Superellipsoid brick({0.1, 0.07, 0.05}, 8, 8);
   const Box floor(Vector3(1, 1, 0.1));
   const auto half_length_at = [&](double turn, bool on_plane) {
@@ -183,7 +183,7 @@ TEST_CASE("a body that turns has its corners where it comes down, and those of t
     CHECK(half_length_at(0.3, on_plane) > 1.1 * resting);
     CHECK(half_length_at(3, on_plane) == half_length_at(30, on_plane));
     double before = resting;
-    for (int k = 1; k <= 100; ++k) {  // nothing jumps
+    for (int k = 1; k <= 100; ++k) {  // no jump
       const double now = half_length_at(0.01 * k, on_plane);
       CHECK(now >= before);
       CHECK(now - before < 0.02 * resting);
@@ -192,7 +192,7 @@ TEST_CASE("a body that turns has its corners where it comes down, and those of t
   }
 }
 
-TEST_CASE("nothing is found from numbers that are none, and nothing is lost") {
+TEST_CASE("with a velocity that is not finite a body keeps its present contact") {
   const Ellipsoid ball(Vector3(0.05, 0.05, 0.05));
   const Box wall(Vector3(1, 1, 0.01));
   const Pose touching{Vector3(0, 0, 0.06 - 1e-4), Matrix3::Identity()};

@@ -38,7 +38,7 @@ BodyAhead flying(const Shape& shape, const Vector3& position, const Vector3& vel
 TEST_CASE("a ball that hits the floor slides on into the wall behind") {
   MeshContactsAhead ahead;
   const std::vector<MeshTriangle> triangles = corner();
-  // Straight on it would pass below the floor, and below the wall.
+  // On a straight path it would pass below the floor, and below the wall.
   const BodyAhead ball = flying(kBall, Vector3(0, 0, 0.15), Vector3(200, 0, -50));
   const auto found = ahead.find(ball, {}, kStep, triangles);
   REQUIRE(found.size() == 2);
@@ -50,7 +50,7 @@ TEST_CASE("a ball that hits the floor slides on into the wall behind") {
   CHECK(found[1].triangle >= 2);
 }
 
-TEST_CASE("from behind there is no impact, and what moves away or is too slow has no contact") {
+TEST_CASE("a body behind the surface, moving away or too slow has no contact") {
   MeshContactsAhead ahead;
   const std::vector<MeshTriangle> triangles = corner();
   const auto has_contact = [&](const Vector3& position, const Vector3& velocity) {
@@ -63,7 +63,7 @@ TEST_CASE("from behind there is no impact, and what moves away or is too slow ha
   CHECK(!has_contact(Vector3(0, 0, -0.15), Vector3(0, 0, 5)));
 }
 
-TEST_CASE("a ball that is apart from the back of a sheet, or from its border, has no contact that overlaps") {
+TEST_CASE("a ball near the back or the border of a sheet has no contact with an overlap") {
   MeshContactsAhead ahead;
   const std::vector<MeshTriangle> sheet = {{{Vector3(-1, -1, 0), Vector3(0, -1, 0), Vector3(0, 1, 0)}, 0},
                                            {{Vector3(-1, -1, 0), Vector3(0, 1, 0), Vector3(-1, 1, 0)}, 1}};
@@ -71,19 +71,19 @@ TEST_CASE("a ball that is apart from the back of a sheet, or from its border, ha
     const auto found = ahead.find(flying(kBall, position, Vector3(0, 0.1, 0)), {}, kStep, sheet);
     return found.empty() ? 1 : found.front().manifold.deepest.gap;
   };
-  const double apart = 0.05 + 5e-5;  // the sweep reaches ten times as far
+  const double apart = 0.05 + 5e-5;  // the swept body reaches ten times as far
   CHECK(least_gap(Vector3(-0.5, 0, -apart)) >= 0);
   for (int degrees = -90; degrees <= 90; degrees += 5) {
     const double angle = degrees * std::numbers::pi / 180;
     CAPTURE(degrees);
     CHECK(least_gap(apart * Vector3(std::cos(angle), 0, std::sin(angle))) >= 0);
   }
-  // It has some where it is in front, and where it overlaps.
+  // It has contacts in front of the sheet, and in an overlap.
   CHECK(least_gap(Vector3(-0.5, 0, apart)) == doctest::Approx(5e-5).epsilon(1e-6));
   CHECK(least_gap(Vector3(-0.5, 0, 0.0499)) == doctest::Approx(-1e-4).epsilon(1e-6));
 }
 
-TEST_CASE("the surface moves as well") {
+TEST_CASE("contacts ahead with a moving surface use the relative velocity") {
   MeshContactsAhead ahead;
   const std::vector<MeshTriangle> triangles = corner();
   MotionAhead surface;
@@ -93,17 +93,17 @@ TEST_CASE("the surface moves as well") {
   CHECK(found[0].manifold.deepest.gap == doctest::Approx(0.1));
 }
 
-TEST_CASE("the triangles that count are within the reach, and no others") {
+TEST_CASE("all triangles that a body may meet are within the reach") {
   MeshContactsAhead ahead;
   const BodyAhead ball = flying(kBall, Vector3(0, 0, 0.15), Vector3(200, 0, -50));
   const MeshContactsAhead::Reach reach = MeshContactsAhead::reach_of(ball, {}, kStep);
-  // Every place on the way, and those of the way along the floor, are within the box.
+  // Every place on the path, also on the path along the floor, is within the box.
   for (const Vector3& way : {Vector3(0, 0, 0), Vector3(0.4, 0, -0.1), Vector3(2, 0, -0.5), Vector3(2, 0, -0.1)}) {
     CHECK(((way - reach.middle).array().abs() <= reach.margin).all());
   }
 }
 
-TEST_CASE("a brick comes to rest on a sheet with four corners, and those over the border are drawn in") {
+TEST_CASE("a brick that lands on a sheet has four manifold points, none beyond the border") {
   const Superellipsoid brick({0.1, 0.07, 0.05}, 60, 60);
   MeshContactsAhead ahead;
   const std::vector<MeshTriangle> table = {{{Vector3(-1, -1, 0), Vector3(0, -1, 0), Vector3(0, 1, 0)}, 0},

@@ -1,4 +1,4 @@
-// Tests of the contact manifold, the points that flat bodies rest on.
+// Tests of the contact manifold, the points on which flat bodies rest.
 #include "supernormal/contact/contact_manifold.hpp"
 
 #include <doctest/doctest.h>
@@ -27,8 +27,8 @@ namespace {
 
 using Random = std::mt19937_64;
 
-// Tolerance of repeated corners, relative to the extent of the body: on a flat face the support point that they refer to depends
-// on the last digits of the normal.
+// Tolerance of repeated manifold points, relative to the extent of the body. On a flat face the support point, to which they refer,
+// depends on the last digits of the normal.
 constexpr double kCornerTolerance = 1e-3;
 
 double uniform(Random& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
@@ -50,7 +50,8 @@ ContactManifold manifold_on_floor(const Shape& shape, const Matrix3& rotation, d
   return find_plane_contact_manifold(shape, pose, find_plane_proximity(shape, pose, Vector3::UnitZ(), 0));
 }
 
-/// The manifold of two bodies with parallel faces, the second on top of the first by (x, y), overlapping by `depth`.
+/// The manifold of two bodies with parallel faces. The second lies on top of the first, shifted by (x, y), and overlaps it by
+/// `depth`.
 ContactManifold manifold_of_stacked(const Shape& lower, const Shape& upper, double x, double y, double turn, double depth) {
   const Pose pose1;
   const Pose pose2{Vector3(x, y, lower.half_extents().z() + upper.half_extents().z() - depth),
@@ -58,7 +59,7 @@ ContactManifold manifold_of_stacked(const Shape& lower, const Shape& upper, doub
   return find_contact_manifold(lower, pose1, upper, pose2, find_proximity(lower, pose1, upper, pose2));
 }
 
-/// The largest distance of a corner of one manifold from the nearest one of the other.
+/// The largest distance of a point of one manifold from the nearest point of the other.
 double distance_of_corners(const ContactManifold& a, const ContactManifold& b) {
   double largest = 0;
   for (int i = 0; i < a.corner_count; ++i) {
@@ -74,7 +75,7 @@ double distance_of_corners(const ContactManifold& a, const ContactManifold& b) {
 
 }  // namespace
 
-TEST_CASE("ellipsoids have one contact, however deep") {
+TEST_CASE("ellipsoids have one contact at any depth") {
   Random random(1);
   for (int repetition = 0; repetition < 500; ++repetition) {
     const Ellipsoid first(Vector3{uniform(random, 0.2, 1), uniform(random, 0.2, 1), uniform(random, 0.2, 1)});
@@ -92,7 +93,7 @@ TEST_CASE("ellipsoids have one contact, however deep") {
   }
 }
 
-TEST_CASE("bodies that are apart or only touch have no corners") {
+TEST_CASE("bodies that are apart or only touch have no manifold points") {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 20, 20);
   CHECK(manifold_on_floor(brick, Matrix3::Identity(), -1e-3).corner_count == 0);
   CHECK(manifold_on_floor(brick, Matrix3::Identity(), 0).corner_count == 0);
@@ -108,7 +109,7 @@ TEST_CASE("a plate without thickness has one contact") {
   CHECK(manifold.corner_count == 0);
 }
 
-TEST_CASE("a flat body has four corners on the floor, with little between them and it") {
+TEST_CASE("a flat body on a floor has four manifold points, close to the body") {
   Random random(2);
   for (int repetition = 0; repetition < 500; ++repetition) {
     const Vector3 half_axes{uniform(random, 0.5, 2), uniform(random, 0.5, 2), uniform(random, 0.5, 2)};
@@ -127,17 +128,17 @@ TEST_CASE("a flat body has four corners on the floor, with little between them a
       const RayHit hit = find_ray_hit(body, pose, below, Vector3::UnitZ(), 1);
       REQUIRE(hit.hit);
       CHECK(hit.point.z() <= manifold.margin * (1 + 1e-6));
-      // The corner is in the tangent plane, and the body not far above it.
+      // The manifold point is in the tangent plane, and the body is not far above it.
       CHECK(corner.point.z() <= 0);
       CHECK(hit.point.z() - corner.point.z() <= manifold.margin + depth * (1 + 1e-6));
     }
-    // The corners span most of the face.
+    // The manifold points span most of the face.
     CHECK((manifold.corners[2].point - manifold.corners[0].point).norm() >= std::hypot(half_axes.x(), half_axes.y()));
     CHECK((manifold.corners[3].point - manifold.corners[1].point).norm() >= std::hypot(half_axes.x(), half_axes.y()));
   }
 }
 
-TEST_CASE("whatever the room, the deepest contact is as deep as the overlap") {
+TEST_CASE("the deepest contact is as deep as the overlap at every max_contacts") {
   Random random(6);
   for (int repetition = 0; repetition < 500; ++repetition) {
     const Vector3 half_axes{uniform(random, 0.5, 2), uniform(random, 0.5, 2), uniform(random, 0.5, 2)};
@@ -159,7 +160,7 @@ TEST_CASE("whatever the room, the deepest contact is as deep as the overlap") {
   }
 }
 
-TEST_CASE("a can rests on two points on its side and on four on its end") {
+TEST_CASE("a can has two manifold points on its side and four on its end") {
   const Superellipsoid can(Vector3(0.03, 0.03, 0.06), 2, 30);
   const ContactManifold upright = manifold_on_floor(can, Matrix3::Identity(), 1e-5);
   REQUIRE(upright.corner_count == 4);
@@ -167,12 +168,12 @@ TEST_CASE("a can rests on two points on its side and on four on its end") {
   REQUIRE(lying.corner_count == 2);
   const Vector3 between = lying.corners[1].point - lying.corners[0].point;
   CHECK(std::abs(between.y()) >= 0.1);
-  // The corners are on the line on which it rolls.
+  // The manifold points are on the line on which it rolls.
   CHECK(std::abs(between.x()) <= 1e-12);
   CHECK(std::abs(lying.corners[0].point.x() - lying.deepest.contact.x()) <= 1e-12);
 }
 
-TEST_CASE("a can on its side stands on both ends of its line, at any depth and lean, as deep as it is there") {
+TEST_CASE("a can on its side has a manifold point at each end, with the depth there, at any depth and tilt") {
   constexpr double kRadius = 0.05;
   constexpr double kHalfLength = 0.25;
   const Superellipsoid can(Vector3(kRadius, kRadius, kHalfLength), 2, 60);
@@ -183,7 +184,7 @@ TEST_CASE("a can on its side stands on both ends of its line, at any depth and l
       const ContactManifold manifold =
           reduced_to(manifold_on_floor(can, tilt(0.5 * std::numbers::pi + lean, std::numbers::pi / 2), depth * kRadius), 8);
       const double depth_of_far_end = depth * kRadius - 2 * kHalfLength * std::sin(lean);
-      if (depth_of_far_end < -1e-3 * kRadius) continue;  // it is in the air
+      if (depth_of_far_end < -1e-3 * kRadius) continue;  // this end is in the air
       REQUIRE(manifold.corner_count == 2);
       const Vector3 between = manifold.corners[1].point - manifold.corners[0].point;
       CHECK(between.norm() == test::relative(2 * kHalfLength).epsilon(0.08));
@@ -194,7 +195,7 @@ TEST_CASE("a can on its side stands on both ends of its line, at any depth and l
   }
 }
 
-TEST_CASE("what a face stands on does not shrink to a point as the depth goes to nothing") {
+TEST_CASE("the support polygon of a face does not shrink to a point as the depth goes to 0") {
   for (const double exponent : {6.0, 8.0, 20.0, 60.0, 1000.0}) {
     CAPTURE(exponent);
     const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), exponent, exponent);
@@ -213,7 +214,7 @@ TEST_CASE("what a face stands on does not shrink to a point as the depth goes to
   }
 }
 
-TEST_CASE("a corner in the air is drawn in to where the leaning faces are near to each other") {
+TEST_CASE("a manifold point in the air moves in to where the tilted faces are close to each other") {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 200, 200);
   const double depth = 1e-4;
   for (const double lean : {0.01, 0.02, 0.05}) {
@@ -228,17 +229,17 @@ TEST_CASE("a corner in the air is drawn in to where the leaning faces are near t
   }
 }
 
-TEST_CASE("a rounded body stands on what the body without its rounding stands on") {
+TEST_CASE("a rounded body has the support polygon of the body without its rounding") {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 60, 60);
   const Rounded rounded(std::make_shared<Superellipsoid>(brick), 0.04);
   const ContactManifold of_brick = manifold_on_floor(brick, Matrix3::Identity(), 1e-4);
   const ContactManifold of_rounded = manifold_on_floor(rounded, Matrix3::Identity(), 1e-4);
   REQUIRE(of_rounded.corner_count == 4);
-  // The tilts are made for the whole body's half-extents.
+  // The tilts are chosen for the whole body's half-extents.
   CHECK(distance_of_corners(of_brick, of_rounded) <= 2e-3);
 }
 
-TEST_CASE("a body on a box has the corners that it has on a plane") {
+TEST_CASE("a body has the same manifold points on a box and on a plane") {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 12, 20);
   const Box table(Vector3(2, 2, 1));
   const Pose under{Vector3(0, 0, -1), Matrix3::Identity()};
@@ -249,13 +250,13 @@ TEST_CASE("a body on a box has the corners that it has on a plane") {
     const ContactManifold on_box = find_contact_manifold(brick, pose, table, under, find_proximity(brick, pose, table, under));
     REQUIRE(on_plane.corner_count == 4);
     REQUIRE(on_box.corner_count == 4);
-    // The corners on a plane are points of the body, the others are in the plane of the contact.
+    // Manifold points on a plane are points of the body. The others are in the plane of the contact.
     for (ManifoldCorner& corner : on_plane.corners) corner.point.z() = on_box.corners[0].point.z();
     CHECK(distance_of_corners(on_plane, on_box) <= 1e-4);
   }
 }
 
-TEST_CASE("what hangs over is not supported") {
+TEST_CASE("no manifold point is beyond the border of the lower body") {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 20, 20);
   const ContactManifold manifold = manifold_of_stacked(brick, brick, 0.1, 0.0, 0, 1e-4);
   REQUIRE(manifold.corner_count == 4);
@@ -267,7 +268,7 @@ TEST_CASE("what hangs over is not supported") {
   CHECK((manifold.corners[2].point - manifold.corners[0].point).norm() >= 0.8 * std::hypot(0.1, 0.14));
 }
 
-TEST_CASE("the deepest point of a face that hangs over is on both bodies") {
+TEST_CASE("the deepest point of an overhanging face is on both bodies") {
   Random random(5);
   // The gauge is 1 on the surface of a superellipsoid, and less inside.
   const auto gauge = [](const Superellipsoid& body, const Pose& pose, const Vector3& point) {
@@ -297,7 +298,7 @@ TEST_CASE("the deepest point of a face that hangs over is on both bodies") {
   }
 }
 
-TEST_CASE("a capsule on a brick rests on its two ends, across it on the width of the brick") {
+TEST_CASE("a capsule along a brick rests on its two ends, and a capsule across it on the brick's width") {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 30, 30);
   const Capsule capsule(0.02, 0.06);
   Pose pose{Vector3(0, 0, 0.07 - 1e-5), Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3::UnitY()).toRotationMatrix()};
@@ -307,7 +308,7 @@ TEST_CASE("a capsule on a brick rests on its two ends, across it on the width of
   CHECK((along.corners[1].point - along.corners[0].point).norm() == test::relative(0.12).epsilon(0.05));
 }
 
-TEST_CASE("the corners do not depend on the order of the bodies, nor on where they are") {
+TEST_CASE("the manifold points do not depend on the order of the bodies or on the frame") {
   Random random(3);
   const Vector3 far(3e3, -4e3, 5e3);
   int wide = 0;

@@ -52,7 +52,7 @@ double distance_outside(const ConvexPolygon& polygon, const Vector2& point) {
 
 }  // namespace
 
-TEST_CASE("two squares have a rectangle in common") {
+TEST_CASE("two squares intersect in a rectangle") {
   const ConvexPolygon square = polygon({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
   const ConvexPolygon shifted = polygon({{1, 0.5}, {3, 0.5}, {3, 2.5}, {1, 2.5}});
   const ConvexPolygon common = square.intersected(shifted);
@@ -60,12 +60,12 @@ TEST_CASE("two squares have a rectangle in common") {
   CHECK(square.intersected(polygon({{5, 0}, {6, 0}, {6, 1}})).size() == 0);
 }
 
-TEST_CASE("a repeated corner does no harm") {
+TEST_CASE("a repeated vertex of a polygon changes nothing") {
   const ConvexPolygon square = polygon({{0, 0}, {0, 0}, {2, 0}, {2, 2}, {2, 2}, {0, 2}});
   CHECK(area(square.intersected(square)) == test::relative(4));
 }
 
-TEST_CASE("what random polygons have in common is in both, in either order") {
+TEST_CASE("the intersection of random polygons is in both, in either order") {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> place(-1, 1);
   std::uniform_int_distribution<int> corners(3, 4);
@@ -89,7 +89,7 @@ TEST_CASE("what random polygons have in common is in both, in either order") {
   }
 }
 
-TEST_CASE("the nearest point of a polygon is on its boundary, and no other one is nearer") {
+TEST_CASE("the nearest point of a polygon is on its boundary, and no other point is nearer") {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> place(-4, 4);
   std::uniform_int_distribution<int> corners(1, 8);
@@ -104,7 +104,7 @@ TEST_CASE("the nearest point of a polygon is on its boundary, and no other one i
   }
 }
 
-TEST_CASE("the nearest point moves no farther than the point does") {
+TEST_CASE("the nearest point of a polygon moves no farther than the point outside") {
   const ConvexPolygon square = polygon({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
   Vector2 previous = square.nearest_to({9, 1});
   for (int step = 1; step <= 1000; ++step) {

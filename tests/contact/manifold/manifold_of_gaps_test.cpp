@@ -1,4 +1,4 @@
-// Tests of the manifold of bodies that are apart, by the gaps of its corners.
+// Tests of the manifold of bodies that are apart, with the gap of each manifold point.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -31,7 +31,7 @@ ContactManifold above_floor(const Shape& shape, const Matrix3& rotation, double 
 
 }  // namespace
 
-TEST_CASE("a level brick above a floor has four corners with the gap of the brick") {
+TEST_CASE("a level brick above a floor has four manifold points with the gap of the brick") {
   for (const double gap : {0.1, 1e-3, 0.0, -1e-4}) {
     const ContactManifold manifold = above_floor(kBrick, Matrix3::Identity(), gap);
     REQUIRE(manifold.corner_count == 4);
@@ -44,7 +44,7 @@ TEST_CASE("a level brick above a floor has four corners with the gap of the bric
   }
 }
 
-TEST_CASE("what a face leans is the gap of its corners, the nearest first") {
+TEST_CASE("the manifold points of a tilted face have the gap that is left there, the smallest first") {
   for (const double angle : {0.001, 0.01, 0.05}) {
     const ContactManifold manifold = above_floor(kBrick, turned(angle, Vector3::UnitY()), 1e-3);
     REQUIRE(manifold.corner_count == 4);
@@ -58,7 +58,7 @@ TEST_CASE("what a face leans is the gap of its corners, the nearest first") {
   }
 }
 
-TEST_CASE("round bodies have one contact, a can on its side two, a standing one four") {
+TEST_CASE("round bodies have one contact ahead, a can on its side two, a standing can four") {
   const Ellipsoid ball(Vector3(0.05, 0.05, 0.05));
   const Superellipsoid round({0.1, 0.07, 0.05}, 4, 4);
   const Superellipsoid can({0.05, 0.05, 0.2}, 2, 60);
@@ -71,7 +71,7 @@ TEST_CASE("round bodies have one contact, a can on its side two, a standing one 
   }
 }
 
-TEST_CASE("corners do not move as the gap goes through nothing") {
+TEST_CASE("manifold points do not move when the gap passes through 0") {
   for (const double angle : {0.0, 0.03}) {
     const Matrix3 rotation = turned(angle, Vector3(1, 2, 0));
     const ContactManifold before = above_floor(kBrick, rotation, 1e-9);
@@ -85,10 +85,10 @@ TEST_CASE("corners do not move as the gap goes through nothing") {
   }
 }
 
-TEST_CASE("two bodies: the corners of what their faces have in common, on the body that has the share, and the same when swapped") {
+TEST_CASE("two bodies have manifold points on the intersection of their faces, placed by `share`, also when swapped") {
   const Box table(Vector3(0.5, 0.5, 0.1));
   const Pose pose1;
-  const Pose pose2{Vector3(0.45, 0, 0.17), Matrix3::Identity()};  // it hangs over by half of its length; gap 0.02
+  const Pose pose2{Vector3(0.45, 0, 0.17), Matrix3::Identity()};  // it overhangs by half of its length; gap 0.02
   const Proximity proximity = find_proximity(table, pose1, kBrick, pose2);
   REQUIRE(proximity.gap == doctest::Approx(0.02));
   for (const double share : {0.0, 0.5, 1.0}) {
@@ -113,7 +113,7 @@ TEST_CASE("two bodies: the corners of what their faces have in common, on the bo
   }
 }
 
-TEST_CASE("with less room the nearest corner keeps its gap") {
+TEST_CASE("with a smaller max_contacts the nearest manifold point keeps its gap") {
   const ContactManifold all = above_floor(kBrick, turned(0.02, Vector3(1, 2, 0)), 1e-3);
   REQUIRE(all.corner_count == 4);
   Pose pose{Vector3(0, 0, 0), turned(0.02, Vector3(1, 2, 0))};
@@ -122,7 +122,7 @@ TEST_CASE("with less room the nearest corner keeps its gap") {
   const ContactManifold manifold = find_plane_manifold_of_gaps(kBrick, pose, proximity);
   for (int room = 1; room <= 5; ++room) {
     const ContactManifold reduced = reduced_to(manifold, room);
-    CHECK(reduced.corner_count == (room < 3 ? 0 : std::min(room, 4)));  // two would hold a line of the face
+    CHECK(reduced.corner_count == (room < 3 ? 0 : std::min(room, 4)));  // two support only a line
     CHECK(reduced.deepest.gap == doctest::Approx(1e-3));
     for (int k = 0; k < reduced.corner_count; ++k) {
       const double depth = reduced.corners[static_cast<std::size_t>(k)].depth;
@@ -132,7 +132,7 @@ TEST_CASE("with less room the nearest corner keeps its gap") {
   }
 }
 
-TEST_CASE("with room for three a brick that leans is held around its centre, whichever corner is the nearest") {
+TEST_CASE("with max_contacts 3 a tilted brick is supported around its centre, whichever manifold point is the nearest") {
   for (int k = 0; k < 36; ++k) {
     const double direction = (5 + 10 * k) * std::numbers::pi / 180;
     Pose pose{Vector3::Zero(), turned(0.05, Vector3(std::cos(direction), std::sin(direction), 0))};
@@ -140,7 +140,7 @@ TEST_CASE("with room for three a brick that leans is held around its centre, whi
     const Proximity proximity = find_plane_proximity(kBrick, pose, Vector3::UnitZ(), 0);
     const ContactManifold three = reduced_to(find_plane_manifold_of_gaps(kBrick, pose, proximity), 3);
     REQUIRE(three.corner_count == 3);
-    // The parts of a weight at the centre that each of the three bears.
+    // The parts of a weight at the centre that the three points bear.
     Matrix3 corners;
     for (int corner = 0; corner < 3; ++corner) {
       const Vector3& point = three.corners[static_cast<std::size_t>(corner)].point;

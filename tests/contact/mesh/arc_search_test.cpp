@@ -1,4 +1,4 @@
-// Searches of a whole arc against dense sampling: bodies with edges have several maxima there.
+// Searches of a whole arc against dense sampling. Bodies with edges have several maxima there.
 #include "contact/mesh/arc_search.hpp"
 
 #include <doctest/doctest.h>
@@ -26,7 +26,7 @@ double highest_inside(const Arc& arc, SupportProbe& probe) {
 
 }  // namespace
 
-TEST_CASE("a higher maximum is found where there is one, and none where there is none") {
+TEST_CASE("the search of an arc finds a higher maximum exactly if there is one") {
   Draw draw(71);
   int found_count = 0;
   int other_count = 0;
@@ -75,7 +75,7 @@ TEST_CASE("a higher maximum is found where there is one, and none where there is
   CHECK(other_count > 10);
 }
 
-TEST_CASE("what the ends already rule out costs no evaluation") {
+TEST_CASE("an arc that its ends rule out costs no evaluation") {
   const Ellipsoid ball(Vector3::Ones());
   SupportProbe probe(ball, Matrix3::Identity());
   Arc arc;

@@ -30,7 +30,7 @@ double highest_sample(const Arc& arc, SupportProbe& probe) {
 
 }  // namespace
 
-TEST_CASE("the slope is the derivative of the gap") {
+TEST_CASE("the slope over an arc is the derivative of the gap") {
   Draw draw(11);
   const Ellipsoid body({1, 0.7, 0.5});
   for (int i = 0; i < 100; ++i) {
@@ -44,7 +44,7 @@ TEST_CASE("the slope is the derivative of the gap") {
   }
 }
 
-TEST_CASE("the maximum over an arc, against sampling") {
+TEST_CASE("the maximum over an arc agrees with dense sampling") {
   Draw draw(12);
   int maxima = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -52,7 +52,7 @@ TEST_CASE("the maximum over an arc, against sampling") {
     const std::unique_ptr<Shape> body = draw.body();
     SupportProbe probe(*body, draw.rotation());
     Arc arc = random_arc(draw);
-    // The edge is placed so that the gap along the normal in the middle is this one, and the point is nearly over the edge.
+    // The edge is placed so that the gap along the normal in the middle has this value, and the point is nearly over the edge.
     const ArcSample middle = arc.sample(0.5 * arc.end, probe);
     arc.edge_point = middle.point + draw.uniform(0, 0.03) * arc.normal(0.5 * arc.end) + 0.02 * draw.direction();
     const ArcSample low = arc.sample(0, probe);
@@ -70,10 +70,10 @@ TEST_CASE("the maximum over an arc, against sampling") {
     CHECK(found.converged);
     CHECK(found.error <= 1e-11);
     CHECK(found.gap <= 1e-11);
-    // The maximum is local, and over the edge: seen along the normal the point is on the edge's line.
+    // The maximum is local and over the edge: projected along the normal, the point is on the edge's line.
     CHECK(std::abs(found.normal.dot(found.point - arc.edge_point) - found.gap) < 1e-14);
     CHECK(std::abs(arc.from.cross(arc.towards).cross(found.normal).dot(found.point - arc.edge_point)) < 1e-9);
-    // One arc in 4000 has another maximum too, which is lower than an end.
+    // One arc in 4000 also has another maximum, which is lower than an end.
     CHECK(found.gap >= std::max(low.gap, high.gap));
     // The body is nowhere deeper.
     CHECK(std::abs(probe.deepest(found.normal).height - found.normal.dot(found.point)) < 2e-11);
@@ -84,7 +84,7 @@ TEST_CASE("the maximum over an arc, against sampling") {
   CHECK(maxima > 500);
 }
 
-TEST_CASE("a flat side across the edge: the point of it that is over the edge") {
+TEST_CASE("a flat side across an edge touches in the point over the edge") {
   const Superellipsoid body({1, 1, 0.5}, 200, 200);
   SupportProbe probe(body, Matrix3::Identity());
   Arc arc;
@@ -100,7 +100,7 @@ TEST_CASE("a flat side across the edge: the point of it that is over the edge") 
   CHECK(found.point.z() == relative(-0.5).epsilon(1e-6));
 }
 
-TEST_CASE("too few evaluations are reported") {
+TEST_CASE("a search of an arc that runs out of evaluations reports it") {
   const Superellipsoid body({1, 0.7, 0.5}, 5, 3);
   SupportProbe probe(body, Draw(13).rotation());
   Arc arc;

@@ -13,7 +13,7 @@
 using namespace supernormal;
 using namespace supernormal::test;
 
-TEST_CASE("which triangles touch the box, according to the distance of box and triangle") {
+TEST_CASE("the box of a body selects the triangles at distance 0") {
   Draw draw(61);
   int touching = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -33,13 +33,13 @@ TEST_CASE("which triangles touch the box, according to the distance of box and t
   CHECK(touching < 4000);
 }
 
-TEST_CASE("what is not a number is not ruled out") {
+TEST_CASE("the box of a body does not rule out triangles that are not finite") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const BodyBox box{Vector3::Zero(), Vector3::Ones()};
   CHECK(box.touches({}, {Vector3(nan, nan, nan), Vector3(nan, nan, nan), Vector3(nan, nan, nan)}));
 }
 
-TEST_CASE("the box of a body that does not reach equally far to both sides") {
+TEST_CASE("the box of an asymmetric body reaches to both its ends") {
   const std::array<Vector3, 2> points = {Vector3(0.5, -2, 0.25), Vector3(0, 0, 0.75)};
   const BodyBox box = BodyBox::of(Polytope(points));
   CHECK(box.centre == Vector3(0.25, -1, 0.5));

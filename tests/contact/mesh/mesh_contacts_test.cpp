@@ -1,4 +1,5 @@
-// Contacts of a body with triangles: those with a plane where the surface is flat, those with a solid hull where it is one.
+// Contacts of a body with triangles, against contacts with a plane where the surface is flat, and with a solid hull where it is
+// one.
 #include "supernormal/contact/mesh_contacts.hpp"
 
 #include <doctest/doctest.h>
@@ -28,7 +29,7 @@ double separation_along(const Shape& shape1, const Pose& pose1, const Shape& sha
          shape2.support(pose2.rotation.transpose() * -normal);
 }
 
-// The nearest of all points of the triangle. `kind`: 0 inside, 1 on an edge, 2 a corner.
+// The nearest of all points of the triangle. `kind`: 0 inside, 1 on an edge, 2 a vertex.
 Vector3 nearest_point(const MeshTriangle& triangle, const Vector3& point, int& kind) {
   const Vector3 normal = normal_of(triangle);
   const std::array<Vector3, 3>& v = triangle.vertices;
@@ -50,7 +51,7 @@ Vector3 nearest_point(const MeshTriangle& triangle, const Vector3& point, int& k
   return nearest;
 }
 
-// Checks for the contact with the plane, digit by digit.
+// Checks that the contact equals the contact with the plane, digit by digit.
 void check_is_plane_contact(const std::vector<MeshContact>& contacts, const Proximity& plane) {
   if (plane.gap > 0) {
     CHECK(contacts.empty());
@@ -68,7 +69,7 @@ void check_is_plane_contact(const std::vector<MeshContact>& contacts, const Prox
 
 }  // namespace
 
-TEST_CASE("a tessellated floor is a plane: the same contact, the same digits") {
+TEST_CASE("a tessellated floor gives the contact of a plane, with the same digits") {
   Draw draw(1);
   const Vector3 up = Vector3::UnitZ();
   const std::vector<MeshTriangle> coarse = floor_mesh(4, 4).placed();
@@ -89,7 +90,7 @@ TEST_CASE("a tessellated floor is a plane: the same contact, the same digits") {
   }
 }
 
-TEST_CASE("a turned and tessellated floor far from the origin is a plane") {
+TEST_CASE("a rotated and tessellated floor far from the origin gives the contact of a plane") {
   Draw draw(2);
   for (int i = 0; i < 200; ++i) {
     CAPTURE(i);
@@ -109,7 +110,7 @@ TEST_CASE("a turned and tessellated floor far from the origin is a plane") {
   }
 }
 
-TEST_CASE("a rod deep in a fine floor, of which only what touches the rod's box is known") {
+TEST_CASE("a rod deep in a fine floor has its contact, although only triangles in its box are known") {
   const Ellipsoid rod({0.05, 0.05, 1});
   const std::vector<MeshTriangle> floor = floor_mesh(40, 0.1).placed();
   int standing = 0;
@@ -134,7 +135,7 @@ TEST_CASE("a rod deep in a fine floor, of which only what touches the rod's box 
   CHECK(standing > 200);
 }
 
-TEST_CASE("closed convex meshes against the solid hull of their vertices") {
+TEST_CASE("contacts with closed convex meshes agree with the solid hull of their vertices") {
   Draw draw(3);
   const std::array<TriangleMesh, 4> meshes = {
       icosahedron_mesh(), box_mesh({0.9, 1.4, 0.7}), hull_mesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}),
@@ -152,7 +153,7 @@ TEST_CASE("closed convex meshes against the solid hull of their vertices") {
     const Pose pose = placed_at_gap(wanted, *body, rotation, hull, mesh_pose, draw.direction());
     const Proximity expected = find_proximity(*body, pose, hull, mesh_pose);
     const std::vector<MeshContact> contacts = contacts_of(*body, pose, mesh.placed(mesh_pose));
-    if (std::abs(expected.gap) < 1e-9 * smallest) continue;  // neither apart nor overlapping, to the tolerance
+    if (std::abs(expected.gap) < 1e-9 * smallest) continue;  // neither apart nor overlapping within the tolerance
     if (expected.gap > 0) {
       CHECK(contacts.empty());
       continue;
@@ -162,7 +163,7 @@ TEST_CASE("closed convex meshes against the solid hull of their vertices") {
     REQUIRE(contacts.size() == 1);
     const Proximity& contact = contacts[0].proximity;
     CHECK(std::abs(contact.gap - expected.gap) < 1e-9 * smallest);
-    // Two separating translations may be equally long to that tolerance.
+    // Two separating translations may be equally long within that tolerance.
     CHECK(std::abs(separation_along(*body, pose, hull, mesh_pose, contact.normal) - expected.gap) < 1e-9 * smallest);
     if (body->traits().has_flat_faces) continue;  // one normal has many support points
     CHECK((contact.point1 - expected.point1).norm() < 1e-3 * smallest);
@@ -171,8 +172,10 @@ TEST_CASE("closed convex meshes against the solid hull of their vertices") {
   CHECK(overlapping > 1500);
 }
 
-// A flat side has nearly the same normal at an edge and at the edge's end, where the contact is once the body reaches beyond it.
-TEST_CASE("a body nearly parallel to a closed mesh, beyond the end of an edge: the gap of the solid hull, at a place in the mesh") {
+// A flat side has nearly the same normal at an edge and at the end of the edge. The contact is at the end once the body reaches
+// beyond it.
+TEST_CASE(
+    "a body nearly parallel to a closed mesh, beyond the end of an edge, has the gap of the solid hull at a place in the mesh") {
   Draw draw(4);
   int overlapping = 0;
   for (int i = 0; i < 1200; ++i) {
@@ -204,7 +207,7 @@ TEST_CASE("a body nearly parallel to a closed mesh, beyond the end of an edge: t
   CHECK(overlapping > 1000);
 }
 
-TEST_CASE("a ball on one triangle: the face's normal where it stands, the distance of its centre beside the border") {
+TEST_CASE("a ball on one triangle has the face's normal where it stands, and the distance of its centre beside the border") {
   Draw draw(4);
   int standing[3] = {0, 0, 0};
   int beside[3] = {0, 0, 0};
@@ -226,7 +229,7 @@ TEST_CASE("a ball on one triangle: the face's normal where it stands, the distan
     if (gap > 1e-9) {
       CHECK(contacts.empty());
     } else if (gap < -1e-9) {
-      const double below = (radius - height) / (2 * radius);  // the plane, as a share of the ball
+      const double below = (radius - height) / (2 * radius);  // the depth below the plane, as a fraction of the ball's diameter
       REQUIRE(!contacts.empty());
       if (below > 0.2) REQUIRE(contacts.size() == 1);
       const Proximity& contact = contacts[0].proximity;
@@ -241,7 +244,7 @@ TEST_CASE("a ball on one triangle: the face's normal where it stands, the distan
         CHECK(std::abs(contact.gap - gap) < 1e-9);
         CHECK((contact.normal - inward).norm() < 1e-6);
       } else {
-        // In between the normal is between both.
+        // In between the normal is between the two.
         CHECK(contact.normal.cross(inward).dot(normal.cross(inward)) <= 1e-9);
         CHECK(contact.normal.dot(inward) >= -normal.dot(inward) - 1e-9);
         continue;
@@ -253,7 +256,7 @@ TEST_CASE("a ball on one triangle: the face's normal where it stands, the distan
   for (const int count : beside) CHECK(count > 20);
 }
 
-TEST_CASE("no contact with one triangle pushes behind it, and the deepest in turn push out") {
+TEST_CASE("no contact with one triangle pushes behind it, and moving out by the deepest contact ends apart") {
   Draw draw(9);
   int contacts_seen = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -278,7 +281,7 @@ TEST_CASE("no contact with one triangle pushes behind it, and the deepest in tur
   CHECK(contacts_seen > 1000);
 }
 
-TEST_CASE("steps, T-junctions and borders make no ghosts") {
+TEST_CASE("steps, T-junctions and borders make no ghost contacts") {
   const Ellipsoid body({0.5, 0.7, 0.3});
   // A floor of two strips whose vertices do not match, and a body that moves across the seam.
   TriangleMesh floor;
@@ -304,7 +307,7 @@ TEST_CASE("steps, T-junctions and borders make no ghosts") {
     check_is_plane_contact(contacts_of(body, pose, floor.placed()), find_plane_proximity(body, pose, Vector3::UnitZ(), 0));
   }
 
-  // A step down is along x = 0: the body is on the upper floor, beyond it, and at its edge.
+  // A step down is along x = 0. The body is on the upper floor, beyond the step, and at its edge.
   TriangleMesh step;
   for (const double y : {-5.0, 5.0}) {
     step.add({-5, y, 0});
@@ -326,9 +329,9 @@ TEST_CASE("steps, T-junctions and borders make no ghosts") {
   CHECK(at(0.37, 0.19)[0].proximity.gap + at(0.37, 0.19)[1].proximity.gap < -0.01);
 }
 
-TEST_CASE("creases of 1e-3 rad and steps of 1e-4 of the size are no seams") {
+TEST_CASE("creases of 1e-3 rad and steps of 1e-4 of the size are not merged as seams") {
   const Sphere ball(0.5);
-  const auto strips = [](const std::vector<Vector3>& profile) {  // of a floor along y, by x and z
+  const auto strips = [](const std::vector<Vector3>& profile) {  // a floor along y, from the profile in x and z
     TriangleMesh mesh;
     for (const Vector3& point : profile) {
       for (const double y : {-5.0, 5.0}) mesh.add({point.x(), y, point.z()});
@@ -354,7 +357,7 @@ TEST_CASE("creases of 1e-3 rad and steps of 1e-4 of the size are no seams") {
   const std::vector<MeshContact> both = at(valley, 0, 1e-3);
   REQUIRE(both.size() == 2);
   CHECK(std::abs(both[0].proximity.normal.x() - both[1].proximity.normal.x()) > 0.99e-3);
-  // A step of 1e-4 up, at the left: the ball on the lower floor meets its edge.
+  // A step of 1e-4 up, on the left: the ball on the lower floor meets its edge.
   const std::vector<MeshTriangle> step = strips({{-5, 0, 1e-4}, {0, 0, 1e-4}, {0, 0, 0}, {5, 0, 0}});
   const std::vector<MeshContact> contacts = at(step, 0.05, 0.01);
   REQUIRE(contacts.size() == 2);
@@ -362,7 +365,7 @@ TEST_CASE("creases of 1e-3 rad and steps of 1e-4 of the size are no seams") {
   CHECK(contacts[1].proximity.normal.x() == relative(-0.1).epsilon(0.05));
 }
 
-TEST_CASE("a sheet has one side, and a body beside or behind it no contact") {
+TEST_CASE("a sheet is single-sided: a body beside or behind it has no contact") {
   const Ellipsoid rod({0.1, 0.1, 2});
   const std::vector<MeshTriangle> sheet = floor_mesh(4, 1).placed();
   CHECK(contacts_of(rod, {{0, 0, -2.001}, Matrix3::Identity()}, sheet).empty());
@@ -381,7 +384,7 @@ TEST_CASE("a sheet has one side, and a body beside or behind it no contact") {
   CHECK((contacts[0].proximity.normal - Vector3(-1, 0, -1).normalized()).norm() < 0.01);
 }
 
-TEST_CASE("a plate: the shorter separating translation") {
+TEST_CASE("a body in a thin plate gets the shorter separating translation") {
   const Ellipsoid body({1, 1, 1});
   const std::vector<MeshTriangle> plate = box_mesh({20, 20, 0.1}).placed();
   for (const double height : {0.3, -0.2}) {
@@ -392,7 +395,7 @@ TEST_CASE("a plate: the shorter separating translation") {
   }
 }
 
-TEST_CASE("degenerate, repeated and unusable triangles") {
+TEST_CASE("degenerate, repeated and unusable triangles change no contact") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   const Ellipsoid body({0.5, 0.7, 0.3});

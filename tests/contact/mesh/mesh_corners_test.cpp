@@ -1,4 +1,4 @@
-// A body in the concave parts of a mesh: one contact for each side that holds it.
+// A body in the concave parts of a mesh: one contact for each side that supports it.
 #include <doctest/doctest.h>
 
 #include "supernormal/proximity/plane.hpp"
@@ -9,7 +9,7 @@
 using namespace supernormal;
 using namespace supernormal::test;
 
-TEST_CASE("valleys and room corners: one contact for each side") {
+TEST_CASE("valleys and room corners give one contact for each side") {
   const Ellipsoid ball(Vector3::Ones());
   // Two slopes meet at 90 degrees, with the valley along y.
   TriangleMesh valley;
@@ -39,10 +39,10 @@ TEST_CASE("valleys and room corners: one contact for each side") {
 
 namespace {
 
-// Nearly a rhombic bipyramid: its tip is the deepest point for all normals within 45 degrees of the axis.
+// Nearly a rhombic bipyramid. Its tip is the deepest point for all normals within 45 degrees of the axis.
 const Superellipsoid kTip({0.5, 0.5, 1.5}, 1.02, 1.02);
 
-// The pose with the tip along (1, 1, 1), nearly, at these depths beyond the planes x = 3, y = 4, z = 5.
+// The pose with the tip nearly along (1, 1, 1), at these depths beyond the planes x = 3, y = 4, z = 5.
 Pose pressed_into_corner(Draw& draw, const Vector3& depths) {
   Pose pose;
   pose.rotation = z_axis_to(Vector3::Ones() + draw.in_box({0.1, 0.1, 0.1}));
@@ -66,10 +66,10 @@ void check_is_held_by_all_walls(const std::vector<MeshContact>& contacts, const 
 
 }  // namespace
 
-TEST_CASE("a sharp tip pressed into a corner of three walls is held by all of them") {
+TEST_CASE("a sharp tip pressed into a corner of three walls has a contact with each wall") {
   Draw draw(5);
   const std::vector<MeshTriangle> room = box_mesh({3, 4, 5}, true).placed();
-  // The walls are the same, but each goes on behind the others: the mesh crosses itself.
+  // The same walls, but each continues behind the others: the mesh intersects itself.
   std::vector<MeshTriangle> crossing;
   for (int axis = 0; axis < 3; ++axis) {
     Pose wall;
@@ -86,7 +86,7 @@ TEST_CASE("a sharp tip pressed into a corner of three walls is held by all of th
   }
 }
 
-TEST_CASE("in a finely divided bowl a few contacts say it all") {
+TEST_CASE("a body in a finely divided bowl gets a few contacts") {
   TriangleMesh bowl = floor_mesh(60, 0.05);
   for (Vector3& vertex : bowl.vertices) vertex.z() = 0.25 * (vertex.x() * vertex.x() + vertex.y() * vertex.y());
   const std::vector<MeshTriangle> triangles = bowl.placed();

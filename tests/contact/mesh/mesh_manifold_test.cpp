@@ -1,4 +1,4 @@
-// Tests that the corners of a contact manifold stay on the floor.
+// Tests that the manifold points stay on the floor.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ ContactManifold manifold_on_plane(double depth = 1e-5) {
 
 }  // namespace
 
-TEST_CASE("on a floor of triangles in any order all corners stay") {
+TEST_CASE("on a floor of triangles in any order all manifold points stay") {
   std::vector<MeshTriangle> floor;
   add_rectangle(-1, -1, 1, 0.01, 0, 40, floor);
   add_rectangle(-1, 0.01, 1, 1, 0, 33, floor);
@@ -50,9 +50,9 @@ TEST_CASE("on a floor of triangles in any order all corners stay") {
   }
 }
 
-TEST_CASE("on triangles with vertices 1e-6 of their size apart all corners stay, however shallow the contact") {
+TEST_CASE("on triangles with vertices 1e-6 of their size apart all manifold points stay, at any depth") {
   std::mt19937_64 random(2);
-  std::uniform_real_distribution<double> apart(-3e-7, 3e-7);  // of triangles with sides of 1
+  std::uniform_real_distribution<double> apart(-3e-7, 3e-7);  // for triangles with sides of 1
   for (const double depth : {1e-5, 1e-8, 1e-11}) {
     for (int repetition = 0; repetition < 20; ++repetition) {
       std::vector<MeshTriangle> floor;
@@ -72,7 +72,7 @@ TEST_CASE("on triangles with vertices 1e-6 of their size apart all corners stay,
   }
 }
 
-TEST_CASE("what hangs over the border of a table is drawn in to it") {
+TEST_CASE("manifold points beyond the border of a table move in to it") {
   std::vector<MeshTriangle> table;
   add_rectangle(-1, -1, 0.03, 1, 0, 7, table);
   ContactManifold manifold = manifold_on_plane();
@@ -88,7 +88,7 @@ TEST_CASE("what hangs over the border of a table is drawn in to it") {
   CHECK(farthest == test::relative(0.03).epsilon(1e-4));
 }
 
-TEST_CASE("not across a gap, nor onto a step") {
+TEST_CASE("manifold points do not stay beyond a gap in the floor or over a step") {
   std::vector<MeshTriangle> floor;
   add_rectangle(-1, -1, 0.03, 1, 0, 7, floor);
   add_rectangle(0.05, -1, 1, 1, 0, 7, floor);
@@ -98,7 +98,7 @@ TEST_CASE("not across a gap, nor onto a step") {
   for (int k = 0; k < manifold.corner_count; ++k) CHECK(manifold.corners[static_cast<std::size_t>(k)].point.x() <= 0.03 + 1e-6);
 }
 
-TEST_CASE("without a face under the deepest point there are no corners") {
+TEST_CASE("without a face under the deepest point there are no manifold points") {
   std::vector<MeshTriangle> beside;
   add_rectangle(0.05, -1, 1, 1, 0, 7, beside);
   ContactManifold manifold = manifold_on_plane();

@@ -1,5 +1,5 @@
-// Gaps of bodies and closed meshes, apart and overlapping, against branch and bound on the solid hull: no solver of lib/proximity
-// is in the reference.
+// Gaps of bodies and closed meshes, apart and overlapping, against branch and bound on the solid hull. The reference uses no solver
+// of lib/proximity.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -27,7 +27,9 @@ double height_over(const Shape& shape, const Pose& pose, const Vector3& normal, 
 
 }  // namespace
 
-TEST_CASE("2000 bodies and closed meshes, apart, touching, overlapping by up to 10 %: the gap to 1e-9, points on both surfaces") {
+TEST_CASE(
+    "2000 bodies and closed meshes, apart, touching or overlapping by up to 10 %: the gap is right to 1e-9, and the points are on "
+    "both surfaces") {
   Draw draw(31);
   const std::array<TriangleMesh, 4> meshes = {
       icosahedron_mesh(), box_mesh({0.9, 1.4, 0.7}), hull_mesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}),
@@ -60,7 +62,7 @@ TEST_CASE("2000 bodies and closed meshes, apart, touching, overlapping by up to 
 }
 
 // The radius of curvature vanishes at a vertex of an exponent below 2, and only there.
-TEST_CASE("bodies with vertices, these deep in an edge of a mesh: no shorter translation is missed") {
+TEST_CASE("bodies with a vertex deep in an edge of a mesh: no shorter translation is missed") {
   Draw draw(32);
   const TriangleMesh mesh = box_mesh({0.9, 1.4, 0.7});
   const Polytope hull(mesh.vertices);

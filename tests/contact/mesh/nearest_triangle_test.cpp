@@ -11,7 +11,7 @@
 using namespace supernormal;
 using namespace supernormal::test;
 
-TEST_CASE("the nearest of many triangles, from both sides") {
+TEST_CASE("the nearest of many triangles is found from both sides") {
   Draw draw(21);
   for (int i = 0; i < 100; ++i) {
     CAPTURE(i);
@@ -38,7 +38,7 @@ TEST_CASE("the nearest of many triangles, from both sides") {
   }
 }
 
-TEST_CASE("degenerate and unusable triangles, and none at all") {
+TEST_CASE("the nearest triangle of degenerate and unusable triangles, or of none") {
   const Ellipsoid body(Vector3::Ones());
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Vector3 a{3, 0, 0};

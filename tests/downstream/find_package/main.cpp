@@ -1,6 +1,5 @@
-// A program that has only what is installed: computes the same gap with the C++ core and the C interface, with a shape of its own
-// too, and catches an exception that the library throws. That takes the library's tables of virtual functions and type
-// information.
+// A program that has only the installed files. It computes the same gap with the C++ core and the C interface, and with a shape of
+// its own. It catches an exception of the library, which needs the library's tables of virtual functions and type information.
 #include <supernormal/supernormal.h>
 
 #include <cmath>
@@ -14,7 +13,7 @@ namespace {
 constexpr double kDistance = 3;
 constexpr double kGap = 1.5;
 
-// The ball that has the left ellipsoid's largest half-axis.
+// A ball with the left ellipsoid's largest half-axis as its radius.
 class Ball final : public supernormal::Shape {
  public:
   void evaluate(const supernormal::Vector3& n, supernormal::Order /*order*/, supernormal::Jet& jet) const override {

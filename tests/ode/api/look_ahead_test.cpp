@@ -1,4 +1,4 @@
-// Tests of the functions for contacts before overlap: what they refuse, and what they change.
+// Tests of the functions for contacts before overlap: their refusals and their effects.
 #include <doctest/doctest.h>
 
 #include "support/ode_world.hpp"
@@ -26,7 +26,7 @@ Vec size_of_box(dGeomID geom) {
 
 }  // namespace
 
-TEST_CASE("a time that is none is refused, with its value and the range, and nothing changes") {
+TEST_CASE("an invalid look-ahead time is refused, with its value and the range, and changes nothing") {
   OdeSession session;
   const Geom geom(snCreateEllipsoid(nullptr, 1, 1, 1));
   const Vec before = size_of_box(geom);
@@ -46,13 +46,13 @@ TEST_CASE("a time that is none is refused, with its value and the range, and not
   CHECK(snGeomSetLookAhead(nullptr, dReal(0.01)) == 0);
 }
 
-TEST_CASE("snContactLookAhead lets a gap close within the step, and leaves other contacts alone") {
+TEST_CASE("snContactLookAhead lets a gap close within the step, and does not change other contacts") {
   dContact contact = contact_of_depth(dReal(-0.5));
   snContactLookAhead(&contact, dReal(0.25));
   CHECK(contact.geom.depth == 0);
   CHECK(contact.surface.mode == (dContactApprox1 | dContactMotionN));
   CHECK(contact.surface.motionN == -2);
-  // A surface that comes out already, as a piston does.
+  // A surface that moves out already, like a piston.
   contact = contact_of_depth(dReal(-0.5));
   contact.surface.mode |= dContactMotionN;
   contact.surface.motionN = 3;
@@ -84,7 +84,7 @@ TEST_CASE("snContactLookAhead lets a gap close within the step, and leaves other
   CHECK(refused_with("snContactLookAhead: contact = NULL"));
 }
 
-TEST_CASE("the box covers the motion within the time, and is that of the body alone again without it") {
+TEST_CASE("the bounding box covers the motion within the look-ahead time, and only the body without it") {
   OdeSession session;
   World world;
   dWorldSetGravity(world.id(), 0, 0, 0);
@@ -93,9 +93,9 @@ TEST_CASE("the box covers the motion within the time, and is that of the body al
   const Vec still = size_of_box(geom);
   dBodySetLinearVel(body, 100, 0, 0);
   REQUIRE(snGeomSetLookAhead(geom, dReal(0.1)) == 1);
-  CHECK(size_of_box(geom)[0] == doctest::Approx(12.02));  // and one hundredth of the half-extent on both sides
+  CHECK(size_of_box(geom)[0] == doctest::Approx(12.02));  // with one hundredth of the half-extent on both sides
   CHECK(size_of_box(geom)[1] == doctest::Approx(2.02));
-  // ODE keeps the box until the geom is moved, or said to be.
+  // ODE keeps the box until dGeomMoved or a move.
   dBodySetLinearVel(body, 0, 200, 0);
   CHECK(size_of_box(geom)[1] == doctest::Approx(2.02));
   dGeomMoved(geom);
@@ -104,14 +104,14 @@ TEST_CASE("the box covers the motion within the time, and is that of the body al
   dBodySetAngularVel(body, 0, 0, 1);
   dGeomMoved(geom);
   CHECK(size_of_box(geom)[1] > 2.2);
-  dBodySetAngularVel(body, 0, 0, 1000);  // no farther than to the other side
+  dBodySetAngularVel(body, 0, 0, 1000);  // at most to the other side
   dGeomMoved(geom);
   CHECK(size_of_box(geom)[1] < 14);
   REQUIRE(snGeomSetLookAhead(geom, 0) == 1);
   CHECK(size_of_box(geom) == still);
 }
 
-TEST_CASE("without look-ahead no contact has a negative depth, and the contacts are the same bits as ever") {
+TEST_CASE("without look-ahead no contact has a negative depth, and the contacts have the same bits as before") {
   OdeSession session;
   Random random(11);
   const Geom floor(dCreatePlane(nullptr, 0, 0, 1, 0));
@@ -130,7 +130,7 @@ TEST_CASE("without look-ahead no contact has a negative depth, and the contacts 
       for (const dContactGeom& contact : plain) CHECK(contact.depth >= 0);
       REQUIRE(snGeomSetLookAhead(brick, dReal(0.01)) == 1);
       const std::vector<dContactGeom> ahead = collide(brick, collider);
-      if (!plain.empty()) CHECK(ahead.size() >= 1);  // never less safe
+      if (!plain.empty()) CHECK(ahead.size() >= 1);  // never fewer than without look-ahead
       with_contacts += ahead.empty() ? 0 : 1;
       REQUIRE(snGeomSetLookAhead(brick, 0) == 1);
       CHECK(same_bits(collide(brick, collider), plain));

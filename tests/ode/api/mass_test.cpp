@@ -8,7 +8,7 @@ using namespace supernormal::test;
 
 namespace {
 
-// Checks the principal moments per mass against the second moments, and that nothing is off the diagonal.
+// Checks the principal moments for mass 1 against the second moments, and that all products of inertia are 0.
 void check_inertia(const dMass& mass, const Vec& squares) {
   const double m = mass.mass;
   CHECK(mass.I[0] == relative(m * (squares[1] + squares[2])).epsilon(within_rounding(1e-12)));
@@ -17,14 +17,14 @@ void check_inertia(const dMass& mass, const Vec& squares) {
   for (const int off_diagonal : {1, 2, 4, 6, 8, 9}) CHECK(std::abs(mass.I[off_diagonal]) < 1e-14 * m);
 }
 
-// A ball of radius 1 that does not have its centre at the origin: h(n) = 1 + offset.n.
+// A ball of radius 1 with its centre off the origin: h(n) = 1 + offset.n.
 constexpr Vec kOffset = {0.2, -0.1, 0.3};
 dReal ball_support(const void* /*user*/, const dReal n[3]) { return dReal(1 + dot(kOffset, to_vec(n))); }
 void ball_point(const void* /*user*/, const dReal n[3], dReal point[3]) {
   for (std::size_t i = 0; i < 3; ++i) point[i] = dReal(n[i] + kOffset[i]);
 }
 
-// An ellipsoid with half-axes of some 10 km in no special attitude: h(n) = |A n|.
+// An ellipsoid with half-axes of some 10 km in a general orientation: h(n) = |A n|.
 Vec oblique(const Vec& n) { return {9000 * n[0] + 4000 * n[1], 11000 * n[1] + 3000 * n[2], 7000 * n[2] + 2000 * n[0]}; }
 dReal oblique_support(const void* /*user*/, const dReal n[3]) { return dReal(norm(oblique(to_vec(n)))); }
 void oblique_point(const void* /*user*/, const dReal n[3], dReal point[3]) {
@@ -36,7 +36,7 @@ void oblique_point(const void* /*user*/, const dReal n[3], dReal point[3]) {
 
 }  // namespace
 
-TEST_CASE("ellipsoid: the textbook") {
+TEST_CASE("mass: an ellipsoid has the textbook's values") {
   OdeSession session;
   const Geom geom(snCreateEllipsoid(nullptr, 3, 2, 1));
   dMass mass;
@@ -53,7 +53,7 @@ TEST_CASE("ellipsoid: the textbook") {
   for (const int i : {0, 5, 10}) CHECK(mass.I[i] == relative(reference.I[i]).epsilon(within_rounding(1e-14)));
 }
 
-TEST_CASE("superellipsoids: the values of tests/data/README.md, 'Volume and inertia'") {
+TEST_CASE("mass: superellipsoids have the values of tests/data/README.md, 'Volume and inertia'") {
   OdeSession session;
   dMass mass;
   {
@@ -74,7 +74,7 @@ TEST_CASE("superellipsoids: the values of tests/data/README.md, 'Volume and iner
   }
 }
 
-TEST_CASE("total mass: the same body, scaled") {
+TEST_CASE("mass: a total mass scales the inertia") {
   OdeSession session;
   const Geom geom(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 3, 5));
   dMass by_density, by_total;
@@ -85,7 +85,7 @@ TEST_CASE("total mass: the same body, scaled") {
     CHECK(by_total.I[i] / by_total.mass == relative(by_density.I[i] / by_density.mass).epsilon(within_rounding(1e-14)));
 }
 
-TEST_CASE("rounding: a swept sphere is a larger sphere") {
+TEST_CASE("mass: a sphere with a rounding is a larger sphere") {
   OdeSession session;
   const Geom geom(snCreateSuperellipsoid(nullptr, 1, 1, 1, 2, 2));
   REQUIRE(snGeomSetRounding(geom, dReal(0.5)) == 1);
@@ -96,7 +96,7 @@ TEST_CASE("rounding: a swept sphere is a larger sphere") {
   for (const int i : {0, 5, 10}) CHECK(mass.I[i] == relative(reference.I[i]).epsilon(within_rounding(1e-9)));
 }
 
-TEST_CASE("a centre of mass off the origin: what dMassTranslate gives for a sphere") {
+TEST_CASE("mass: a sphere off the origin has the inertia of dMassTranslate") {
   OdeSession session;
   const snShape shape = {ball_support, ball_point, nullptr, nullptr, nullptr};
   const Geom geom(snCreateConvex(nullptr, &shape));
@@ -114,7 +114,7 @@ TEST_CASE("a centre of mass off the origin: what dMassTranslate gives for a sphe
   CHECK(dMassCheck(&mass) == 1);
 }
 
-TEST_CASE("a centre of mass that is the origin to rounding is the origin, however large the body") {
+TEST_CASE("mass: a centre of mass within rounding of the origin is at the origin, at any size") {
   OdeSession session;
   const dWorldID world = dWorldCreate();
   const snShape shape = {oblique_support, oblique_point, nullptr, nullptr, nullptr};
@@ -127,7 +127,7 @@ TEST_CASE("a centre of mass that is the origin to rounding is the origin, howeve
   dWorldDestroy(world);
 }
 
-TEST_CASE("ODE accepts the mass of every body that it can hold") {
+TEST_CASE("mass: ODE accepts the mass of every body in its range") {
   OdeSession session;
   const dWorldID world = dWorldCreate();
   Random random(17);

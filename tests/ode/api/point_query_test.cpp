@@ -10,8 +10,8 @@ using namespace supernormal::test;
 
 namespace {
 
-// A point at signed distance `depth` inside the boundary point with a given normal. Inwards this is exact up to the smallest
-// radius of curvature, beyond which another boundary point is nearer.
+// A point at signed distance `depth` inside the boundary point with a given normal. Inwards this is exact up to the smallest radius
+// of curvature; beyond it another boundary point is nearer.
 Vec point_at_depth(dGeomID geom, const Vec& direction, double depth) {
   const dVector3 n = {dReal(direction[0]), dReal(direction[1]), dReal(direction[2]), 0};
   dVector3 boundary;
@@ -23,7 +23,7 @@ double depth_of(dGeomID geom, const Vec& p) { return snGeomPointDepth(geom, dRea
 
 }  // namespace
 
-TEST_CASE("a sphere: radius minus distance") {
+TEST_CASE("point depth: a sphere has the radius minus the distance") {
   OdeSession session;
   Random random(13);
   const Geom geom(snCreateEllipsoid(nullptr, 2, 2, 2));
@@ -39,7 +39,7 @@ TEST_CASE("a sphere: radius minus distance") {
   CHECK(depth_of(geom, centre) == relative(2).epsilon(1e-14));
 }
 
-TEST_CASE("an ellipsoid: centre, axes, focal points, far away") {
+TEST_CASE("point depth: an ellipsoid has the closed form at its centre, on its axes and far away") {
   OdeSession session;
   const double a = 3, b = 2, c = 1;
   const Geom geom(snCreateEllipsoid(nullptr, dReal(a), dReal(b), dReal(c)));
@@ -51,20 +51,20 @@ TEST_CASE("an ellipsoid: centre, axes, focal points, far away") {
     CHECK(depth_of(geom, {0, -b - outside, 0}) == relative(-outside).epsilon(within_rounding(1e-8, 3 / outside)));
     CHECK(depth_of(geom, {0, 0, c + outside}) == relative(-outside).epsilon(within_rounding(1e-8, 3 / outside)));
   }
-  // Inside, on the x-axis, the nearest point is the end of the axis only beyond the centre of curvature a - c^2/a; between the
+  // On the x-axis inside, the nearest point is the end of the axis only beyond the centre of curvature a - c^2/a. Between the
   // centres, by symmetry in the xz-plane: distance^2 = c^2 (1 - x^2 / (a^2 - c^2)).
   CHECK(std::abs(depth_of(geom, {2.8, 0, 0}) - 0.2) < within_rounding(1e-9));
   for (const double x : {0.3, 1.0, 2.0}) {
     CHECK(std::abs(depth_of(geom, {x, 0, 0}) - c * std::sqrt(1 - x * x / (a * a - c * c))) < within_rounding(1e-9));
   }
-  // The point is far away, along a line normal to the surface (the answer has the digits of the point's coordinates).
+  // The point is far away, along a line normal to the surface. The answer has the digits of the point's coordinates.
   const Vec n = {0.48, 0.6, 0.64};
   for (const double distance : {1e3, 1e6, 1e9}) {
     CHECK(depth_of(geom, point_at_depth(geom, n, -distance)) == relative(-distance).epsilon(1e-12));
   }
 }
 
-TEST_CASE("superellipsoids in any pose: along the normal lines") {
+TEST_CASE("point depth: superellipsoids in any pose have the distance along their normals") {
   OdeSession session;
   Random random(14);
   for (int i = 0; i < 300; ++i) {
@@ -78,7 +78,7 @@ TEST_CASE("superellipsoids in any pose: along the normal lines") {
   }
 }
 
-TEST_CASE("with rounding the distance is that of the core less the radius") {
+TEST_CASE("point depth: a rounding reduces the distance by its radius") {
   OdeSession session;
   Random random(15);
   const Geom rounded(snCreateSuperellipsoid(nullptr, 1, 1, 1, 5, 5));
@@ -90,7 +90,7 @@ TEST_CASE("with rounding the distance is that of the core less the radius") {
   }
 }
 
-TEST_CASE("support: the farthest boundary point, whatever the length of the direction") {
+TEST_CASE("support: the farthest boundary point is returned for a direction of any length") {
   OdeSession session;
   Random random(16);
   for (int i = 0; i < 100; ++i) {

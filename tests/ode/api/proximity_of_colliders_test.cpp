@@ -18,8 +18,8 @@ snProximity proximity(dGeomID g1, dGeomID g2) {
   return answer;
 }
 
-// The signed distance from the surface where it is positive, by the formulas of the shapes; inside, some number that is not
-// positive, and 0 on the surface.
+// The signed distance from the surface outside, by the formulas of the shapes. Inside, some number that is not positive; on the
+// surface 0.
 double distance_from(dGeomID collider, const Vec& point) {
   dVector3 local{};
   if (dGeomGetClass(collider) != dPlaneClass) {
@@ -55,7 +55,7 @@ double distance_from(dGeomID collider, const Vec& point) {
   }
 }
 
-// There is no formula for a dConvex: a small sphere at the point touches it from the side of the normal.
+// There is no formula for a dConvex. A small sphere at the point touches it from the side of the normal.
 bool is_on(dGeomID collider, const Vec& point, const Vec& outward) {
   const double tolerance = within_rounding(3e-9);
   if (dGeomGetClass(collider) != dConvexClass) return std::abs(distance_from(collider, point)) < tolerance;
@@ -88,7 +88,7 @@ void check_answer(dGeomID body, dGeomID collider, const snProximity& answer) {
 
 }  // namespace
 
-TEST_CASE("points on both surfaces, a gap apart along the normal; moved by the gap they touch; less, and they overlap") {
+TEST_CASE("proximity: the points are on both surfaces, and a displacement by the gap makes the geoms touch") {
   OdeSession session;
   snSetWarmStart(0);
   for (const ColliderKind kind : kColliderKinds) {
@@ -123,7 +123,7 @@ TEST_CASE("points on both surfaces, a gap apart along the normal; moved by the g
   }
 }
 
-TEST_CASE("geoms without size are points, segments and plates") {
+TEST_CASE("proximity: geoms without size are points, segments and plates") {
   OdeSession session;
   snSetWarmStart(0);
   Random random(51);
@@ -157,7 +157,7 @@ TEST_CASE("geoms without size are points, segments and plates") {
   }
 }
 
-TEST_CASE("geoms with lengths that are no lengths are refused, and collide with nothing") {
+TEST_CASE("proximity: geoms with invalid lengths are refused, and collide with nothing") {
   OdeSession session;
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
   snProximity answer;

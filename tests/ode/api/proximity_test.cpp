@@ -14,7 +14,7 @@ snProximity proximity_of(dGeomID g1, dGeomID g2) {
   return answer;
 }
 
-// Checks conditions that every answer must satisfy by itself.
+// Checks conditions that every answer must satisfy.
 void check_consistent(const snProximity& p, double rounding) {
   CHECK(norm(to_vec(p.normal)) == relative(1).epsilon(within_rounding(1e-14)));
   const Vec d = to_vec(p.point2) - to_vec(p.point1);
@@ -24,7 +24,7 @@ void check_consistent(const snProximity& p, double rounding) {
 
 }  // namespace
 
-TEST_CASE("the published pair R1 of tests/data/README.md") {
+TEST_CASE("proximity: the published pair R1 has the gap of tests/data/README.md") {
   OdeSession session;
   const Geom g1(snCreateSuperellipsoid(nullptr, 15, 10, 5, dReal(2 / 0.7), dReal(2 / 0.5)));
   const Geom g2(snCreateSuperellipsoid(nullptr, 5, 3, 2, dReal(2 / 0.2), dReal(2 / 1.25)));
@@ -48,7 +48,7 @@ TEST_CASE("the published pair R1 of tests/data/README.md") {
   }
 }
 
-TEST_CASE("with spheres: the gap to a point less the radius, in both orders, apart and overlapping") {
+TEST_CASE("proximity: a sphere has the gap of its centre less the radius, in both orders") {
   OdeSession session;
   Random random(18);
   for (int i = 0; i < 200; ++i) {
@@ -65,13 +65,13 @@ TEST_CASE("with spheres: the gap to a point less the radius, in both orders, apa
       check_consistent(p, 1e-12);
     }
     CHECK(norm(to_vec(forth.normal) + to_vec(back.normal)) < 1e-4);
-    // The point on the sphere is on the sphere, and the normal leaves its centre for the body.
+    // The witness point is on the sphere, and the normal points from its centre to the body.
     CHECK(norm(to_vec(forth.point2) - (centre - radius * to_vec(forth.normal))) < within_rounding(1e-12));
     CHECK(norm(to_vec(back.point1) - (centre + radius * to_vec(back.normal))) < within_rounding(1e-12));
   }
 }
 
-TEST_CASE("with planes: explicit, in both orders") {
+TEST_CASE("proximity: a plane has the explicit gap, in both orders") {
   OdeSession session;
   Random random(19);
   for (int i = 0; i < 100; ++i) {
@@ -100,7 +100,7 @@ TEST_CASE("with planes: explicit, in both orders") {
   }
 }
 
-TEST_CASE("the gap of the query and the depth of the contact agree") {
+TEST_CASE("proximity: the gap of the query and the depth of the contact agree") {
   OdeSession session;
   Random random(20);
   int overlapping = 0;
@@ -119,7 +119,7 @@ TEST_CASE("the gap of the query and the depth of the contact agree") {
   CHECK(overlapping > 50);
 }
 
-TEST_CASE("certified: proved the minimum translation distance, and never longer than that of the plain query") {
+TEST_CASE("certified: the depth is proved the minimum translation distance, and never larger than the depth of the plain query") {
   OdeSession session;
   Random random(61);
   int unproved = 0;
@@ -148,7 +148,7 @@ TEST_CASE("certified: proved the minimum translation distance, and never longer 
   CHECK(unproved > 30);
 }
 
-TEST_CASE("a pair uses the tighter tolerance and the larger limit; the limit ends a query that says so") {
+TEST_CASE("a pair uses the tighter tolerance and the larger limit, and a query that reaches the limit reports it") {
   OdeSession session;
   snSetWarmStart(0);
   const Geom g1(snCreateSuperellipsoid(nullptr, 1, dReal(0.7), dReal(0.4), 5, 3));
@@ -179,7 +179,7 @@ TEST_CASE("a pair uses the tighter tolerance and the larger limit; the limit end
   CHECK(proximity_of(g1, g2).evaluations < fine.evaluations);
 }
 
-TEST_CASE("the solver of a pair: what both ask for, the hybrid if they differ") {
+TEST_CASE("a pair uses the solver of both geoms, or the hybrid if they differ") {
   OdeSession session;
   snSetWarmStart(0);
   const auto make = [](snSolver solver) {
@@ -201,7 +201,7 @@ TEST_CASE("the solver of a pair: what both ask for, the hybrid if they differ") 
   CHECK(evaluations(SN_SOLVER_HYBRID, SN_SOLVER_FIXED_POINT) == hybrid);
 }
 
-TEST_CASE("a query without convergence that overlaps still gives a contact that separates") {
+TEST_CASE("an overlap without convergence gives a contact that separates the geoms") {
   OdeSession session;
   snSetWarmStart(0);
   Random random(22);
@@ -222,7 +222,7 @@ TEST_CASE("a query without convergence that overlaps still gives a contact that 
   CHECK(contacts_seen > 50);
 }
 
-TEST_CASE("statistics count what happened, in this thread") {
+TEST_CASE("statistics count the queries of this thread") {
   OdeSession session;
   const Geom g1(snCreateEllipsoid(nullptr, 1, dReal(0.8), dReal(0.6)));
   const Geom g2(snCreateEllipsoid(nullptr, 1, dReal(0.8), dReal(0.6)));

@@ -1,4 +1,4 @@
-// Tests that bad parameters are refused with the parameter, its value and the range, and that nothing changes.
+// Tests that invalid parameters are refused with the parameter, its value and the range, and that nothing changes.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -30,7 +30,7 @@ struct Parameters {
 
 }  // namespace
 
-TEST_CASE("half-axes and exponents, at creation") {
+TEST_CASE("refusals: half-axes and exponents at creation") {
   OdeSession session;
   struct Case {
     dReal a, b, c, delta, epsilon;
@@ -54,7 +54,7 @@ TEST_CASE("half-axes and exponents, at creation") {
   CHECK(snGeomClass() == -1);  // no refused geom is alive
 }
 
-TEST_CASE("a refused change leaves the geom as it was") {
+TEST_CASE("refusals: a refused change leaves the geom unchanged") {
   OdeSession session;
   const Geom geom(snCreateSuperellipsoid(nullptr, 1, 2, 3, 4, 5));
   REQUIRE(snGeomSetRounding(geom, dReal(0.25)) == 1);
@@ -71,12 +71,12 @@ TEST_CASE("a refused change leaves the geom as it was") {
     check_error("snGeomSetRounding", "radius = ", "[0, 1e+30] m");
   }
   CHECK(Parameters(geom) == before);
-  dGeomSetPosition(geom, 0, 0, 0);  // this has the box computed again
+  dGeomSetPosition(geom, 0, 0, 0);  // so that ODE computes the box again
   dGeomGetAABB(geom, box_after);
   for (int i = 0; i < 6; ++i) CHECK(box_before[i] == box_after[i]);
 }
 
-TEST_CASE("geoms that are not ours, or not the kind asked for") {
+TEST_CASE("refusals: geoms of another class or of another kind of body") {
   OdeSession session;
   const Geom sphere(dCreateSphere(nullptr, 1));
   dMass mass;
@@ -101,7 +101,7 @@ TEST_CASE("geoms that are not ours, or not the kind asked for") {
   CHECK(value == 7);
 }
 
-TEST_CASE("solver settings") {
+TEST_CASE("refusals: solver settings") {
   OdeSession session;
   const Geom geom(snCreateEllipsoid(nullptr, 1, 1, 1));
   const auto check_both = [&](snSolver solver, dReal tolerance, int limit, const char* value, const char* range) {
@@ -115,14 +115,14 @@ TEST_CASE("solver settings") {
   check_both(SN_SOLVER_HYBRID, kNan, 10, "tolerance = nan", "[1e-15, 1]");
   check_both(SN_SOLVER_HYBRID, dReal(1e-9), 0, "max_evaluations = 0", "[1, 1000000]");
   check_both(SN_SOLVER_HYBRID, dReal(1e-9), 1000001, "max_evaluations = 1000001", "[1, 1000000]");
-  // C passes any int, before anything has checked it.
+  // C passes any int, unchecked.
   for (const int number : {3, 7, -1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
     check_both(static_cast<snSolver>(number), dReal(1e-9), 10, ("solver = " + std::to_string(number) + " ").c_str(),
                "SN_SOLVER_FIXED_POINT (2)");
   }
 }
 
-TEST_CASE("mass, support, point, proximity") {
+TEST_CASE("refusals: mass, support, point and proximity") {
   OdeSession session;
   const Geom geom(snCreateEllipsoid(nullptr, 1, 1, 1));
   const Geom other(snCreateEllipsoid(nullptr, 1, 1, 1));
@@ -179,7 +179,7 @@ TEST_CASE("mass, support, point, proximity") {
   CHECK(answer.gap == 7);
 }
 
-TEST_CASE("the text belongs to the thread") {
+TEST_CASE("refusals: each thread has its own text of the last error") {
   OdeSession session;
   CHECK(snCreateEllipsoid(nullptr, -1, 1, 1) == nullptr);
   std::string before, after;

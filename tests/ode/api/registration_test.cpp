@@ -1,4 +1,4 @@
-// Tests that the class is registered once, whoever else opens and closes ODE.
+// Tests that the class is registered once, although other programs open and close ODE.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -33,8 +33,8 @@ bool works() {
 
 }  // namespace
 
-TEST_CASE("the class comes with the first creation and goes with snClose") {
-  CHECK(snGeomClass() == -1);  // ODE is not even initialised
+TEST_CASE("registration: the first creation registers the class, and snClose removes it") {
+  CHECK(snGeomClass() == -1);  // ODE is not yet initialised
   const dGeomID geom = snCreateEllipsoid(nullptr, 1, 1, 1);
   REQUIRE(geom != nullptr);
   CHECK(snGeomClass() >= dFirstUserClass);
@@ -45,7 +45,7 @@ TEST_CASE("the class comes with the first creation and goes with snClose") {
   snClose();  // twice does no harm
 }
 
-TEST_CASE("snInit again and again is one registration") {
+TEST_CASE("registration: repeated snInit registers once") {
   OdeSession session;
   REQUIRE(snInit() == 1);
   const int number = snGeomClass();
@@ -54,7 +54,7 @@ TEST_CASE("snInit again and again is one registration") {
   CHECK(register_foreign_class() == number + 1);
 }
 
-TEST_CASE("another client's dInitODE2 and dCloseODE leave us alone") {
+TEST_CASE("registration: dInitODE2 and dCloseODE of another client do not remove the class") {
   SUBCASE("inside our time") {
     REQUIRE(snInit() == 1);
     dInitODE2(0);
@@ -77,7 +77,7 @@ TEST_CASE("another client's dInitODE2 and dCloseODE leave us alone") {
   }
 }
 
-TEST_CASE("afresh after snClose") {
+TEST_CASE("registration: the class can be registered again after snClose") {
   SUBCASE("ODE really closed, and another class has our number now") {
     REQUIRE(works());
     const int before = snGeomClass();
@@ -102,7 +102,7 @@ TEST_CASE("afresh after snClose") {
   }
 }
 
-TEST_CASE("snClose refuses while geoms are alive") {
+TEST_CASE("registration: snClose refuses while geoms are alive") {
   OdeSession session;
   const dGeomID geom = snCreateEllipsoid(nullptr, 1, 1, 1);
   snClose();
@@ -113,7 +113,7 @@ TEST_CASE("snClose refuses while geoms are alive") {
   CHECK(snGeomClass() == -1);
 }
 
-TEST_CASE("no free class is a refusal, not an abort") {
+TEST_CASE("registration: without a free class the call is refused and does not abort") {
   dInitODE2(0);
   for (int i = 0; i < dMaxUserClasses; ++i) register_foreign_class();
   dSetDebugHandler(own_debug_handler);
@@ -126,12 +126,12 @@ TEST_CASE("no free class is a refusal, not an abort") {
   dSetDebugHandler(nullptr);
   CHECK(handler_is_back);
 
-  dCloseODE();  // ours was given back: this one really closes ODE
+  dCloseODE();  // our share was returned, so this call really closes ODE
   CHECK(works());
   snClose();
 }
 
-TEST_CASE("a geom without a body, made behind our back, is harmless") {
+TEST_CASE("registration: a geom of our class without a body does no harm") {
   OdeSession session;
   REQUIRE(snInit() == 1);
   const Geom empty(dCreateGeom(snGeomClass()));
@@ -146,7 +146,7 @@ TEST_CASE("a geom without a body, made behind our back, is harmless") {
   CHECK(snGeomSetRounding(empty, 1) == 0);
 }
 
-TEST_CASE("many threads at once register once") {
+TEST_CASE("registration: many threads at once register once") {
   OdeSession session;
   std::array<int, 8> numbers{};
   std::vector<std::thread> threads;
@@ -162,12 +162,12 @@ TEST_CASE("many threads at once register once") {
   CHECK(register_foreign_class() == snGeomClass() + 1);
 }
 
-TEST_CASE("class data: the destructor runs with the geom, also with its space") {
+TEST_CASE("registration: a geom's data are destroyed with the geom, also by its space") {
   OdeSession session;
   const dSpaceID space = dHashSpaceCreate(nullptr);
   for (int i = 0; i < 10; ++i) snCreateSuperellipsoid(space, 1, 1, 1, 3, 3);
   snClose();
-  CHECK(snGeomClass() >= 0);  // ten alive
+  CHECK(snGeomClass() >= 0);  // ten geoms are alive
   dSpaceDestroy(space);
   snClose();
   CHECK(snGeomClass() == -1);

@@ -24,7 +24,7 @@ double volume(const snMesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("a mesh has the volume of its geom, and its corners the geom's normals") {
+TEST_CASE("a mesh has the volume of its geom, and its vertices have the geom's normals") {
   OdeSession session;
   const Geom geom(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 3, 3));
   REQUIRE(snGeomSetRounding(geom, dReal(0.05)) == 1);
@@ -33,7 +33,7 @@ TEST_CASE("a mesh has the volume of its geom, and its corners the geom's normals
   snMesh mesh;
   REQUIRE(snGeomTessellate(geom, dReal(1e-4), &mesh) == 1);
   CHECK(volume(mesh) == relative(mass.mass).epsilon(1e-3));
-  CHECK(volume(mesh) < mass.mass);  // its corners are on the boundary of a convex body
+  CHECK(volume(mesh) < mass.mass);  // its vertices are on the boundary of a convex body
   for (int k = 0; k < mesh.points; ++k) {
     const dReal* n = mesh.normal + 3 * k;
     const dVector3 direction = {n[0], n[1], n[2]};
@@ -47,7 +47,7 @@ TEST_CASE("a mesh has the volume of its geom, and its corners the geom's normals
   snMeshRelease(nullptr);
 }
 
-TEST_CASE("a mesh is refused, and empty, where it would be none") {
+TEST_CASE("a mesh with invalid arguments is refused and empty") {
   OdeSession session;
   const Geom geom(snCreateEllipsoid(nullptr, 3, 2, 1));
   snMesh mesh;

@@ -1,4 +1,4 @@
-// snGeomTimeOfImpact with every collider, against snGeomProximity along the way.
+// snGeomTimeOfImpact with every collider, against snGeomProximity along the path.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -74,7 +74,7 @@ struct TestWorld {
 
 }  // namespace
 
-TEST_CASE("time of impact: with every collider the gap is positive before, and closes then; in either order") {
+TEST_CASE("time of impact: with every collider the gap is positive before and closes at the impact, in either order") {
   const OdeSession session;
   Random random(1);
   const double rounding = within_rounding(1e-8, 50);
@@ -125,7 +125,7 @@ TEST_CASE("time of impact: with every collider the gap is positive before, and c
   }
 }
 
-TEST_CASE("time of impact: a sheet of triangles, at rest, moving or turning, and past its border") {
+TEST_CASE("time of impact: a body hits a sheet of triangles, at rest, moving or rotating, and misses it beyond its border") {
   const OdeSession session;
   const TestWorld world;
   const MeshGeom floor(floor_arrays(20, 20, 0.5));  // 10 m x 10 m from the origin
@@ -142,7 +142,7 @@ TEST_CASE("time of impact: a sheet of triangles, at rest, moving or turning, and
   CHECK(impact_of(floor, ball, 1).normal[2] > 0.999);
   CHECK(impact_of(ball, floor, 0.49).hits == 0);
 
-  // Of 3000 m/s, past thousands of its sizes; and from below.
+  // At 3000 m/s, past thousands of its sizes, and from below.
   mover.set({-1000 + 5, 5, 1000.3}, {1000, 0, -1000}, {300, 200, 100});
   CHECK(std::abs(impact_of(ball, floor, 2).time - 1) < 1e-3);
   mover.set({5, 5, -10.3}, {0, 0, 100}, {0, 0, 0});
@@ -150,7 +150,7 @@ TEST_CASE("time of impact: a sheet of triangles, at rest, moving or turning, and
   mover.set({-1000 + 5, 10.41, 1000.3}, {1000, 0, -1000}, {0, 0, 0});
   CHECK(impact_of(ball, floor, 2).hits == 0);
 
-  // The floor comes up, and turns about an axis through (5, 5).
+  // The floor moves up, and rotates about an axis through (5, 5).
   Mover lift(world.id, floor);
   dGeomSetOffsetPosition(floor, -5, -5, 0);
   lift.set({5, 5, 0}, {0, 0, 4}, {0, 0, 0});
@@ -166,7 +166,7 @@ TEST_CASE("time of impact: a sheet of triangles, at rest, moving or turning, and
   CHECK(gap_of(ball, floor) > 0);
 }
 
-TEST_CASE("time of impact: touching geoms that part, fly-bys and overlaps") {
+TEST_CASE("time of impact: touching geoms that separate, fly-bys and overlaps have the right status") {
   const OdeSession session;
   const TestWorld world;
   const Geom ball(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.5), dReal(0.5)));
@@ -186,7 +186,7 @@ TEST_CASE("time of impact: touching geoms that part, fly-bys and overlaps") {
   }
 }
 
-TEST_CASE("time of impact: what is refused") {
+TEST_CASE("time of impact: invalid arguments are refused") {
   const OdeSession session;
   const TestWorld world;
   const Geom ball(snCreateEllipsoid(nullptr, 1, 1, 1));
@@ -214,7 +214,7 @@ TEST_CASE("time of impact: what is refused") {
   CHECK(snGeomTimeOfImpact(box, ball, 0, &impact) == 1);
 }
 
-TEST_CASE("time of impact: no velocity asks a heightfield without pose for its pose, where ODE would abort") {
+TEST_CASE("time of impact: a heightfield without a pose is not asked for its pose") {
   const OdeSession session;
   const TestWorld world;
   const Terrain terrain(Terrain::Layout{}, [](int /*i*/, int /*j*/) { return 0.0; });
@@ -232,7 +232,7 @@ TEST_CASE("time of impact: no velocity asks a heightfield without pose for its p
   }
 }
 
-TEST_CASE("time of impact: a heightfield, as snGeomProximity has it") {
+TEST_CASE("time of impact: a heightfield agrees with snGeomProximity") {
   const OdeSession session;
   const TestWorld world;
   Terrain::Layout layout;

@@ -1,4 +1,4 @@
-// Tests that a batch gives the contacts of one dCollide after the other, bit for bit, whichever thread solves a pair.
+// Tests that a batch gives the contacts of sequential calls of dCollide, bit for bit, whichever thread solves a pair.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,12 +19,12 @@ using namespace supernormal::test;
 
 namespace {
 
-// 150 bodies, three of each of ODE's geoms, a plane and a mesh, crowded; one body is made of callbacks, which throw when told to.
+// 150 crowded bodies, three of each of ODE's geoms, a plane and a mesh. One body has callbacks, which throw on demand.
 struct Crowd {
   dSpaceID space = dHashSpaceCreate(nullptr);
   std::vector<ColliderGeom> colliders;
   std::vector<dGeomID> geoms;
-  std::vector<std::size_t> numbers;  // numbers of the geoms, as their data
+  std::vector<std::size_t> numbers;  // numbers of the geoms, stored as their data
   MeshGeom mesh;
   bool throws = false;
 
@@ -129,7 +129,7 @@ struct Account {
 
 using Collide = std::function<void(dSpaceID, std::vector<Line>&)>;
 
-// Makes three steps of a new crowd, in a new thread, which remembers no normals.
+// Makes three steps of a new crowd in a new thread, which has an empty cache.
 Account account_of(const Collide& collide_space) {
   Account account;
   std::thread([&] {
@@ -166,7 +166,7 @@ void check_same(const Account& account, const Account& expected) {
 
 }  // namespace
 
-TEST_CASE("a batch on any number of threads gives the contacts, statistics and errors of one after the other") {
+TEST_CASE("a batch on any number of threads gives the contacts, statistics and errors of sequential calls") {
   const OdeSession session;
   for (const int warm_start : {1, 0}) {
     snSetWarmStart(warm_start);
@@ -189,7 +189,7 @@ TEST_CASE("a batch on any number of threads gives the contacts, statistics and e
   }
 }
 
-TEST_CASE("a batch passes over pairs that the program does not want, and pairs of one body") {
+TEST_CASE("a batch skips pairs that the filter rejects, and pairs of one body") {
   const OdeSession session;
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
   const dWorldID world = dWorldCreate();
@@ -218,7 +218,7 @@ TEST_CASE("a batch passes over pairs that the program does not want, and pairs o
   dWorldDestroy(world);
 }
 
-TEST_CASE("a batch enters spaces within the space") {
+TEST_CASE("a batch enters nested spaces") {
   const OdeSession session;
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
   const dSpaceID inner = dSimpleSpaceCreate(space);
@@ -232,7 +232,7 @@ TEST_CASE("a batch enters spaces within the space") {
   dSpaceDestroy(space);
 }
 
-TEST_CASE("a batch says what is wrong with its arguments") {
+TEST_CASE("a batch refuses invalid arguments with a message") {
   const OdeSession session;
   const auto refusal = [](const auto& call) {
     CHECK(call());

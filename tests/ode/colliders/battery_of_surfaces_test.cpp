@@ -1,4 +1,4 @@
-// The move-out check of battery_test.cpp for the colliders of many triangles. Rays have theirs in ray_test.cpp.
+// The move-out check of battery_test.cpp for the colliders with many triangles. ray_test.cpp has the check for rays.
 #include <doctest/doctest.h>
 
 #include "ode/battery_bodies.hpp"
@@ -26,7 +26,7 @@ bool check_separation(dGeomID body, dGeomID collider, bool body_first) {
 
 }  // namespace
 
-TEST_CASE("a block of triangles: out by 0.96 of the depth: still touching; by another 0.08: apart") {
+TEST_CASE("a block of triangles: moved out by 0.96 of the depth a body still touches, and by another 0.08 it is apart") {
   OdeSession session;
   Random random(43);
   int touching = 0;
@@ -41,7 +41,7 @@ TEST_CASE("a block of triangles: out by 0.96 of the depth: still touching; by an
   CHECK(touching > 0.98 * kRepetitions);
 }
 
-TEST_CASE("a heightfield domed upwards: out by 0.96 of the depth: still touching; by another 0.08: apart") {
+TEST_CASE("a domed heightfield: moved out by 0.96 of the depth a body still touches, and by another 0.08 it is apart") {
   OdeSession session;
   Random random(44);
   const Terrain dome({17, 17, 16, 16}, [](int i, int j) { return -0.06 * ((i - 8) * (i - 8) + (j - 8) * (j - 8)); });

@@ -1,5 +1,5 @@
-// The checks of ODE's own demo_collision.cpp for every pair of its classes, for our bodies with every convex collider and among
-// themselves: 10 000 repetitions each.
+// The checks of ODE's own demo_collision.cpp for every pair of its classes. Here they run for our bodies with every convex collider
+// and with each other, 10 000 repetitions each.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,15 +12,15 @@ using namespace supernormal::test;
 
 namespace {
 
-// Allowed errors for points on the surface: near an edge as sharp as that of a superellipsoid with exponents 1.02...1.05 and 6 a
-// point has several separating translations, of which the solver sometimes takes a wrong one: for 0.4 % of such bodies, off by up
-// to 0.4 % of their size.
+// Allowed errors for points on the surface. Near an edge as sharp as with exponents 1.02...1.05 and 6, a point has several
+// separating translations, and the solver sometimes finds a wrong one: for 0.4 % of such bodies, wrong by up to 0.4 % of their
+// size.
 constexpr double kMissedShare = 0.001;
 constexpr double kMissedMost = 0.01;
 
 }  // namespace
 
-TEST_CASE("out of an overlap by 0.96 of the depth: still touching; by another 0.08: apart") {
+TEST_CASE("out of an overlap: moved by 0.96 of the depth bodies still touch, and by another 0.08 they are apart") {
   OdeSession session;
   for (const ColliderKind kind : kColliderKinds) {
     CAPTURE(name_of(kind));
@@ -47,7 +47,7 @@ TEST_CASE("out of an overlap by 0.96 of the depth: still touching; by another 0.
   }
 }
 
-TEST_CASE("the depth of points: at the centre, on the surface, anywhere") {
+TEST_CASE("the depth of points is right at the centre, on the surface and in between") {
   OdeSession session;
   Random random(41);
   const Geom probe(dCreateSphere(nullptr, 1));
@@ -63,7 +63,7 @@ TEST_CASE("the depth of points: at the centre, on the surface, anywhere") {
     const double tolerance = within_rounding(2e-9 * size, 10);
     const auto depth_at = [&](const Vec& p) { return double{snGeomPointDepth(body, dReal(p[0]), dReal(p[1]), dReal(p[2]))}; };
 
-    // The body contains the octahedron with the same half-axes, whose inscribed ball has no less than this radius.
+    // The body contains the octahedron with the same half-axes, whose inscribed ball has at least this radius.
     CHECK(depth_at(centre) >= size / std::sqrt(3.0) - tolerance);
     CHECK(depth_at(centre) <= size * (1 + 1e-9));
 
@@ -77,7 +77,7 @@ TEST_CASE("the depth of points: at the centre, on the surface, anywhere") {
     const double out = random.uniform(0, 2);
     CHECK(std::abs(depth_at(to_vec(surface) + out * n) + out) <= tolerance);
 
-    // Depth is concave within the body: between the centre and the surface it is at least the share of the distance.
+    // Depth is concave within the body. Between the centre and the surface it is at least linear in the distance.
     const double share = random.uniform(0, 1);
     const Vec between = centre + share * (to_vec(surface) - centre);
     CHECK(depth_at(between) >= (1 - share) * depth_at(centre) - tolerance);

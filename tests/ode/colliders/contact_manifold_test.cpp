@@ -1,4 +1,4 @@
-// Several contacts of one pair: how many, where, and that no force jumps when their number changes.
+// Several contacts of one pair: their number and places, and that no force jumps when their number changes.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,31 +15,33 @@ namespace {
 
 using Contacts = std::vector<dContactGeom>;
 
-/// The load of the contacts on a body of unit weight that stands still: force, and torque about its centre over its longest
+/// The load of the contacts on a body of unit weight at rest: the force, and the torque about its centre over its longest
 /// half-axis.
 struct Load {
   Vec force{};
   Vec torque{};
 };
 
-constexpr double kLongest = 0.1;  // half-axis of the bricks, m
+constexpr double kLongest = 0.1;  // m; half-axis of the bricks
 
 /// Settings of the weighing. By default the body hardly moves in the step, and nothing pushes the bodies apart.
 struct Weighing {
-  int room = 8;        // room for contacts
-  double erp = 0;      // share of the depth that a step takes away
+  int room = 8;        // max_contacts
+  double erp = 0;      // fraction of the depth that a step removes
   double step = 1e-6;  // s
   int iterations = 300;
 };
 
-/// A body alone with the geom that it stands on, held in one pose after the other.
+/// A body alone with the geom on which it stands, held in one pose after the other.
 class Scale {
  public:
   Scale(dGeomID geom, dGeomID under, const Weighing& how = {})
       : geom_(geom), under_(under), how_(how), world_(dWorldCreate()), joints_(dJointGroupCreate(0)) {
     dWorldSetGravity(world_, 0, 0, -1);
     dWorldSetERP(world_, dReal(how.erp));
-    dWorldSetCFM(world_, dReal(1e-10));  // ODE's default with double precision; that with single is softer than the body is heavy
+    dWorldSetCFM(
+        world_,
+        dReal(1e-10));  // ODE's default in double precision; the default in single precision is too soft for the body's weight
     dWorldSetQuickStepNumIterations(world_, how.iterations);
     body_ = dBodyCreate(world_);
     dMass mass;
@@ -91,15 +93,16 @@ class Scale {
   dBodyID body_;
 };
 
-/// What the load may change by where it does not jump: a share of the weight. A support point of a body |x|^8 moves by the seventh
-/// root of the change of its normal. With single precision two poses are as far apart as one rounding, of 4e-9 m in the height: it
-/// changes a depth of 0.2 mm, and with it the tilts, by 2e-6 rad, over which the load of double precision changes by 0.034 as well.
+/// The allowed change of the load without a jump, as a fraction of the weight. A support point of a body |x|^8 moves by the seventh
+/// root of the change of its normal. In single precision two poses differ by at least one rounding, 4e-9 m in the height. It
+/// changes a depth of 0.2 mm, and with it the tilts by 2e-6 rad. Over these tilts the load in double precision also changes by
+/// 0.034.
 constexpr double kJump = kIsSinglePrecision ? 0.04 : 0.02;
 
 double difference(const Load& a, const Load& b) { return std::max(norm(a.force - b.force), norm(a.torque - b.torque)); }
 
-/// The largest jump of the load at(x), x from 0 to 1: each of the largest of so many steps is halved until nothing continuous
-/// could change as much, and its rest is the jump.
+/// The largest jump of the load at(x), x from 0 to 1. Each of the largest changes is bisected until nothing continuous could change
+/// as much. The rest is the jump.
 template <class LoadAt>
 double largest_jump(LoadAt at, int steps) {
   std::vector<std::pair<double, int>> differences;
@@ -129,13 +132,13 @@ double largest_jump(LoadAt at, int steps) {
   return largest;
 }
 
-/// Tilts by `angle` about a horizontal axis and puts the body over the plane z = 0 or on top of `under` with the given depth.
+/// Tilts by `angle` about a horizontal axis, and puts the body over the plane z = 0 or on top of `under` with the given depth.
 void lay(dGeomID body, dGeomID under, double angle, double direction, double depth) {
   dMatrix3 rotation;
   dRFromAxisAndAngle(rotation, dReal(std::cos(direction)), dReal(std::sin(direction)), 0, dReal(angle));
   dGeomSetRotation(body, rotation);
   double height = 10;
-  // The body moves along z: this is exact for a plane, and takes a few steps for the flat top of a body.
+  // The body moves along z. This is exact for a plane, and takes a few steps for the flat top of a body.
   for (int k = 0; k < 50; ++k) {
     dGeomSetPosition(body, 0, 0, dReal(height));
     snProximity proximity;
@@ -148,7 +151,7 @@ void lay(dGeomID body, dGeomID under, double angle, double direction, double dep
 
 }  // namespace
 
-TEST_CASE("there are never more contacts than there is room for, the deepest first") {
+TEST_CASE("there are at most max_contacts contacts, the deepest first") {
   const OdeSession session;
   const Geom floor(dCreatePlane(nullptr, 0, 0, 1, 0));
   const Geom brick(snCreateSuperellipsoid(nullptr, dReal(0.1), dReal(0.07), dReal(0.05), 20, 20));
@@ -156,12 +159,12 @@ TEST_CASE("there are never more contacts than there is room for, the deepest fir
   for (int room = 1; room <= 8; ++room) {
     const Contacts contacts = collide(brick, floor, room);
     REQUIRE(contacts.size() == static_cast<std::size_t>(std::min(room, 4)));
-    // The body does not lean: the face is as deep as its deepest point.
+    // The body is not tilted: the face is as deep as its deepest point.
     for (const dContactGeom& contact : contacts) CHECK(std::abs(double{contact.depth} - 1e-4) <= within_rounding(1e-9, 0.05));
   }
 }
 
-TEST_CASE("swapped geoms have the same contacts, the normals turned") {
+TEST_CASE("swapped geoms have the same contacts with reversed normals") {
   const OdeSession session;
   snSetWarmStart(0);
   const Geom lower(snCreateSuperellipsoid(nullptr, dReal(0.1), dReal(0.07), dReal(0.05), 20, 12));
@@ -179,7 +182,7 @@ TEST_CASE("swapped geoms have the same contacts, the normals turned") {
   }
 }
 
-TEST_CASE("what carries a flat body does not jump while it tilts, nor while it comes in deeper") {
+TEST_CASE("the load on a flat body does not jump while it tilts or comes in deeper") {
   const OdeSession session;
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
   const Geom box(dCreateBox(nullptr, dReal(0.5), dReal(0.5), dReal(0.2)));
@@ -204,7 +207,7 @@ TEST_CASE("what carries a flat body does not jump while it tilts, nor while it c
   }
 }
 
-TEST_CASE("no force jumps while a flat body tilts or comes in deeper, whatever the room for contacts") {
+TEST_CASE("no force on a flat body jumps while it tilts or comes in deeper, at any max_contacts") {
   const OdeSession session;
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
   for (const int room : {2, 3, 4, 8}) {

@@ -1,4 +1,4 @@
-// Where dCollide's contacts act: within the overlap of both geoms, whatever these are.
+// Where dCollide's contacts act: within the overlap of both geoms, for any geoms.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void plate_point(const void* user, const dReal n[3], dReal point[3]) {
   for (int k = 0; k < 3; ++k) point[k] = std::copysign(half[k], n[k]);
 }
 
-/// A geom, what it refers to, and how deep a point is inside it, m.
+/// A geom, its data, and the depth of a point inside it, m.
 struct Solid {
   std::shared_ptr<const void> owner;
   dGeomID geom;
@@ -175,14 +175,14 @@ Solid heightfield(double /*a*/) {
   return {owner, owner->geom, [](const Vec& p) { return -p[2]; }, 1e30};
 }
 
-/// How far a contact may be beside a geom, in sizes of the smaller one. With room for more than one there are corners, under which
-/// both faces may be round and leave the plane by up to the largest reach each.
+/// The allowed distance of a contact from a geom, in sizes of the smaller one. With max_contacts above 1 there are manifold points.
+/// Both faces may be round there, and each leaves the plane by up to the largest reach.
 double largest_distance(int room) { return room == 1 ? 1e-6 : 2 * 0.07; }
 
-/// m; from the world's origin, whose rounding a place has with single precision.
+/// m; the distance from the world's origin, of which a place has the rounding in single precision
 double distance(dGeomID geom) { return dGeomGetClass(geom) == dPlaneClass ? 0 : norm(to_vec(dGeomGetPosition(geom))); }
 
-/// Asks for the contacts of a pair in either order and checks their places.
+/// Queries the contacts of a pair in both orders and checks their places.
 void check_places(const Solid& one, const Solid& other, const std::string& name) {
   const double size = std::min(one.size, other.size);
   for (const int room : {1, 2, 3, 4, 8}) {
@@ -200,8 +200,9 @@ void check_places(const Solid& one, const Solid& other, const std::string& name)
   }
 }
 
-/// Lays a body on a face of the other one, off its middle, leaning by a little or in any attitude, to overlap by a depth. Returns
-/// whether the queries before and after have converged: those of two bodies with edges that the library does not know of may not.
+/// Lays a body on a face of the other one, off its middle, with a small tilt or in any orientation, so that they overlap by a
+/// depth. Returns whether the queries before and after converged. They may not for two bodies with edges that the library does not
+/// know.
 bool lay(const Solid& upper, const Solid& lower, double depth, bool is_leaning, const Vec& beside, Random& random) {
   dQuaternion q;
   if (is_leaning) {
@@ -222,7 +223,7 @@ bool lay(const Solid& upper, const Solid& lower, double depth, bool is_leaning, 
 
 }  // namespace
 
-TEST_CASE("our bodies and each other, on ODE's: a contact acts within the overlap of both") {
+TEST_CASE("our bodies with each other and with ODE's geoms: a contact acts within the overlap of both") {
   OdeSession session;
   Random random(36);
   std::vector<Kind> all(kOurs.begin(), kOurs.end());
@@ -233,7 +234,7 @@ TEST_CASE("our bodies and each other, on ODE's: a contact acts within the overla
       for (const double ratio : {1.0, 3.0, 30.0, 300.0, 5000.0}) {
         const Solid small = one.make(1), large = other.make(ratio), large_ours = one.make(ratio), small_other = other.make(1);
         for (int sample = 0; sample < 4; ++sample) {
-          // Functions of single precision tell no boundary better than by the rounding of its points.
+          // User functions in single precision determine a boundary only to the rounding of its points.
           const double depth =
               within_rounding(std::pow(10, random.uniform(-6, -2)) * std::min(small.size, small_other.size), ratio);
           const Vec beside = {ratio * random.uniform(-0.9, 0.9), ratio * random.uniform(-0.9, 0.9), 1.5 * ratio + 2};
@@ -244,7 +245,7 @@ TEST_CASE("our bodies and each other, on ODE's: a contact acts within the overla
             check_places(small, large, name);
           else
             ++unknown;
-          if (std::string(other.name) == "dTriMesh" && ratio > 30) continue;  // triangles far smaller than rounding of the pose
+          if (std::string(other.name) == "dTriMesh" && ratio > 30) continue;  // triangles far smaller than the rounding of the pose
           ++pairs;
           if (lay(large_ours, small_other, depth, sample < 2, beside, random))
             check_places(large_ours, small_other, name + " above");
@@ -254,11 +255,11 @@ TEST_CASE("our bodies and each other, on ODE's: a contact acts within the overla
       }
     }
   }
-  // A program's functions of single precision tell no gap to 1e-9.
+  // User functions in single precision determine no gap to 1e-9.
   if (!kIsSinglePrecision) CHECK(unknown <= pairs / 100);
 }
 
-TEST_CASE("our bodies on planes and heightfields: a contact acts within the overlap of both") {
+TEST_CASE("our bodies with planes and heightfields: a contact acts within the overlap of both") {
   OdeSession session;
   Random random(37);
   for (const Kind& one : kOurs) {

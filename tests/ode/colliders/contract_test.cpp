@@ -45,7 +45,7 @@ void check_contact(const dContactGeom& contact, dGeomID g1, dGeomID g2) {
 
 }  // namespace
 
-TEST_CASE("a contact moves the geoms apart, and nothing less does") {
+TEST_CASE("a displacement by a contact's depth separates the geoms, and a smaller one does not") {
   OdeSession session;
   Random random(1);
   for (const ColliderKind kind : kColliderKinds) {
@@ -63,14 +63,14 @@ TEST_CASE("a contact moves the geoms apart, and nothing less does") {
         if (contacts.empty()) continue;
         ++overlapping;
         check_contact(contacts[0], g1, g2);
-        // The other contacts are the corners of a flat overlap.
+        // The other contacts are the manifold points of a flat overlap.
         for (std::size_t k = 1; k < contacts.size(); ++k) {
           CHECK(contacts[k].depth >= 0);
           CHECK(contacts[k].depth <= contacts[0].depth);
           CHECK(to_vec(contacts[k].normal) == to_vec(contacts[0].normal));
         }
 
-        // Our body is moved along the normal when it is g1, against it otherwise.
+        // Our body moves along the normal if it is g1, and against it otherwise.
         const double sign = ours_first ? 1 : -1;
         const Vec out = sign * double{contacts[0].depth} * to_vec(contacts[0].normal);
         const Vec start = to_vec(dGeomGetPosition(body));
@@ -85,7 +85,7 @@ TEST_CASE("a contact moves the geoms apart, and nothing less does") {
   }
 }
 
-TEST_CASE("both call orders give the same contact, turned around") {
+TEST_CASE("both call orders give the same contact with the reversed normal") {
   OdeSession session;
   Random random(2);
   for (const bool warm_start : {true, false}) {
@@ -94,7 +94,7 @@ TEST_CASE("both call orders give the same contact, turned around") {
       for (int i = 0; i < 100; ++i) {
         const Geom body(random_body(random));
         const ColliderGeom collider(make_collider(kind, random));
-        collide(body, collider);  // so that both of the following find the same remembered normal
+        collide(body, collider);  // so that both of the following find the same cached normal
         collide(body, collider);
         const auto forth = collide(body, collider);
         const auto back = collide(collider, body);
@@ -105,7 +105,7 @@ TEST_CASE("both call orders give the same contact, turned around") {
         CHECK(norm(to_vec(forth[0].normal) + to_vec(back[0].normal)) <= within_rounding(1e-6, 4));
         CHECK(forth[0].depth == relative(back[0].depth).epsilon(1e-8));
         if (warm_start) continue;
-        for (int axis = 0; axis < 3; ++axis) {  // a pure function of the poses: to the last bit
+        for (int axis = 0; axis < 3; ++axis) {  // a pure function of the poses, to the last bit
           CHECK(forth[0].normal[axis] == -back[0].normal[axis]);
           CHECK(forth[0].pos[axis] == back[0].pos[axis]);
         }
@@ -115,7 +115,7 @@ TEST_CASE("both call orders give the same contact, turned around") {
   }
 }
 
-TEST_CASE("skip and flags: nothing is written beside the contacts asked for") {
+TEST_CASE("skip and flags: nothing is written outside of the requested contacts") {
   OdeSession session;
   const Geom body(snCreateSuperellipsoid(nullptr, 1, 1, 1, 4, 4));
   const auto colliders = make_colliders_at({0.7, 0.3, 0});
@@ -136,7 +136,7 @@ TEST_CASE("skip and flags: nothing is written beside the contacts asked for") {
   }
 }
 
-TEST_CASE("the array is not touched when the geoms are apart") {
+TEST_CASE("the contact array is unchanged when the geoms are apart") {
   OdeSession session;
   const Geom body(snCreateEllipsoid(nullptr, 1, 2, 3));
   place(body, {10, 0, 0});
@@ -149,7 +149,7 @@ TEST_CASE("the array is not touched when the geoms are apart") {
   }
 }
 
-TEST_CASE("geoms of one body do not collide; a body with itself neither") {
+TEST_CASE("geoms of one body do not collide, nor does a geom with itself") {
   OdeSession session;
   const dWorldID world = dWorldCreate();
   const dBodyID body = dBodyCreate(world);
@@ -167,7 +167,7 @@ TEST_CASE("geoms of one body do not collide; a body with itself neither") {
 
 namespace {
 
-// Of the last error it is known whose it is, because one of another kind stands there before.
+// The last error is known to be new, because an error of another kind was there before.
 void check_no_contact(dGeomID one, dGeomID other) {
   CHECK(snGeomSetRounding(nullptr, 1) == 0);
   CHECK(collide(one, other).empty());
@@ -180,7 +180,7 @@ void check_no_contact(dGeomID one, dGeomID other) {
 
 }  // namespace
 
-TEST_CASE("a geom whose pose is not a number gives no contact and does not stop a space") {
+TEST_CASE("a geom whose pose is not finite gives no contact and does not stop a space") {
   OdeSession session;
   const dReal nan = std::numeric_limits<dReal>::quiet_NaN();
   const dSpaceID space = dHashSpaceCreate(nullptr);

@@ -1,4 +1,4 @@
-// Tests of dConvex: its vertices as ODE tells them, whatever and wherever they are.
+// Tests of dConvex: its vertices, as read through ODE, at any place.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include "supernormal/shapes/polytope.hpp"
 #include "support/relative.hpp"
 
-// dGeomTransform is deprecated in favour of geom offsets, but programs have it and we promise to work inside.
+// dGeomTransform is deprecated in favour of geom offsets, but programs use it and we promise to work inside it.
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
 
 using namespace supernormal::test;
@@ -66,7 +66,7 @@ bool same(const std::vector<dContactGeom>& a, const std::vector<dContactGeom>& b
 
 }  // namespace
 
-TEST_CASE("all vertices are found, wherever the geom is") {
+TEST_CASE("dConvex: all vertices are found in any pose") {
   OdeSession session;
   Random random(30);
   const Vector3 axes(0.7, 0.5, 0.9);
@@ -80,8 +80,8 @@ TEST_CASE("all vertices are found, wherever the geom is") {
     const ConvexGeom convex(points);
     const double distance = i % 5 == 4 ? 1000 : 3;
     place(convex, {random.uniform(-distance, distance), random.uniform(-distance, distance), random.uniform(-distance, distance)});
-    if (i % 4 != 3) random.turn(convex);  // in the others many vertices are on the plane that they are listed by
-    // The body is next to a vertex, so that this one counts.
+    if (i % 4 != 3) random.turn(convex);  // otherwise many vertices are on the plane by which they are listed
+    // The body is next to a vertex, so that this vertex matters.
     const Vec& vertex = points[static_cast<std::size_t>(i) % points.size()];
     dVector3 world;
     dGeomGetRelPointPos(convex, dReal(vertex[0]), dReal(vertex[1]), dReal(vertex[2]), world);
@@ -93,7 +93,7 @@ TEST_CASE("all vertices are found, wherever the geom is") {
   }
 }
 
-TEST_CASE("the corners of a box: as dBox") {
+TEST_CASE("dConvex: the vertices of a box collide as a dBox") {
   OdeSession session;
   Random random(31);
   for (int i = 0; i < 300; ++i) {
@@ -104,13 +104,13 @@ TEST_CASE("the corners of a box: as dBox") {
     random.turn(box);
     dGeomSetRotation(convex, dGeomGetRotation(box));
     const Geom body(random_body(random));
-    // This holds in overlaps as well: the faces are found from the vertices.
+    // This also holds in overlaps: the faces follow from the vertices.
     overlap(body, box, random.uniform(-0.5, 0.3) * std::min(size_of(body), size_of(box)), random);
     CHECK(std::abs(proximity(body, box).gap - proximity(body, convex).gap) < within_rounding(2e-9));
   }
 }
 
-TEST_CASE("inside a dGeomTransform that moves: ODE's bounding box is that of an earlier pose") {
+TEST_CASE("dConvex: inside a moving dGeomTransform the vertices are found, although ODE's bounding box is of an earlier pose") {
   OdeSession session;
   snSetWarmStart(0);
   Random random(32);
@@ -139,7 +139,7 @@ TEST_CASE("inside a dGeomTransform that moves: ODE's bounding box is that of an 
   CHECK(touching > 100);
 }
 
-TEST_CASE("dGeomSetConvex: the next query sees the new vertices, and a bounding box left behind is no disaster") {
+TEST_CASE("dConvex: the next query after dGeomSetConvex sees the new vertices, also with an outdated bounding box") {
   OdeSession session;
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
   const ConvexArrays small(box_corners(0.1, 0.1, 0.1));
@@ -169,7 +169,7 @@ TEST_CASE("dGeomSetConvex: the next query sees the new vertices, and a bounding 
   dSpaceDestroy(space);
 }
 
-TEST_CASE("coplanar, repeated, collinear, few and many points") {
+TEST_CASE("dConvex: coplanar, repeated, collinear, few and many points are valid") {
   OdeSession session;
   Random random(33);
   std::vector<Vec> grid;
@@ -223,7 +223,7 @@ TEST_CASE("coplanar, repeated, collinear, few and many points") {
   }
 }
 
-TEST_CASE("more vertices than dCollide can list, and vertices that are no numbers, are refused") {
+TEST_CASE("dConvex: more vertices than dCollide can list, and vertices that are not finite, are refused") {
   OdeSession session;
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
   snProximity answer;

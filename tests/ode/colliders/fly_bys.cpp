@@ -24,7 +24,7 @@ Vec any_half_axes(Random& random, double size) {
   return {size, second, size * random.uniform(0.3, 1)};
 }
 
-/// Gives a geom that is turned a body, which keeps the turn.
+/// Gives a rotated geom a body, which keeps the rotation.
 dBodyID add_turned(const World& world, dGeomID geom, const dMass& mass) {
   dQuaternion attitude;
   dGeomGetQuaternion(geom, attitude);
@@ -48,7 +48,7 @@ struct Superellipsoids {
   dGeomID geom;
 };
 
-/// A triangle as a shape, which refers to the corners beside it.
+/// A triangle as a shape. It refers to the vertices beside it.
 struct Triangle {
   explicit Triangle(const std::array<Vector3, 3>& about_middle) : corners(about_middle), shape(corners) {}
   ~Triangle() = default;
@@ -61,7 +61,7 @@ struct Triangle {
   Polytope shape;
 };
 
-/// What is passed, around the origin of a world that outlives it.
+/// The obstacle, around the origin of a world that outlives it.
 class PassedBody {
  public:
   struct Part {
@@ -100,7 +100,7 @@ class PassedBody {
 
   const std::vector<Part>& parts() const { return parts_; }
   double thickness() const { return thickness_; }  ///< m; the smallest half-extent; infinite for a surface, which has none
-  double radius() const { return radius_; }        ///< m; of a ball about the origin that holds it
+  double radius() const { return radius_; }        ///< m; the radius of a ball about the origin that contains it
   double speed() const {
     const dBodyID body = dGeomGetBody(geom_);
     return body == nullptr ? 0 : norm(to_vec(dBodyGetLinearVel(body)));
@@ -167,16 +167,16 @@ class PassedBody {
 class Line {
  public:
   struct Nearest {
-    double off = 0;  ///< m; how far the line is off the origin
-    double way = 0;  ///< m; where on the line the gap is the least
+    double off = 0;  ///< m; the coordinate of the line along `beside`
+    double way = 0;  ///< m; the place on the line with the smallest gap
   };
 
-  static constexpr int kHalvings = 40;  // a length is known to 1e-12 then
+  static constexpr int kHalvings = 40;  // so a length is known to 1e-12
 
   Line(const Shape& shape, Matrix3 rotation, const Vec& along, const Vec& beside)
       : shape_(shape), rotation_(std::move(rotation)), along_(to_eigen(along)), beside_(to_eigen(beside)) {}
 
-  /// The line that is nearest to what is passed without a gap below `clearance` (m), for one that comes nearer from outside.
+  /// The line nearest to the obstacle without a gap below `clearance` (m), among lines that come nearer from outside.
   Nearest nearest(double clearance, const PassedBody& passed) const {
     const Vector3 across = along_.cross(beside_);
     Nearest found{-std::numeric_limits<double>::infinity(), 0};
@@ -184,7 +184,8 @@ class Line {
       const double reach = part.shape->bounding_radius() + shape_.bounding_radius() + std::abs(clearance);
       const double middle = beside_.dot(part.pose.position);
       if (std::abs(across.dot(part.pose.position)) > reach || middle + reach <= found.off) continue;
-      // The least gap on the way is convex in the distance off: it is halved until the outermost one with a gap below is known.
+      // The smallest gap on the path is convex in the coordinate of the line. The coordinate is bisected until the outermost line
+      // with a smaller gap is known.
       double inside = std::max(found.off, middle - reach);
       double outside = middle + reach;
       const LeastGap first = least_gap(part, inside, clearance);
@@ -203,12 +204,12 @@ class Line {
 
  private:
   struct LeastGap {
-    double way;     // m; where it is, or where a gap is below what was asked for
-    bool is_below;  // whether one is
-    double slope;   // of the least gap over the distance off
+    double way;     // m; the place of the smallest gap, or of a gap below the limit
+    bool is_below;  // whether a gap is below the limit
+    double slope;   // of the smallest gap over the coordinate of the line
   };
 
-  /// Halves the part of the way that has the least gap: the gap to a convex part is convex, and falls where the normal, which
+  /// Bisects the part of the path with the smallest gap. The gap to a convex part is convex, and falls while the normal, which
   /// points to the body, points back. Ends at a gap below `enough` (m).
   LeastGap least_gap(const PassedBody::Part& part, double off, double enough) const {
     const double middle = along_.dot(part.pose.position);
@@ -248,7 +249,7 @@ const char* name_of(Passed passed) {
 }
 
 double fly_by(unsigned seed, Passed passed, double clearance) {
-  constexpr int kMostSteps = 60;  // before what is nearest, and after it
+  constexpr int kMostSteps = 60;  // before and after the nearest point
   Random random(seed);
   const double step = random.log_uniform(1e-3, 50e-3);
   const double speed = random.log_uniform(1, 1000);
@@ -265,7 +266,7 @@ double fly_by(unsigned seed, Passed passed, double clearance) {
 
   Vec along = random.direction();
   Vec beside = random.direction();
-  if (passed == Passed::Heightfield) {  // y is up, and below it is solid: the line goes from one side to the other
+  if (passed == Passed::Heightfield) {  // y is up, and below it is solid: the line crosses from one side to the other
     const double heading = random.uniform(0, 2 * std::numbers::pi);
     along = {std::cos(heading), random.uniform(-0.3, 0.3), std::sin(heading)};
     along = (1 / norm(along)) * along;

@@ -1,6 +1,6 @@
-// Flights past bodies and surfaces at a thousandth of the size, as many as one likes: none is held back.
+// Any number of flights past bodies and surfaces at a thousandth of the size. None may lose velocity.
 //
-//     fly_bys FLIGHTS SEED        FLIGHTS past each kind of thing
+//     fly_bys FLIGHTS SEED        FLIGHTS past each kind of obstacle
 //
 // Prints a line for each kind, and each flight that loses more than 1e-9 of its velocity. Exit code 0: none does; 1: some do.
 #define DOCTEST_CONFIG_IMPLEMENT
@@ -17,7 +17,7 @@ namespace {
 
 using namespace supernormal::test;
 
-/// Returns how many flights were held back.
+/// Returns how many flights lost velocity.
 int run(Passed passed, int flights, unsigned seed) {
   int held_back = 0;
   double most = 0;
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "fly_bys FLIGHTS SEED: FLIGHTS is a number from 1, SEED one from 0\n");
     return 2;
   }
-  // The flights are those of a test case, whose requirements end the program here.
+  // The flights belong to a test case, whose requirements end the program here.
   doctest::Context context;
   context.setAsDefaultForAssertsOutOfTestCases();
   const OdeSession session;

@@ -1,4 +1,5 @@
-// Tests of worlds with contacts before overlap: nothing tunnels, what rests stays up, what passes by is not held back.
+// Tests of worlds with contacts before overlap. No body tunnels, resting bodies stay up, and bodies that fly by keep their
+// velocity.
 #include <doctest/doctest.h>
 
 #include "ode/colliders/fly_bys.hpp"
@@ -24,7 +25,7 @@ enum class Wall { Plane, Box, Ours, Mesh, Heightfield };
 
 constexpr Wall kWalls[] = {Wall::Plane, Wall::Box, Wall::Ours, Wall::Mesh, Wall::Heightfield};
 
-/// A wall whose front is z = 0, for as long as this lives.
+/// A wall with its front at z = 0, as long as this lives.
 class Front {
  public:
   Front(dSpaceID space, Wall wall, double thickness) {
@@ -59,7 +60,7 @@ class Front {
   Front& operator=(Front&&) = delete;
 
  private:
-  dGeomID geom_ = nullptr;  // what has data
+  dGeomID geom_ = nullptr;  // the geom that has data
   dTriMeshDataID mesh_ = nullptr;
   dHeightfieldDataID field_ = nullptr;
   std::array<float, 12> vertices_ = {-200, -200, 0, 200, -200, 0, 200, 200, 0, -200, 200, 0};
@@ -69,19 +70,19 @@ class Front {
 
 struct Flight {
   bool is_through = false;
-  double speed_along = 0;  // m/s, less that before the impact
-  double speed = 0;        // m/s, before
+  double speed_along = 0;  // m/s, relative to the speed before the impact
+  double speed = 0;        // m/s, before the impact
 };
 
 struct Shot {
   Wall wall;
   double spin = 0;  // rad/s
   bool looks_ahead = true;
-  double most_offset = 0;  // of the middle from the centre of mass, in largest half-axes
+  double most_offset = 0;  // the largest offset of the middle from the centre of mass, in largest half-axes
   double mu = 0;
 };
 
-/// Shoots a body at a wall, and looks for its middle in or behind the wall.
+/// Shoots a body at a wall, and checks whether its middle is in or behind the wall.
 Flight shoot(Random& random, const Shot& shot) {
   const double step = random.log_uniform(1e-3, 50e-3);
   const double size = random.log_uniform(2e-3, 50e-3);
@@ -141,7 +142,7 @@ const Lying kLying[] = {
 
 }  // namespace
 
-TEST_CASE("bullets: none is through a wall of any kind, at 1 to 1000 m/s and steps of 1 to 50 ms") {
+TEST_CASE("bullets: none passes through a wall of any kind, at 1 to 1000 m/s and steps of 1 to 50 ms") {
   OdeSession session;
   for (const Wall wall : kWalls) {
     Random random(static_cast<unsigned>(wall) + 1);
@@ -154,14 +155,14 @@ TEST_CASE("bullets: none is through a wall of any kind, at 1 to 1000 m/s and ste
     INFO("wall " << static_cast<int>(wall));
     CHECK(through == 0);
   }
-  // They are bullets: many pass without it.
+  // Without look-ahead many pass through.
   Random random(1);
   int through = 0;
   for (int k = 0; k < 60; ++k) through += shoot(random, {Wall::Box, 0, false}).is_through ? 1 : 0;
   CHECK(through > 20);
 }
 
-TEST_CASE("bullets that spin at 300 rad/s: none is through") {
+TEST_CASE("bullets that spin at 300 rad/s: none passes through a wall") {
   OdeSession session;
   for (const Wall wall : kWalls) {
     Random random(static_cast<unsigned>(wall) + 100);
@@ -169,7 +170,9 @@ TEST_CASE("bullets that spin at 300 rad/s: none is through") {
   }
 }
 
-TEST_CASE("bullets whose centre of mass is up to three half-axes off their middle, with and without friction: none is through") {
+TEST_CASE(
+    "bullets with the centre of mass up to three half-axes off their middle, with and without friction: none passes through a "
+    "wall") {
   OdeSession session;
   for (const Wall wall : kWalls) {
     for (const double mu : {0.0, 0.5}) {
@@ -195,7 +198,7 @@ TEST_CASE("two free bodies that meet off centre do not go through each other") {
       World world;
       dWorldSetGravity(world.id(), 0, 0, 0);
       std::array<dBodyID, 2> bodies{};
-      double thickness = 0;  // m; the sum of the smallest half-axes
+      double thickness = 0;  // m; the sum of the smallest half-axes of both
       for (dBodyID& body : bodies) {
         const Vec half_axes = size * Vec{1, random.uniform(0.4, 1), random.uniform(0.4, 1)};
         thickness += std::min(half_axes[1], half_axes[2]);
@@ -223,7 +226,7 @@ TEST_CASE("two free bodies that meet off centre do not go through each other") {
   }
 }
 
-TEST_CASE("what meets a wall face on ends at it, to a millionth of its size") {
+TEST_CASE("a body that meets a wall face on stops at the wall, to a millionth of its size") {
   OdeSession session;
   for (const double speed : {1.0, 10.0, 99.0}) {
     for (const double step : {1e-3, 10e-3, 50e-3}) {
@@ -245,7 +248,7 @@ TEST_CASE("what meets a wall face on ends at it, to a millionth of its size") {
           CAPTURE(speed);
           CAPTURE(step);
           CAPTURE(static_cast<int>(wall));
-          CHECK(deepest < within_rounding(1e-6 * 0.01, 1 + 0.4 * speed * step));  // the way there is rounded
+          CHECK(deepest < within_rounding(1e-6 * 0.01, 1 + 0.4 * speed * step));  // the path to the wall has rounding errors
           CHECK(depth_below(geom) > -1e-4);
         }
       }
@@ -253,7 +256,7 @@ TEST_CASE("what meets a wall face on ends at it, to a millionth of its size") {
   }
 }
 
-TEST_CASE("fly-bys with a clearance of a thousandth of the size keep their velocity, and bodies that meet do not") {
+TEST_CASE("bodies that fly by with a clearance of a thousandth of the size keep their velocity, and bodies that meet do not") {
   OdeSession session;
   for (const Passed passed : kAllPassed) {
     CAPTURE(name_of(passed));
@@ -263,7 +266,7 @@ TEST_CASE("fly-bys with a clearance of a thousandth of the size keep their veloc
       CHECK(fly_by(seed, passed, 1e-3) < within_rounding(1e-9, 10));
       held_back += fly_by(seed, passed, -0.3) > 1e-3 ? 1 : 0;
     }
-    CHECK(held_back >= 5);  // of 10; what comes from behind a sheet goes through
+    CHECK(held_back >= 5);  // of 10; bodies that come from behind a sheet pass through
   }
 }
 
@@ -294,7 +297,7 @@ TEST_CASE("bodies dropped on a plane, a box and a sheet rest at their height at 
   }
 }
 
-TEST_CASE("on slopes below the angle of friction nothing creeps") {
+TEST_CASE("on slopes below the angle of friction no body creeps") {
   OdeSession session;
   for (const Lying& lying : kLying) {
     if (lying.is_on_side) continue;
@@ -326,7 +329,7 @@ TEST_CASE("on slopes below the angle of friction nothing creeps") {
   }
 }
 
-TEST_CASE("a ball and a can roll down a slope as their closed forms say") {
+TEST_CASE("a ball and a can roll down a slope with the acceleration of their closed forms") {
   OdeSession session;
   const double incline = 10 * kDegree;
   for (const double step : {0.001, 0.005, 0.02}) {
@@ -354,7 +357,7 @@ TEST_CASE("a ball and a can roll down a slope as their closed forms say") {
   }
 }
 
-TEST_CASE("a geom beside its body's centre, and every space: the same") {
+TEST_CASE("look-ahead gives the same contacts for a geom off its body's centre and in every space") {
   OdeSession session;
   dSpaceID (*const make_space[])() = {[] { return dSimpleSpaceCreate(nullptr); }, [] { return dHashSpaceCreate(nullptr); },
                                       [] { return dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_ZXY); },
@@ -380,7 +383,7 @@ TEST_CASE("a geom beside its body's centre, and every space: the same") {
   }
 }
 
-TEST_CASE("room for n contacts gives at most n, the nearest first, and bullets are stopped with any room") {
+TEST_CASE("there are at most max_contacts contacts ahead, the nearest first, and bullets stop at any max_contacts") {
   OdeSession session;
   World world;
   const Front front(world.space(), Wall::Box, 0.01);
@@ -393,7 +396,8 @@ TEST_CASE("room for n contacts gives at most n, the nearest first, and bullets a
   REQUIRE(snGeomSetLookAhead(geom, dReal(0.02)) == 1);
   for (int room = 1; room < 8; ++room) {
     const std::vector<dContactGeom> contacts = collide(geom, box, room);
-    CHECK(static_cast<int>(contacts.size()) == (room < 3 ? 1 : std::min(room, 4)));  // two would hold a line of the face
+    CHECK(static_cast<int>(contacts.size()) ==
+          (room < 3 ? 1 : std::min(room, 4)));  // two support only a line
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       CHECK(contacts[k].depth < 0);
       CHECK(contacts[k].depth <= contacts[0].depth);
@@ -417,7 +421,7 @@ TEST_CASE("room for n contacts gives at most n, the nearest first, and bullets a
   }
 }
 
-TEST_CASE("a pair looks ahead by the larger time of the two, and both of two bullets are stopped") {
+TEST_CASE("a pair looks ahead by the larger time of both geoms, and two bullets stop each other") {
   OdeSession session;
   for (const double speed : {10.0, 300.0}) {
     World world;
@@ -441,7 +445,7 @@ TEST_CASE("a pair looks ahead by the larger time of the two, and both of two bul
   }
 }
 
-TEST_CASE("a batch has the same contacts as dCollide") {
+TEST_CASE("a batch has the same contacts ahead as dCollide") {
   OdeSession session;
   World world;
   Random random(4);

@@ -1,5 +1,5 @@
-// Tests that there is one gap: snGeomProximity and dCollide agree on a body and a mesh with concave parts, and for balls both
-// agree with the distance of their centre.
+// Tests that snGeomProximity and dCollide agree on the gap of a body and a mesh with concave parts. For balls both agree with the
+// distance of their centre.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ MeshArrays ring_arrays(double ring_radius, double tube_radius, unsigned around, 
   return mesh;
 }
 
-/// A closed block with a step in its top, 2 x 1 x 1 with a quarter taken away: it has convex and concave edges.
+/// A closed block with a step in its top, 2 x 1 x 1 without a quarter. It has convex and concave edges.
 MeshArrays step_arrays() {
   MeshArrays mesh;
   const std::array<std::array<double, 2>, 6> outline = {{{-1, -0.5}, {1, -0.5}, {1, 0}, {0, 0}, {0, 0.5}, {-1, 0.5}}};
@@ -66,7 +66,7 @@ std::array<Vec, 3> corners_of(const MeshArrays& mesh, std::size_t index) {
   return corners;
 }
 
-/// The distance of the point from the triangle: over the face, or else from the nearest of the three sides.
+/// The distance of the point from the triangle: over the face, or else from the nearest side.
 double distance_from(const std::array<Vec, 3>& t, const Vec& p) {
   const Vec normal = cross(t[1] - t[0], t[2] - t[0]);
   bool is_over = true;
@@ -87,8 +87,8 @@ double distance_from(const MeshArrays& mesh, const Vec& p) {
   return least;
 }
 
-/// Whether a point is inside, by the solid angle that the mesh fills (van Oosterom, Strackee: The solid angle of a plane
-/// triangle, IEEE Trans. Biomed. Eng. 30, 1983).
+/// Whether a point is inside, by the solid angle of the mesh (van Oosterom, Strackee: The solid angle of a plane triangle, IEEE
+/// Trans. Biomed. Eng. 30, 1983).
 bool is_within(const MeshArrays& mesh, const Vec& p) {
   double angle = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -110,7 +110,7 @@ const std::array<MeshArrays, 3>& hollow_meshes() {
 
 }  // namespace
 
-TEST_CASE("a ball and a mesh with hollows: as far as its centre from the nearest triangle") {
+TEST_CASE("the gap of a ball and a mesh with hollows is the distance of its centre less the radius") {
   OdeSession session;
   Random random(81);
   for (const MeshArrays& arrays : hollow_meshes()) {
@@ -131,7 +131,7 @@ TEST_CASE("a ball and a mesh with hollows: as far as its centre from the nearest
       if (std::abs(gap) < 1e-9) continue;
       CHECK(contacts.empty() == (gap > 0));
       if (gap < -0.1 * radius)
-        continue;  // if it is deeper, the planes on both sides of a concave edge extend farther than they are seen
+        continue;  // in a deeper overlap, the planes on both sides of a concave edge extend beyond their faces
       CHECK(std::abs(proximity.gap - gap) < within_rounding(1e-9) * radius);
       if (gap < 0) ++touching;
     }
@@ -139,7 +139,9 @@ TEST_CASE("a ball and a mesh with hollows: as far as its centre from the nearest
   }
 }
 
-TEST_CASE("a body and a mesh with hollows: the gap is the depth of the deepest contact, and there is one if it is not positive") {
+TEST_CASE(
+    "the gap of a body and a mesh with hollows is minus the depth of the deepest contact, and a gap that is not positive has a "
+    "contact") {
   OdeSession session;
   Random random(82);
   std::size_t contact_count = 0;

@@ -1,4 +1,4 @@
-// Geoms that pass slowly through one another: the contacts of every step belong together.
+// Geoms that pass slowly through each other. The contacts of successive steps belong together.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -11,17 +11,18 @@ using namespace supernormal::test;
 namespace {
 
 constexpr int kSteps = 2000;
-constexpr double kReach = 2;     // m, the way before and behind
-constexpr double kTurn = 0.5;    // rad, over the whole way
+constexpr double kReach = 2;     // m; the path before and behind
+constexpr double kTurn = 0.5;    // rad, over the whole path
 constexpr double kRadius = 1.2;  // m; no point of the moving geom is farther from its centre
 
 struct Passage {
   int overlaps = 0;  // steps
   int switches = 0;  // from one separating translation to another
-  int returns = 0;   // to one that was left
+  int returns = 0;   // to a translation that was left
 };
 
-/// Moves `moving` through `still`. On one branch no depth changes by more than the motion; on another it may be less at once.
+/// Moves `moving` through `still`. For one separating translation no depth changes by more than the motion. For another translation
+/// the depth may be smaller at once.
 Passage pass_through(dGeomID still, dGeomID moving) {
   const Vec direction = {2. / 3, -1. / 3, 2. / 3};
   const double motion = 2 * kReach / kSteps + kTurn / kSteps * kRadius;

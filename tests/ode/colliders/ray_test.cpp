@@ -26,7 +26,7 @@ Vec support(dGeomID geom, const Vec& n) {
 
 Vec centre_of(dGeomID geom) { return to_vec(dGeomGetPosition(geom)); }
 
-/// Collides in both call orders, which must agree; the contact is returned as that of dCollide(ray, body).
+/// Collides in both call orders, which must agree. Returns the contact of dCollide(ray, body).
 std::vector<dContactGeom> hit(dGeomID ray, dGeomID body) {
   auto contacts = collide(ray, body);
   const auto turned = collide(body, ray);
@@ -53,7 +53,7 @@ Vec orthogonal(Random& random, const Vec& n) {
   return (1 / norm(t)) * t;
 }
 
-/// Draws a body with exponents 1.02...200 and aspect ratios up to 100, ellipsoids and rounded bodies among them.
+/// Draws a body with exponents 1.02...200 and aspect ratios up to 100. Some are ellipsoids or rounded bodies.
 dGeomID any_body(Random& random, int k) {
   const auto between = [&](double low, double high) { return dReal(std::exp(random.uniform(std::log(low), std::log(high)))); };
   const bool is_needle = k % 4 == 0;
@@ -69,7 +69,7 @@ dGeomID any_body(Random& random, int k) {
   return geom;
 }
 
-/// m, along the axes of the body: what tolerances are relative to.
+/// m, along the axes of the body; tolerances are relative to these lengths
 double least_half_extent(dGeomID body) {
   const dReal* const R = dGeomGetRotation(body);
   double least = std::numeric_limits<double>::infinity();
@@ -80,8 +80,8 @@ double least_half_extent(dGeomID body) {
   return least;
 }
 
-/// Checks that the hit is on the boundary, not by the distance of the point (which overlapping has several local maxima) but by
-/// the plane with the contact's own normal, beyond which there is no body.
+/// Checks that the hit is on the boundary by the plane with the contact's own normal, beyond which there is no body. The distance
+/// of the point would not do: in an overlap it has several local maxima.
 void check_on_boundary(dGeomID body, const dContactGeom& contact, const Vec& direction) {
   const Vec pos = to_vec(contact.pos);
   const bool is_from_inside =
@@ -93,7 +93,7 @@ void check_on_boundary(dGeomID body, const dContactGeom& contact, const Vec& dir
 
 }  // namespace
 
-TEST_CASE("as dSphere against rays, from outside and inside") {
+TEST_CASE("rays hit a spherical body as they hit a dSphere, from outside and inside") {
   OdeSession session;
   Random random(31);
   const Geom ray(dCreateRay(nullptr, 1));
@@ -112,7 +112,7 @@ TEST_CASE("as dSphere against rays, from outside and inside") {
     const Vec start = where + random.uniform(0, 2.5) * radius * random.direction();
     aim(ray, start, random.direction(), random.uniform(0, 4 * radius));
 
-    // If ODE's own formula loses digits, nothing can be compared.
+    // If ODE's own formula loses digits, no comparison is possible.
     const Vec q = start - where;
     dVector3 at, along;
     dGeomRayGet(ray, at, along);
@@ -169,7 +169,7 @@ TEST_CASE("ODE's ray battery for our bodies") {
     aim(ray, scaled(1.01), away, 100);
     CHECK(hit(ray, body).empty());
 
-    // The ray goes from outside towards the centre: too short by 0.01 %, then long enough by as much.
+    // The ray goes from outside towards the centre. It is too short by 0.01 %, then long enough by as much.
     const double distance = random.uniform(0.5, 2);
     const Vec inward = (1 / norm(c - p)) * (c - p);
     aim(ray, p - distance * inward, inward, 0.9999 * distance);
@@ -177,7 +177,7 @@ TEST_CASE("ODE's ray battery for our bodies") {
     dGeomRaySetLength(ray, dReal(1.0001 * distance));
     const auto frontal = hit(ray, body);
     REQUIRE(frontal.size() == 1);
-    // The hit is as near to the boundary as is promised, and so much farther off along the ray as the ray grazes the surface.
+    // The hit is within the documented distance of the boundary. Along the ray the error is larger as the ray grazes the surface.
     const double tolerance = within_rounding(1e-9 * least_half_extent(body)) / std::abs(dot(inward, n));
     CHECK(norm(to_vec(frontal[0].pos) - p) < tolerance);
     CHECK(std::abs(frontal[0].depth - distance) < tolerance);
@@ -202,7 +202,7 @@ TEST_CASE("ODE's ray battery for our bodies") {
   CHECK(hits > kRepetitions / 2);
 }
 
-TEST_CASE("rays of any length, lengths of no use") {
+TEST_CASE("rays of any valid length hit, and rays of invalid length do not") {
   OdeSession session;
   const Geom body(snCreateSuperellipsoid(nullptr, 1, dReal(0.7), dReal(0.5), 4, 3));
   const Geom ray(dCreateRay(nullptr, 0));
@@ -219,7 +219,7 @@ TEST_CASE("rays of any length, lengths of no use") {
     aim(ray, {-5, 0, 0}, {1, 0, 0}, length);
     CHECK(hit(ray, body).empty());
   }
-  // From inside the normal opposes the ray as well.
+  // Also from inside the normal opposes the ray.
   aim(ray, {0, 0, 0}, {1, 0, 0}, 2);
   const auto contacts = hit(ray, body);
   REQUIRE(contacts.size() == 1);
@@ -227,7 +227,7 @@ TEST_CASE("rays of any length, lengths of no use") {
   CHECK(norm(to_vec(contacts[0].normal) - Vec{-1, 0, 0}) < 1e-9);
 }
 
-TEST_CASE("by dGeomRaySet or by pose, at rest or carried by a body with an offset") {
+TEST_CASE("a ray hits the same when set by dGeomRaySet, by its pose or by a body with an offset") {
   OdeSession session;
   Random random(33);
   const dWorldID world = dWorldCreate();
@@ -283,7 +283,7 @@ void keep_nearest(void* data, dGeomID g1, dGeomID g2) {
 
 }  // namespace
 
-TEST_CASE("a ray finds the same bodies in every kind of space as one by one") {
+TEST_CASE("a ray finds the same bodies in every kind of space as by single calls") {
   OdeSession session;
   const dVector3 centre = {0, 0, 0, 0}, extents = {20, 20, 20, 0};
   for (int kind = 0; kind < 4; ++kind) {
@@ -317,7 +317,7 @@ TEST_CASE("a ray finds the same bodies in every kind of space as one by one") {
   }
 }
 
-TEST_CASE("room, counts and the statistics") {
+TEST_CASE("a ray with any max_contacts is counted in the statistics") {
   OdeSession session;
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
   const Geom ray(dCreateRay(nullptr, 10));
@@ -330,12 +330,12 @@ TEST_CASE("room, counts and the statistics") {
   snStatistics statistics;
   snGetStatistics(&statistics);
   CHECK(statistics.queries_cold == 3);
-  CHECK(statistics.evaluations_cold == 3);  // an ellipsoid needs one each
+  CHECK(statistics.evaluations_cold == 3);  // an ellipsoid needs one evaluation for each query
   CHECK(statistics.contacts == 2);
   CHECK(statistics.not_converged == 0);
 }
 
-TEST_CASE("snGeomProximity of a body and a ray: the distance of the segment") {
+TEST_CASE("snGeomProximity of a body and a ray returns the distance of the segment") {
   OdeSession session;
   Random random(35);
   const Geom ray(dCreateRay(nullptr, 1));

@@ -1,4 +1,5 @@
-// Floors that are not welded: tiles of a geom each, T-junctions, brick bonds and vertices that differ by rounding are a plane.
+// Floors with unconnected vertices act as a plane: tiles of one geom each, T-junctions, brick bonds and vertices with rounding
+// errors.
 #include <doctest/doctest.h>
 
 #include <functional>
@@ -15,7 +16,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// A floor, and the frame that it lies in: `up` is its normal.
+/// A floor and its frame: `up` is its normal.
 struct Floor {
   std::vector<std::unique_ptr<MeshGeom>> tiles;
   std::vector<std::unique_ptr<Terrain>> terrains;
@@ -24,7 +25,7 @@ struct Floor {
   Vec along{1, 0, 0};
   Vec across{0, 1, 0};
   Vec up{0, 0, 1};
-  double rounding = 0;  ///< m; how far a vertex may be from the plane
+  double rounding = 0;  ///< m; the largest distance of a vertex from the plane
 
   std::vector<dGeomID> geoms() const {
     std::vector<dGeomID> all(fields.begin(), fields.end());
@@ -42,7 +43,7 @@ void tilt(Floor& floor) {
   floor.up = {turn[2], turn[6], turn[10]};
 }
 
-/// Adds two triangles with vertices of their own, each moved at random by up to `apart` (m).
+/// Adds two triangles with their own vertices, each moved at random by up to `apart` (m).
 void add_rectangle(MeshArrays& mesh, const Floor& floor, double x0, double x1, double y0, double y1, double apart, Random& random) {
   const auto vertex = [&](double x, double y) {
     const Vec v = floor.at(x, y, 0) + random.uniform(0, apart) * random.direction();
@@ -62,7 +63,7 @@ Floor lay(Laying laying, bool is_tilted, double apart = 0, double far = 0) {
   Floor floor;
   if (is_tilted) tilt(floor);
   floor.origin = far * floor.along + far * floor.across;
-  floor.rounding = apart + 4e-7 * (1 + 2 * far);  // of floats
+  floor.rounding = apart + 4e-7 * (1 + 2 * far);  // the rounding of floats
   Random random(41);
   MeshArrays one;
   for (int i = -2; i < 2; ++i) {
@@ -86,7 +87,7 @@ Floor lay(Laying laying, bool is_tilted, double apart = 0, double far = 0) {
   return floor;
 }
 
-/// Four level heightfields beside one another; their y axis is up.
+/// Four level heightfields side by side, with the y axis up.
 Floor lay_heightfields() {
   Floor floor;
   floor.along = {0, 0, 1};
@@ -137,7 +138,7 @@ double height_of(Kind kind) {
   return kind == Kind::Ellipsoid ? 0.06 : 0.1;
 }
 
-/// Turns the body so that its z axis is the floor's normal.
+/// Rotates the body so that its z axis is the floor's normal.
 void stand_on(const Floor& floor, dGeomID geom) {
   dMatrix3 turn{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -177,7 +178,7 @@ class SlideOverSeams {
     dJointGroupEmpty(joints_);
   }
 
-  /// How far the velocity along the floor is from this one, m/s.
+  /// The difference of the velocity along the floor from this one, m/s.
   double deviation(const Vec& velocity) const {
     const Vec change = to_vec(dBodyGetLinearVel(body_)) - velocity;
     return norm(change - dot(change, floor_.up) * floor_.up);
@@ -195,7 +196,7 @@ class SlideOverSeams {
 
 }  // namespace
 
-TEST_CASE("a body anywhere on a floor with seams: the normal and the depth of the plane" * doctest::skip(kIsSinglePrecision)) {
+TEST_CASE("a body anywhere on a floor with seams has the normal and the depth of the plane" * doctest::skip(kIsSinglePrecision)) {
   const OdeSession session;
   for (const Row& row : rows()) {
     CAPTURE(row.name);
@@ -211,7 +212,7 @@ TEST_CASE("a body anywhere on a floor with seams: the normal and the depth of th
         double worst_tilt = 0;
         double worst_depth = 0;
         for (int k = 0; k < 1000; ++k) {
-          // Half of them are as near to a seam as it takes to be over the next tile by chance.
+          // Half of them are so near to a seam that they may be over the next tile.
           const double near = k % 2 == 0 ? 0 : random.uniform(-0.03, 0.03) * random.uniform(0, 1) * random.uniform(0, 1);
           const double x = k % 2 == 0 ? random.uniform(-0.8, 0.8) : near;
           const double y = k % 4 == 1 ? near : random.uniform(-0.7, 0.7);
@@ -234,7 +235,7 @@ TEST_CASE("a body anywhere on a floor with seams: the normal and the depth of th
   }
 }
 
-TEST_CASE("a body slides over seams as over a plane" * doctest::skip(kIsSinglePrecision)) {
+TEST_CASE("a body slides over seams as it slides over a plane" * doctest::skip(kIsSinglePrecision)) {
   const OdeSession session;
   for (const Row& row : rows()) {
     CAPTURE(row.name);
@@ -256,7 +257,7 @@ TEST_CASE("a body slides over seams as over a plane" * doctest::skip(kIsSinglePr
   }
 }
 
-TEST_CASE("a body that hangs over the border of a sheet is held, and falls when its middle is beyond") {
+TEST_CASE("an overhanging body stays on the border of a sheet, and falls when its middle is beyond the border") {
   const OdeSession session;
   for (const double beyond : {-0.02, 0.02}) {
     for (const Kind kind : {Kind::Ball, Kind::Brick, Kind::Can}) {

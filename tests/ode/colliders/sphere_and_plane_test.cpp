@@ -1,4 +1,4 @@
-// Sphere-shaped bodies against ODE's own geoms, where ODE's contacts of dSphere are the reference.
+// Spherical bodies against ODE's own geoms. ODE's contacts of dSphere are the reference.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// ODE's normal is that of a vector of length `distance` (m), both of whose ends are rounded.
+/// ODE's normal is the direction of a vector of length `distance` (m) with two rounded ends.
 void check_same_depths(const std::vector<dContactGeom>& ours, const std::vector<dContactGeom>& theirs, double distance = 1) {
   REQUIRE(ours.size() == theirs.size());
   for (std::size_t i = 0; i < ours.size(); ++i) {
@@ -26,9 +26,8 @@ void check_same(const std::vector<dContactGeom>& ours, const std::vector<dContac
   }
 }
 
-// Positions may differ along the normal, within the overlap: for a sphere and a box ODE puts them on the box, for sphere and
-// cylinder now on one, now on the other. Ours are halfway. Of a sphere that is deep inside a geom, ours is on the sphere, and ODE's
-// may be beside it.
+// Positions may differ along the normal, within the overlap. ODE puts the contact of a sphere and a box on the box, and of a sphere
+// and a cylinder on either. Ours is halfway. For a sphere deep inside a geom ours is on the sphere, and ODE's may be beside it.
 void check_same_but_for_position(const std::vector<dContactGeom>& ours, const std::vector<dContactGeom>& theirs) {
   check_same_depths(ours, theirs);
   for (std::size_t i = 0; i < ours.size(); ++i) {
@@ -53,7 +52,7 @@ Pair make_sphere(double radius, int kind) {
 
 }  // namespace
 
-TEST_CASE("as dSphere against dSphere, dPlane and one another") {
+TEST_CASE("spherical bodies collide as dSphere does with dSphere, dPlane and one another") {
   OdeSession session;
   Random random(10);
   for (int i = 0; i < 500; ++i) {
@@ -70,7 +69,8 @@ TEST_CASE("as dSphere against dSphere, dPlane and one another") {
 
     const auto reference = collide(first.theirs, second.theirs);
     const double least = std::min(double{dGeomSphereGetRadius(first.theirs)}, double{dGeomSphereGetRadius(second.theirs)});
-    const bool is_swallowed = !reference.empty() && reference[0].depth > 4 * least;  // halfway is beside the smaller sphere
+    const bool is_swallowed =
+        !reference.empty() && reference[0].depth > 4 * least;  // the point halfway is beside the smaller sphere
     for (const auto& ours :
          {collide(first.ours, second.theirs), collide(first.theirs, second.ours), collide(first.ours, second.ours)}) {
       if (is_swallowed)
@@ -86,7 +86,7 @@ TEST_CASE("as dSphere against dSphere, dPlane and one another") {
   }
 }
 
-TEST_CASE("an ellipsoid and a plane: the closed form") {
+TEST_CASE("an ellipsoid and a plane have the depth of the closed form") {
   OdeSession session;
   Random random(11);
   const Vec axes = {0.5, 1.0, 1.7};
@@ -103,7 +103,7 @@ TEST_CASE("an ellipsoid and a plane: the closed form") {
     const Geom plane(dCreatePlane(nullptr, dReal(n[0]), dReal(n[1]), dReal(n[2]), dReal(lowest + depth)));
     const auto contacts = collide(geom, plane);
     REQUIRE(contacts.size() == 1);
-    CHECK(std::abs(contacts[0].depth - depth) < within_rounding(1e-14));  // differences of metres
+    CHECK(std::abs(contacts[0].depth - depth) < within_rounding(1e-14));  // differences of numbers of metres
     CHECK(norm(to_vec(contacts[0].normal) - n) < within_rounding(1e-14));
     CHECK(std::abs(dot(to_vec(contacts[0].pos), n) - lowest) < within_rounding(1e-14));
   }
@@ -111,7 +111,7 @@ TEST_CASE("an ellipsoid and a plane: the closed form") {
 
 namespace {
 
-// Half of the lengths along the axes.
+// The half-lengths along the axes.
 Vec half_lengths(dGeomID geom) {
   dReal radius = 0;
   dReal length = 0;
@@ -129,8 +129,8 @@ Vec half_lengths(dGeomID geom) {
   }
 }
 
-// Whether a place is beside the geom: halfway between the tangent planes it may have come out of a thin one again. Our contact is
-// in the geom then.
+// Whether a place is beside the geom. Halfway between the tangent planes it may be beyond a thin geom. Our contact is then in the
+// geom.
 bool is_beside(const Vec& place, dGeomID geom) {
   const Vec half = half_lengths(geom);
   dVector3 local;
@@ -146,7 +146,7 @@ bool is_beside(const Vec& place, dGeomID geom) {
   }
 }
 
-// A point near the geom, in its frame, and not in a box or a cylinder, where ODE's answers are of another kind.
+// A point near the geom, in its frame. It is outside of a box or cylinder, because ODE's answers differ inside.
 Vec draw_near(dGeomID geom, double distance, Random& random) {
   const Vec half = half_lengths(geom);
   while (true) {
@@ -161,9 +161,9 @@ Vec draw_near(dGeomID geom, double distance, Random& random) {
 
 }  // namespace
 
-TEST_CASE("as dSphere against dBox, dCapsule and dCylinder") {
+TEST_CASE("spherical bodies collide as dSphere does with dBox, dCapsule and dCylinder") {
   OdeSession session;
-  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-15), 1000);  // the normal is good to the root of the tolerance
+  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-15), 1000);  // the normal is accurate to the root of the tolerance
   Random random(12);
   int touching = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -189,7 +189,7 @@ TEST_CASE("as dSphere against dBox, dCapsule and dCylinder") {
         const auto reference = of(sphere.theirs);
         touching += static_cast<int>(reference.size());
         const double from_centre = reference.empty() ? 1 : std::min(1.0, std::abs(radius - double{reference[0].depth}));
-        // Halfway between the tangent planes, where the sphere may be all above.
+        // The place halfway between the tangent planes, where the sphere may be wholly above.
         const double depth = reference.empty() ? 0 : double{reference[0].depth};
         const Vec into = reference.empty() ? Vec{} : (sphere_first ? -1.0 : 1.0) * to_vec(reference[0].normal);
         if (depth > 4 * radius || (depth > 0 && is_beside(to_vec(centre) + (radius - 0.5 * depth) * into, collider))) {

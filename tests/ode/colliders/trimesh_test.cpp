@@ -17,12 +17,12 @@ void check_same_but_for_side(const std::vector<dContactGeom>& contacts, const st
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     CHECK(contacts[i].depth == reference[i].depth);
     CHECK(to_vec(contacts[i].normal) == to_vec(reference[i].normal));
-    // The corners of a wide overlap are found about the deepest point, whose last digits differ.
+    // The manifold points of a wide overlap are found about the deepest point, whose last digits differ.
     CHECK(norm(to_vec(contacts[i].pos) - to_vec(reference[i].pos)) <= (contacts[i].depth > 0 ? 0 : 1e-12));
   }
 }
 
-// Sides 1 and 2 are ours and the mesh's: ODE swaps what the collider wrote when it was called in the other order.
+// Sides 1 and 2 are ours and the mesh's. ODE swaps the contacts of a call in the other order.
 void check_swapped(const std::vector<dContactGeom>& one, const std::vector<dContactGeom>& other) {
   REQUIRE(one.size() == other.size());
   for (std::size_t i = 0; i < one.size(); ++i) {
@@ -37,7 +37,7 @@ void check_swapped(const std::vector<dContactGeom>& one, const std::vector<dCont
 
 }  // namespace
 
-TEST_CASE("a floor of triangles is a dPlane, in both orders") {
+TEST_CASE("a floor of triangles gives the contacts of a dPlane, in both orders") {
   OdeSession session;
   Random random(31);
   const MeshGeom floor(floor_arrays(60, 60, 0.125));
@@ -77,8 +77,7 @@ TEST_CASE("a floor of triangles is a dPlane, in both orders") {
 
 namespace {
 
-/// Two equal bodies that slide in a running world of their own, one on a plane and one on a mesh, without gravity's help along
-/// it.
+/// Two equal bodies that slide in a world of their own, one on a plane and one on a mesh, without gravity along it.
 struct Slide {
   dWorldID world = dWorldCreate();
   dJointGroupID joints = dJointGroupCreate(0);
@@ -127,8 +126,8 @@ dGeomID make_slider(const std::string& kind) {
 
 }  // namespace
 
-// With single precision micrometres do not show over 10 m: they are the spacing of its numbers.
-TEST_CASE("10 m across 20 000 triangles: as on a plane" * doctest::skip(kIsSinglePrecision)) {
+// In single precision the spacing of numbers over 10 m is micrometres.
+TEST_CASE("10 m across 20 000 triangles a body slides as on a plane" * doctest::skip(kIsSinglePrecision)) {
   OdeSession session;
   struct Case {
     const char* kind;
@@ -164,10 +163,11 @@ TEST_CASE("10 m across 20 000 triangles: as on a plane" * doctest::skip(kIsSingl
   }
 }
 
-TEST_CASE("10 m across a turned and moved floor, whose vertices are rounded" * doctest::skip(kIsSinglePrecision)) {
+TEST_CASE("10 m across a rotated and moved floor with rounded vertices a body slides as on a plane" *
+          doctest::skip(kIsSinglePrecision)) {
   OdeSession session;
   Random random(32);
-  const MeshGeom floor(floor_arrays(100, 100, 0.1));  // 0.1 is no float
+  const MeshGeom floor(floor_arrays(100, 100, 0.1));  // 0.1 is not a float
   dQuaternion turn = {dReal(0.8), dReal(0.1), dReal(-0.3), dReal(0.5)};
   dNormalize4(turn);
   dGeomSetQuaternion(floor, turn);
@@ -196,7 +196,7 @@ TEST_CASE("10 m across a turned and moved floor, whose vertices are rounded" * d
   CHECK(off_line < 1e-6);
 }
 
-TEST_CASE("a turned and moved block against dBox: sphere-shaped bodies") {
+TEST_CASE("a spherical body has the same contacts with a rotated and moved block of triangles as with a dBox") {
   OdeSession session;
   Random random(33);
   const MeshGeom block(box_arrays(1, 0.75, 0.5));
@@ -216,7 +216,7 @@ TEST_CASE("a turned and moved block against dBox: sphere-shaped bodies") {
     place(sphere, there);
     random.turn(ours);
     const auto reference = collide(sphere, box);
-    if (!reference.empty() && reference[0].depth > 0.9 * radius) continue;  // the centre is in the box, or nearly
+    if (!reference.empty() && reference[0].depth > 0.9 * radius) continue;  // the centre is in the box, or almost
     const auto found = collide(ours, block);
     snProximity proximity;
     REQUIRE(snGeomProximity(ours, block, &proximity) == 1);
@@ -235,7 +235,7 @@ TEST_CASE("a turned and moved block against dBox: sphere-shaped bodies") {
   CHECK(contacts > 500);
 }
 
-TEST_CASE("distances: the nearest triangle, however far") {
+TEST_CASE("the distance of a mesh is the distance of its nearest triangle, at any distance") {
   OdeSession session;
   Random random(34);
   const MeshGeom block(box_arrays(1, 0.75, 0.5));
@@ -256,7 +256,7 @@ TEST_CASE("distances: the nearest triangle, however far") {
     CHECK(to_vec(one.normal) == -1.0 * to_vec(other.normal));
     CHECK(to_vec(one.point1) == to_vec(other.point2));
   }
-  // The body is between two distant blocks of one mesh, nearer to the one that is not in the first box that is searched.
+  // The body is between two distant blocks of one mesh. The nearer block is not in the first searched box.
   MeshArrays two = box_arrays(0.5, 0.5, 0.5);
   const auto count = static_cast<dTriIndex>(two.vertices.size());
   const auto triangles = two.triangles;
@@ -280,7 +280,7 @@ TEST_CASE("distances: the nearest triangle, however far") {
   }
 }
 
-TEST_CASE("a room: one contact for each wall, the deepest when there is room for less") {
+TEST_CASE("a body in a corner of a mesh room has one contact for each wall, and with a smaller max_contacts the deepest ones") {
   OdeSession session;
   const MeshGeom room(box_arrays(3, 4, 5, true));
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
@@ -296,7 +296,7 @@ TEST_CASE("a room: one contact for each wall, the deepest when there is room for
     REQUIRE(fewer.size() == static_cast<std::size_t>(room_for));
     for (std::size_t i = 0; i < fewer.size(); ++i) CHECK(fewer[i].depth == contacts[i].depth);
   }
-  // With a stride, nothing between the contacts is written.
+  // With a stride, the memory between the contacts is unchanged.
   struct Spaced {
     dContactGeom contact;
     std::array<char, 40> between;
@@ -308,7 +308,7 @@ TEST_CASE("a room: one contact for each wall, the deepest when there is room for
   for (const Spaced& s : spaced) CHECK(std::all_of(s.between.begin(), s.between.end(), [](char c) { return c == 'x'; }));
 }
 
-TEST_CASE("meshes of one triangle, of none that is usable, and with repeated triangles") {
+TEST_CASE("meshes of one triangle, without a usable triangle and with repeated triangles have the right contacts") {
   OdeSession session;
   const Geom body(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.7), dReal(0.3)));
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
@@ -318,7 +318,7 @@ TEST_CASE("meshes of one triangle, of none that is usable, and with repeated tri
   one.triangles.push_back({one.add(-2, -2, 0), one.add(2, -2, 0), one.add(0, 3, 0)});
   const MeshGeom triangle(one);
   check_same_but_for_side(collide(body, triangle), collide(body, plane));
-  place(body, {0.1, 0.2, -0.28});  // from behind the contact is as deep as the body
+  place(body, {0.1, 0.2, -0.28});  // from behind, the contact is as deep as the body
   check_same_but_for_side(collide(body, triangle), collide(body, plane));
   place(body, {0.1, 0.2, -0.31});
   CHECK(collide(body, triangle).empty());
@@ -360,7 +360,7 @@ int wants_even(dGeomID /*mesh*/, dGeomID /*geom*/, int index) { return index % 2
 
 }  // namespace
 
-TEST_CASE("the callbacks of the mesh are heard and left in place") {
+TEST_CASE("the callbacks of a mesh are called and stay set") {
   OdeSession session;
   const MeshGeom floor(floor_arrays(8, 8, 0.5));
   const Geom body(snCreateEllipsoid(nullptr, dReal(0.4), dReal(0.4), dReal(0.4)));
@@ -384,14 +384,14 @@ TEST_CASE("the callbacks of the mesh are heard and left in place") {
     CHECK(dGeomTriMeshIsTCEnabled(floor, dBoxClass) == 1);
   }
   CHECK(even > 20);
-  // A query of the distance is no collision that callbacks are told of.
+  // A query of the distance is not a collision, so no callback is called.
   told = {};
   snProximity proximity;
   REQUIRE(snGeomProximity(body, floor, &proximity) == 1);
   CHECK(told.by == nullptr);
 }
 
-TEST_CASE("ODE closed and opened again, and bodies that are no numbers") {
+TEST_CASE("meshes collide after ODE was closed and opened again, and ignore bodies that are not finite") {
   for (int round = 0; round < 2; ++round) {
     OdeSession session;
     const MeshGeom floor(floor_arrays(8, 8, 0.5));

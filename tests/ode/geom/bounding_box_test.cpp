@@ -1,4 +1,4 @@
-// Tests that the bounding box encloses the body, and that no box along the same axes is smaller.
+// Tests that the bounding box encloses the body, and that no axis-parallel box is smaller.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct Box {
   explicit Box(dGeomID geom) { dGeomGetAABB(geom, side.data()); }
 };
 
-// Visits boundary points without our library: superquadric coordinates, rotated by hand.
+// Visits boundary points without our library, by superquadric coordinates and an own rotation.
 template <typename Visit>
 void visit_boundary(const Vec& axes, double delta, double epsilon, int steps, Visit visit) {
   const auto power = [](double base, double exponent) { return std::copysign(std::pow(std::abs(base), exponent), base); };
@@ -43,7 +43,7 @@ Vec to_world(dGeomID geom, const Vec& local) {
 
 }  // namespace
 
-TEST_CASE("of an ellipsoid in any attitude: the closed form") {
+TEST_CASE("the bounding box of an ellipsoid in any orientation has the closed form") {
   OdeSession session;
   Random random(7);
   for (int i = 0; i < 200; ++i) {
@@ -64,7 +64,7 @@ TEST_CASE("of an ellipsoid in any attitude: the closed form") {
   }
 }
 
-TEST_CASE("of superellipsoids, against dense sampling of the boundary") {
+TEST_CASE("the bounding box of a superellipsoid agrees with dense sampling of the boundary") {
   OdeSession session;
   Random random(8);
   for (int i = 0; i < 30; ++i) {
@@ -94,7 +94,7 @@ TEST_CASE("of superellipsoids, against dense sampling of the boundary") {
   }
 }
 
-TEST_CASE("never inside the body's own support points, also far from the origin") {
+TEST_CASE("the bounding box contains the support points, also far from the origin") {
   OdeSession session;
   Random random(9);
   for (int i = 0; i < 2000; ++i) {
@@ -116,7 +116,7 @@ TEST_CASE("never inside the body's own support points, also far from the origin"
   }
 }
 
-TEST_CASE("follows the parameters, the rounding and the pose") {
+TEST_CASE("the bounding box follows the parameters, the rounding and the pose") {
   OdeSession session;
   const Geom geom(snCreateEllipsoid(nullptr, 1, 2, 3));
   const auto check_half = [&](double x, double y, double z) {

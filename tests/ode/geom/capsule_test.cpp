@@ -1,4 +1,4 @@
-// Tests of snCreateCapsule: a capsule as a body of ours beside ODE's own.
+// Tests of snCreateCapsule: a capsule of ours beside ODE's own.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr dReal kRadius = 2, kLength = 5;
 
-/// A capsule of radius 0.1 and length 0.4 (m) that falls on its side, a little inclined, onto a plane or a box.
+/// A capsule of radius 0.1 and length 0.4 (m) that falls on its side, slightly tilted, onto a plane or a box.
 class Fall {
  public:
   Fall(bool is_on_box, int room) : room_(room) {
@@ -68,7 +68,7 @@ class Fall {
 
 }  // namespace
 
-TEST_CASE("capsule: size, mass and depth are those of ODE's") {
+TEST_CASE("capsule: size, mass and depth are equal to ODE's") {
   OdeSession session;
   const Geom ours(snCreateCapsule(nullptr, kRadius, kLength));
   REQUIRE(ours != nullptr);
@@ -80,7 +80,7 @@ TEST_CASE("capsule: size, mass and depth are those of ODE's") {
     dGeomSetRotation(geom, turn);
     dGeomGetAABB(geom, boxes[geom == static_cast<dGeomID>(odes) ? 1 : 0].data());
   }
-  // Ours is wider by the rounding that it has to cover.
+  // Ours is wider by the rounding error that it must cover.
   const double tolerance = within_rounding(1e-6, kRadius + 0.5 * kLength);
   for (std::size_t i = 0; i < 6; ++i) {
     const double wider = (i % 2 == 0 ? -1 : 1) * (double{boxes[0][i]} - double{boxes[1][i]});
@@ -97,7 +97,7 @@ TEST_CASE("capsule: size, mass and depth are those of ODE's") {
   }
 }
 
-TEST_CASE("capsule: lying on a plane, a box or a capsule it has a contact at each end, as deep as it is there") {
+TEST_CASE("capsule: on a plane, a box or a capsule a lying capsule has a contact at each end, with the depth there") {
   OdeSession session;
   const Geom capsule(snCreateCapsule(nullptr, kRadius, kLength));
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
@@ -138,7 +138,7 @@ TEST_CASE("capsule: lying on a plane, a box or a capsule it has a contact at eac
   }
 }
 
-TEST_CASE("capsule: it lies still, whatever the step, the room for contacts and what is below") {
+TEST_CASE("capsule: a lying capsule stays still at any step and max_contacts, on any geom") {
   for (const bool is_on_box : {false, true}) {
     for (const double step : {0.005, 0.02, 0.05}) {
       for (const int room : {2, 3, 4, 8}) {
@@ -159,7 +159,7 @@ TEST_CASE("capsule: it lies still, whatever the step, the room for contacts and 
   }
 }
 
-TEST_CASE("capsule: refusals") {
+TEST_CASE("capsule: invalid parameters are refused") {
   OdeSession session;
   CHECK(snCreateCapsule(nullptr, 0, 1) == nullptr);
   CHECK(refused_with("snCreateCapsule: radius = 0"));

@@ -1,4 +1,4 @@
-// Tests of the rotations that the core gets for geoms.
+// Tests of the rotations of geoms that the core gets.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -41,9 +41,9 @@ double orthonormality_error(const Matrix3& R) { return (R.transpose() * R - Matr
 
 }  // namespace
 
-TEST_CASE("the rotations of double precision that ODE makes are taken to the bit") {
+TEST_CASE("rotations that ODE computes in double precision are used unchanged") {
   OdeSession session;
-  if (kRealEpsilon > 1e-10) return;  // rotations of single precision are not orthonormal to rounding
+  if (kRealEpsilon > 1e-10) return;  // rotations in single precision are not orthonormal to double precision
   Draw draw;
   const Geom geom(dCreateSphere(nullptr, 1));
   for (int k = 0; k < 100000; ++k) {
@@ -59,7 +59,7 @@ TEST_CASE("the rotations of double precision that ODE makes are taken to the bit
   }
 }
 
-TEST_CASE("the nearest rotation: orthonormal to rounding, and no farther away than the error") {
+TEST_CASE("the nearest rotation is orthonormal to rounding, and no farther away than the error") {
   OdeSession session;
   Draw draw;
   const Geom geom(dCreateSphere(nullptr, 1));
@@ -77,7 +77,7 @@ TEST_CASE("the nearest rotation: orthonormal to rounding, and no farther away th
   }
 }
 
-TEST_CASE("entries that are no numbers are left to the core") {
+TEST_CASE("rotations with entries that are not finite are passed to the core") {
   OdeSession session;
   const Geom geom(dCreateSphere(nullptr, 1));
   for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {

@@ -1,5 +1,5 @@
-// Rotations that are not orthonormal to rounding: those of float's precision are as good as any, and those far from a rotation
-// are refused.
+// Rotations that are not orthonormal to rounding. Rotations with the precision of float are as good as any. Matrices far from a
+// rotation are refused.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -22,7 +22,7 @@ constexpr int kPairs = 20000;
 constexpr double kExponent = 60;
 constexpr double kTolerance = 1e-9;  // relative to the smallest half-axis: the default of a query
 
-// The allowed difference, relative to the unit: two answers, and the rounding of one of them to dReal.
+// The allowed difference relative to the unit, for two answers and the rounding of one of them to dReal.
 constexpr double kAllowed = 2 * kTolerance + 8 * double{std::numeric_limits<dReal>::epsilon()};
 
 Vector3 to_vector(const Vec& v) { return {v[0], v[1], v[2]}; }
@@ -41,7 +41,7 @@ void rotate(dGeomID geom, const Matrix3& R) {
   dGeomSetRotation(geom, rows);
 }
 
-/// Rounds by way of memory: at -O3 GCC 12 leaves some of the entries as they were.
+/// Rounds through memory: at -O3 GCC 12 leaves some entries unrounded.
 Matrix3 rounded_to_float(Matrix3 R) {
   for (double& entry : R.reshaped()) {
     const volatile auto rounded = static_cast<float>(entry);
@@ -56,7 +56,7 @@ Matrix3 polar_factor(const Matrix3& R) {
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
-/// A body whose rotation has been rounded to float: in ODE with that rotation, and in the core with the nearest one.
+/// A body with a rotation rounded to float: in ODE with this rotation, and in the core with the nearest one.
 struct RoughBody {
   supernormal::Superellipsoid shape;
   Geom geom;
@@ -96,7 +96,7 @@ void check_refused(dGeomID g1, dGeomID g2, const std::string& who) {
 
 }  // namespace
 
-TEST_CASE("rotations rounded to float: queries converge, to what the nearest rotations have") {
+TEST_CASE("rotations rounded to float: queries converge to the answers of the nearest rotations") {
   OdeSession session;
   snSetWarmStart(0);
   Random random(60);
@@ -125,7 +125,7 @@ TEST_CASE("rotations rounded to float: queries converge, to what the nearest rot
   CHECK(other_maxima <= kPairs / 2000);
 }
 
-TEST_CASE("what is not near a rotation is refused by name, and gives no contact and no NaN") {
+TEST_CASE("a matrix that is not near a rotation is refused by name, and gives no contact and no NaN") {
   OdeSession session;
   Random random(61);
   Matrix3 shear = Matrix3::Identity(), mirror = Matrix3::Identity();
@@ -158,7 +158,7 @@ TEST_CASE("what is not near a rotation is refused by name, and gives no contact 
   check_refused(box, body, "a dBox");
 }
 
-TEST_CASE("a rotation typed with three decimals is one") {
+TEST_CASE("a rotation with three decimals is accepted") {
   OdeSession session;
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
   Matrix3 typed;

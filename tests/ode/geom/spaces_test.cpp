@@ -1,4 +1,4 @@
-// Tests that the same geoms collide in every kind of space, inside a dGeomTransform, with an offset.
+// Tests that the same geoms collide in every kind of space, inside a dGeomTransform, and with an offset.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include "ode/collider_fixture.hpp"
 #include "support/relative.hpp"
 
-// dGeomTransform is deprecated in favour of geom offsets, but programs have it and we promise to work inside.
+// dGeomTransform is deprecated in favour of geom offsets, but programs use it and we promise to work inside it.
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
 
 using namespace supernormal::test;
@@ -56,7 +56,7 @@ void near_callback(void* data, dGeomID o1, dGeomID o2) {
   if (!collide(o1, o2).empty()) found.touching.insert(pair);
 }
 
-// 60 bodies, five of each of ODE's geoms and two planes, crowded. Destroy it before the space.
+// 60 crowded bodies, five of each of ODE's geoms and two planes. Destroy it before the space.
 struct Crowd {
   std::vector<ColliderGeom> colliders;
   std::vector<dGeomID> geoms;
@@ -85,7 +85,7 @@ Pairs touching_without_space(const std::vector<dGeomID>& geoms) {
 
 }  // namespace
 
-TEST_CASE("every space finds exactly the pairs that touch") {
+TEST_CASE("every space finds exactly the touching pairs") {
   OdeSession session;
   for (const SpaceKind& kind : space_kinds()) {
     CAPTURE(kind.name);
@@ -102,7 +102,7 @@ TEST_CASE("every space finds exactly the pairs that touch") {
   }
 }
 
-TEST_CASE("a plane that no body touches calls nobody") {
+TEST_CASE("a plane that no body touches causes no near callback") {
   OdeSession session;
   const std::vector<std::array<dReal, 4>> planes = {
       {0, 0, 1, -8}, {1, 0, 0, -8}, {0, -1, 0, -8}, {dReal(0.6), dReal(0.48), dReal(0.64), -12}};
@@ -125,7 +125,7 @@ TEST_CASE("a plane that no body touches calls nobody") {
   }
 }
 
-TEST_CASE("a box whose corner is in the bounding box but not near the body is pruned; one that is near is not") {
+TEST_CASE("a box whose corner is in a body's bounding box but not near the body is culled, and a near one is not") {
   OdeSession session;
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
   snCreateEllipsoid(space, 1, 1, 1);
@@ -146,7 +146,7 @@ TEST_CASE("a box whose corner is in the bounding box but not near the body is pr
 
 namespace {
 
-// Puts `inner` into the transform, both anywhere near the origin, and `direct`, the same geom again, to where `inner` is then.
+// Puts `inner` into the transform, both anywhere near the origin. Puts `direct`, the same geom again, where `inner` then is.
 void wrap(dGeomID transform, dGeomID inner, dGeomID direct, Random& random) {
   random.turn(inner);
   place(inner, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
@@ -177,9 +177,9 @@ int check_same_contacts(dGeomID transform, dGeomID direct, dGeomID other) {
 
 }  // namespace
 
-TEST_CASE("inside a dGeomTransform") {
+TEST_CASE("a body inside a dGeomTransform has the contacts of the body itself") {
   OdeSession session;
-  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is good to the root of the tolerance
+  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is accurate to the root of the tolerance
   Random random(5);
   const Geom transform(dCreateGeomTransform(nullptr));
   std::vector<ColliderGeom> others;
@@ -202,9 +202,9 @@ TEST_CASE("inside a dGeomTransform") {
   CHECK(touching > 200);
 }
 
-TEST_CASE("a collider inside a dGeomTransform") {
+TEST_CASE("a collider inside a dGeomTransform has the contacts of the collider itself") {
   OdeSession session;
-  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is good to the root of the tolerance
+  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is accurate to the root of the tolerance
   Random random(8);
   const Geom transform(dCreateGeomTransform(nullptr));
   for (const ColliderKind kind : kSolidKinds) {
@@ -226,7 +226,7 @@ TEST_CASE("a collider inside a dGeomTransform") {
 TEST_CASE("a geom offset moves the geom, not the body") {
   OdeSession session;
   const dWorldID world = dWorldCreate();
-  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is good to the root of the tolerance
+  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is accurate to the root of the tolerance
   Random random(6);
   int touching = 0;
   {

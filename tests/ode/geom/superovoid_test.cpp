@@ -50,7 +50,7 @@ TEST_CASE("superovoid: parameters are kept, changed and refused") {
   CHECK(refused_with("half-axis b = -1 m"));
 }
 
-TEST_CASE("superovoid: the functions of one kind of body refuse the other kinds") {
+TEST_CASE("superovoid: the functions of one kind of body refuse other kinds") {
   OdeSession session;
   const Geom egg(snCreateSuperovoid(nullptr, 3, 2, 1, 2, 2, 0, 0));
   const Geom ellipsoid(snCreateEllipsoid(nullptr, 3, 2, 1));
@@ -60,7 +60,7 @@ TEST_CASE("superovoid: the functions of one kind of body refuse the other kinds"
   CHECK(refused_with("geom is a superovoid, but must be an ellipsoid or a superellipsoid"));
 }
 
-TEST_CASE("superovoid: without taper it touches as the superellipsoid does") {
+TEST_CASE("superovoid: without taper the contacts are the superellipsoid's") {
   OdeSession session;
   snSetWarmStart(0);
   Random random(81);
@@ -79,7 +79,7 @@ TEST_CASE("superovoid: without taper it touches as the superellipsoid does") {
   }
 }
 
-TEST_CASE("superovoid: mass, and an egg that comes to rest on its side") {
+TEST_CASE("superovoid: an egg has the right mass and comes to rest on its side") {
   OdeSession session;
   const double a = 0.3, c = 0.4, taper = 0.3, density = 1000;
   World world;
@@ -96,7 +96,7 @@ TEST_CASE("superovoid: mass, and an egg that comes to rest on its side") {
   const double centroid = c * 2 * taper / 5 / (1 + taper * taper / 5);
   CHECK(mass.c[2] == relative(centroid).epsilon(1e-6));
 
-  // The centre of mass is moved into the origin of the body, the geom as far below it.
+  // The centre of mass moves to the origin of the body, and the geom by as much below it.
   dMassTranslate(&mass, 0, 0, -mass.c[2]);
   mass.c[0] = mass.c[1] = mass.c[2] = 0;
   const dBodyID body = world.add(egg, mass);
@@ -105,7 +105,7 @@ TEST_CASE("superovoid: mass, and an egg that comes to rest on its side") {
   turn(body, {1, 0, 0}, 1.2);
 
   for (int step = 0; step < 6000; ++step) world.exact_step(0.002);
-  // At rest the height of the centre of mass over the plane, h(n) + centroid n_z, is least: the axis leans a little, with the
+  // At rest the height of the centre of mass over the plane, h(n) + centroid n_z, is minimal. The axis is slightly tilted, with the
   // blunt end down, so that the centre of mass is over the contact point.
   const dReal* R = dBodyGetRotation(body);
   const double axis_up = R[10];

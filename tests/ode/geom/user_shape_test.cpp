@@ -1,4 +1,4 @@
-// Tests of snCreateConvex: a body that the program describes.
+// Tests of snCreateConvex: a body that the program defines.
 #include <doctest/doctest.h>
 
 #include <stdexcept>
@@ -10,7 +10,7 @@ using namespace supernormal::test;
 
 namespace {
 
-// An ellipsoid given by the program, which counts the calls.
+// An ellipsoid defined by the program, which counts the calls.
 struct Egg {
   double a = 1, b = 0.8, c = 0.6;
   int released = 0;
@@ -50,9 +50,9 @@ snShape describe(Egg& egg, bool with_hessian) {
 
 }  // namespace
 
-TEST_CASE("collides as the built-in body of the same form") {
+TEST_CASE("user shape: the contacts are those of the built-in body of the same form") {
   OdeSession session;
-  // The functions of a user's body return dReals: with single precision the query converges to no more than that.
+  // The functions of a user shape return dReals. In single precision the query converges only to this rounding.
   snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(within_rounding(1e-9, 100)), 1000);
   Random random(12);
   Egg egg;
@@ -81,7 +81,7 @@ TEST_CASE("collides as the built-in body of the same form") {
   }
 }
 
-TEST_CASE("release is called once, when the geom dies; never on a refusal") {
+TEST_CASE("user shape: release is called once, when the geom is destroyed, and never after a refusal") {
   OdeSession session;
   Egg egg;
   const snShape good = describe(egg, true);
@@ -105,7 +105,7 @@ TEST_CASE("release is called once, when the geom dies; never on a refusal") {
   CHECK(egg.released == 1);
 }
 
-TEST_CASE("parameters of a superellipsoid it has none") {
+TEST_CASE("user shape: the parameters of a superellipsoid are refused") {
   OdeSession session;
   Egg egg;
   const snShape shape = describe(egg, false);
@@ -117,7 +117,7 @@ TEST_CASE("parameters of a superellipsoid it has none") {
   CHECK(a == 7);
 }
 
-TEST_CASE("an exception in a callback ends as an error of the call and not in ODE") {
+TEST_CASE("user shape: an exception in a callback becomes the error of the call and does not reach ODE") {
   OdeSession session;
   Egg egg;
   const snShape shape = describe(egg, true);
@@ -132,7 +132,7 @@ TEST_CASE("an exception in a callback ends as an error of the call and not in OD
   dGeomSetPosition(geom, 1, 1, 1);
   int pairs = 0;
   dSpaceCollide(space, &pairs, [](void* count, dGeomID, dGeomID) { ++*static_cast<int*>(count); });
-  CHECK(pairs == 3);  // no box and no test of it: ODE must assume the worst
+  CHECK(pairs == 3);  // without a box ODE must assume the worst
   CHECK(std::isnan(snGeomPointDepth(geom, 0, 0, 0)));
   dMass mass;
   CHECK(snMassSet(&mass, 1, geom) == 0);

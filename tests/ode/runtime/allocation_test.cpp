@@ -1,4 +1,4 @@
-// Tests that colliders do not allocate. This is an executable of its own, because it replaces operator new for everything in it.
+// Tests that colliders do not allocate. This executable replaces operator new for everything in it.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -48,7 +48,7 @@ void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memo
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
-TEST_CASE("no allocation in a collider, a box or a query after the first") {
+TEST_CASE("after the first call no collider, bounding box or query allocates") {
   OdeSession session;
   {
     const long before = allocations;
@@ -106,7 +106,7 @@ TEST_CASE("no allocation in a collider, a box or a query after the first") {
   CHECK(contacts_seen > 1000);
 }
 
-TEST_CASE("no allocation in a batch after the first") {
+TEST_CASE("after the first batch no batch allocates") {
   OdeSession session;
   Random random(27);
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
@@ -116,14 +116,15 @@ TEST_CASE("no allocation in a batch after the first") {
     place(bodies.back(), random.uniform(0, 4) * random.direction());
   }
   dCreatePlane(space, 0, 0, 1, -1);
-  const snBatchID batch = snBatchCreate(1);  // with several, a thread might come too late for the warm-up
+  const snBatchID batch = snBatchCreate(1);  // with several threads, one might start too late for the warm-up
   int contacts_seen = 0;
   const auto collide_all = [&] {
     const auto count = [](void* seen, dGeomID, dGeomID, const dContactGeom*, int more) { *static_cast<int*>(seen) += more; };
     snBatchCollide(batch, space, 8, &contacts_seen, nullptr, count);
   };
   collide_all();
-  for (const dGeomID body : bodies) place(body, 1.001 * to_vec(dGeomGetPosition(body)));  // apart: not more pairs than before
+  for (const dGeomID body : bodies)
+    place(body, 1.001 * to_vec(dGeomGetPosition(body)));  // farther apart, so there are no more pairs than before
   const long before = allocations;
   collide_all();
   CHECK(allocations == before);

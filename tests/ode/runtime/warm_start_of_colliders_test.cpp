@@ -1,4 +1,4 @@
-// Tests of warm start with ODE's own geoms, which have no serial numbers: they are recognised by their place.
+// Tests of warm start with ODE's own geoms. They have no serial numbers and are recognised by their place.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ using namespace supernormal::test;
 
 namespace {
 
-// Bodies among ODE's geoms, crowded.
+// Crowded bodies among ODE's geoms.
 struct Scene {
   std::vector<Geom> bodies;
   std::vector<ColliderGeom> colliders;
@@ -25,7 +25,7 @@ struct Scene {
     }
   }
 
-  // Returns all contacts of some steps, in which the bodies turn and move a little.
+  // Returns all contacts of some steps, in which the bodies rotate and move a little.
   std::vector<dContactGeom> run() {
     Random random(61);
     std::vector<dContactGeom> all;
@@ -51,7 +51,7 @@ struct Scene {
 
 }  // namespace
 
-TEST_CASE("a separated pair costs one evaluation from the second time on, with every collider") {
+TEST_CASE("warm start with every collider: a separated pair costs one evaluation from the second time on") {
   OdeSession session;
   Random random(62);
   for (const ColliderKind kind : kSolidKinds) {
@@ -65,7 +65,7 @@ TEST_CASE("a separated pair costs one evaluation from the second time on, with e
       move(body, 1e-3 * random.direction());
       snResetStatistics();
       CHECK(collide(body, collider).empty());
-      if (statistics().queries_warm == 0) continue;  // it is now seen in another cell of directions
+      if (statistics().queries_warm == 0) continue;  // its direction is now in another cell
       ++remembered;
       CHECK(statistics().evaluations_warm == 1);
     }
@@ -73,7 +73,7 @@ TEST_CASE("a separated pair costs one evaluation from the second time on, with e
   }
 }
 
-TEST_CASE("a body that rolls across a wide dBox stays warm, at three evaluations") {
+TEST_CASE("a body that rolls across a wide dBox keeps its warm start, at three evaluations") {
   OdeSession session;
   const Geom floor(dCreateBox(nullptr, 100, 100, 1));
   const Geom ball(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.45), dReal(0.4)));
@@ -90,7 +90,7 @@ TEST_CASE("a body that rolls across a wide dBox stays warm, at three evaluations
   CHECK(s.evaluations_warm < 3 * s.queries_warm);
 }
 
-TEST_CASE("a collider in another's place, or the same one elsewhere, gives what it gives without memory") {
+TEST_CASE("warm start with every collider: in a new place the answer is the answer of a cold start") {
   OdeSession session;
   Random random(63);
   for (const ColliderKind kind : kSolidKinds) {
@@ -118,7 +118,7 @@ TEST_CASE("a collider in another's place, or the same one elsewhere, gives what 
   }
 }
 
-TEST_CASE("on: the same scene built again gives the same bits, wherever its geoms lie in memory and whatever was remembered") {
+TEST_CASE("warm start with every collider: the same scene built again gives the same bits, at any addresses and cache contents") {
   OdeSession session;
   std::vector<dContactGeom> first;
   {
@@ -134,7 +134,7 @@ TEST_CASE("on: the same scene built again gives the same bits, wherever its geom
   CHECK(statistics().queries_warm > statistics().queries_cold);
 }
 
-TEST_CASE("off: bit for bit a function of the poses") {
+TEST_CASE("without warm start the contacts with every collider are a function of the poses, bit for bit") {
   OdeSession session;
   snSetWarmStart(0);
   Scene scene;

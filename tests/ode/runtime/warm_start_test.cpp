@@ -1,4 +1,4 @@
-// Tests that warm start saves evaluations and changes nothing else, and that without it results are a function of the poses.
+// Tests that warm start saves evaluations and changes nothing else. Without it, results are a function of the poses.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using namespace supernormal::test;
 
 namespace {
 
-// Makes a lattice of turned bodies that touch their neighbours.
+// Makes a lattice of rotated bodies that touch their neighbours.
 std::vector<Geom> make_pile(int per_side) {
   Random random(23);
   std::vector<Geom> pile;
@@ -45,7 +45,7 @@ std::vector<dContactGeom> two_steps(std::vector<Geom>& pile) {
 
 }  // namespace
 
-TEST_CASE("a separated pair costs one evaluation from the second time on") {
+TEST_CASE("warm start: a separated pair costs one evaluation from the second time on") {
   OdeSession session;
   Random random(24);
   int spheres_remembered = 0;
@@ -60,7 +60,7 @@ TEST_CASE("a separated pair costs one evaluation from the second time on") {
       move(g1, 1e-3 * random.direction());
       snResetStatistics();
       CHECK(collide(g1, collider).empty());
-      if (collider == dGeomID(sphere) && statistics().queries_warm == 0) continue;  // it is now seen in another cell of directions
+      if (collider == dGeomID(sphere) && statistics().queries_warm == 0) continue;  // its direction is now in another cell
       spheres_remembered += collider == dGeomID(sphere) ? 1 : 0;
       CHECK(statistics().queries_warm == 1);
       CHECK(statistics().evaluations_warm == 1);
@@ -69,7 +69,7 @@ TEST_CASE("a separated pair costs one evaluation from the second time on") {
   CHECK(spheres_remembered > 40);
 }
 
-TEST_CASE("a touching pair that hardly moved costs two evaluations") {
+TEST_CASE("warm start: a touching pair that hardly moved costs two evaluations") {
   OdeSession session;
   Random random(25);
   std::vector<unsigned long long> counts;
@@ -88,7 +88,7 @@ TEST_CASE("a touching pair that hardly moved costs two evaluations") {
   CHECK(counts[counts.size() / 2] <= 2);
 }
 
-TEST_CASE("warm or cold, the contacts are the same within the tolerance") {
+TEST_CASE("warm start: the contacts are the same as from a cold start, within the tolerance") {
   OdeSession session;
   auto pile = make_pile(6);
   const auto warm = two_steps(pile);
@@ -100,7 +100,7 @@ TEST_CASE("warm or cold, the contacts are the same within the tolerance") {
   CHECK(statistics().queries_warm == 0);
   REQUIRE(warm.size() == cold.size());
   REQUIRE(warm.size() > 100);
-  // Deep overlaps may have several local maxima, and there a warm start stays with the one it knows.
+  // Deep overlaps may have several local maxima. There a warm start stays with its maximum.
   int shallow = 0;
   for (std::size_t i = 0; i < warm.size(); ++i) {
     if (warm[i].depth > 0.05) continue;
@@ -111,7 +111,7 @@ TEST_CASE("warm or cold, the contacts are the same within the tolerance") {
   CHECK(shallow > 50);
 }
 
-TEST_CASE("off: bit for bit a function of the poses") {
+TEST_CASE("without warm start the contacts are a function of the poses, bit for bit") {
   OdeSession session;
   snSetWarmStart(0);
   auto pile = make_pile(3);
@@ -122,9 +122,9 @@ TEST_CASE("off: bit for bit a function of the poses") {
   CHECK(same_bits(two_steps(pile), once));
 }
 
-TEST_CASE("on: the same scene built again gives the same bits, wherever its geoms lie in memory and whatever was remembered") {
+TEST_CASE("warm start: the same scene built again gives the same bits, at any addresses and cache contents") {
   OdeSession session;
-  constexpr int kPerSide = 8;  // 130 816 pairs, as many as the table holds: some are pushed out of it, the same ones in every run
+  constexpr int kPerSide = 8;  // 130 816 pairs, as many as the table holds: some are evicted, the same ones in every run
   std::vector<dContactGeom> first;
   {
     auto pile = make_pile(kPerSide);
@@ -137,7 +137,7 @@ TEST_CASE("on: the same scene built again gives the same bits, wherever its geom
   CHECK(same_bits(two_steps(pile), first));
 }
 
-TEST_CASE("a pair that was moved by the program starts afresh and finds what it finds without memory") {
+TEST_CASE("warm start: a pair that the program has moved far starts cold, with the answer of a cold start") {
   OdeSession session;
   Random random(27);
   for (int i = 0; i < 400; ++i) {
@@ -149,7 +149,7 @@ TEST_CASE("a pair that was moved by the program starts afresh and finds what it 
     const Geom g2(snCreateSuperellipsoid(nullptr, axes[2], axes[0], axes[1], exponent, exponent));
     const Geom sphere(dCreateSphere(nullptr, dReal(0.5)));
     random.turn(g2);
-    const Vec deep_inside = 0.35 * random.direction();  // both centres lie in both bodies
+    const Vec deep_inside = 0.35 * random.direction();  // both centres are in both bodies
     const Vec starts[] = {3.0 * random.direction(), -1.0 * deep_inside, (3 / 0.35) * deep_inside};  // elsewhere, behind, far ahead
     for (const dGeomID collider : {dGeomID(g2), dGeomID(sphere)}) {
       CAPTURE(collider == dGeomID(sphere));
@@ -164,8 +164,8 @@ TEST_CASE("a pair that was moved by the program starts afresh and finds what it 
         place(collider, deep_inside);
         snResetStatistics();
         const auto moved = collide(g1, collider, 1);
-        // The sphere has an entry for each direction it was seen in, and may be back at an earlier place: the same answer,
-        // remembered.
+        // The sphere has a cache entry for each earlier direction, and may be back at an earlier place. The cached answer is the
+        // same.
         if (collider == dGeomID(g2)) CHECK(statistics().queries_cold == 1);
         REQUIRE(moved.size() == 1);
         CHECK(std::abs(moved[0].depth - cold[0].depth) < within_rounding(2e-9));
@@ -175,7 +175,7 @@ TEST_CASE("a pair that was moved by the program starts afresh and finds what it 
   }
 }
 
-TEST_CASE("a pair that turned far in its place starts afresh") {
+TEST_CASE("warm start: a pair that has rotated far starts cold") {
   OdeSession session;
   const Geom g1(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 8, 8));
   const Geom g2(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 8, 8));
@@ -195,7 +195,7 @@ TEST_CASE("a pair that turned far in its place starts afresh") {
   CHECK_FALSE(is_warm_after_turn(0.7));
 }
 
-TEST_CASE("a pair of which one has changed its shape starts afresh and finds what it finds without memory") {
+TEST_CASE("warm start: a pair with a changed shape starts cold, with the answer of a cold start") {
   OdeSession session;
   Random random(28);
   const auto half = [&] { return dReal(random.uniform(0.4, 1)); };
@@ -211,7 +211,7 @@ TEST_CASE("a pair of which one has changed its shape starts afresh and finds wha
   const Change box = [&](dGeomID geom) { dGeomBoxSetLengths(geom, half(), half(), half()); };
   const Change capsule = [&](dGeomID geom) { dGeomCapsuleSetParams(geom, half(), half()); };
   const Change cylinder = [&](dGeomID geom) { dGeomCylinderSetParams(geom, half(), half()); };
-  // The vertices of a tetrahedron are mirrored: as many, in the same box.
+  // The vertices of a tetrahedron are mirrored: the same number, in the same box.
   std::array<dReal, 12> vertices = {-1, -1, -1, 1, dReal(0.8), -1, dReal(-0.6), 1, -1, dReal(0.1), dReal(0.2), 1};
   std::array<dReal, 4> plane = {0, 0, -1, 1};
   std::array<unsigned int, 4> polygon = {3, 0, 2, 1};
@@ -244,7 +244,7 @@ TEST_CASE("a pair of which one has changed its shape starts afresh and finds wha
       const auto changed = collide(geom, other, 1);
       CHECK(statistics().queries_cold == 1);
       collide(geom, other, 1);
-      CHECK(statistics().queries_warm == 1);  // it is remembered from then on
+      CHECK(statistics().queries_warm == 1);  // it is a cache hit from then on
       snSetWarmStart(0);
       const auto cold = collide(geom, other, 1);
       snSetWarmStart(1);
@@ -253,7 +253,7 @@ TEST_CASE("a pair of which one has changed its shape starts afresh and finds wha
   }
 }
 
-TEST_CASE("a geom that takes a dead one's address does not take its memory") {
+TEST_CASE("warm start: a geom at the address of a destroyed one starts cold") {
   OdeSession session;
   const Geom g1(snCreateEllipsoid(nullptr, 1, dReal(0.8), dReal(0.6)));
   for (int i = 0; i < 20; ++i) {
@@ -267,7 +267,7 @@ TEST_CASE("a geom that takes a dead one's address does not take its memory") {
 
 namespace {
 
-// Runs a scene of the thread's own (ODE computes poses lazily, inside the geom), from its creation to its contacts.
+// Runs the thread's own scene, from its creation to its contacts. (ODE computes poses lazily, inside the geom.)
 std::vector<dContactGeom> run_scene() {
   dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
   auto pile = make_pile(4);
@@ -287,7 +287,7 @@ std::vector<dContactGeom> run_scene() {
 
 }  // namespace
 
-TEST_CASE("two threads at a time find what one finds") {
+TEST_CASE("warm start: two threads at a time find the contacts of one") {
   OdeSession session;
   for (const bool warm_start : {false, true}) {
     CAPTURE(warm_start);

@@ -1,4 +1,4 @@
-// Tests of contour lines and what else the maps are drawn with.
+// Tests of contour lines and other elements of the maps.
 #include "method/contours.hpp"
 
 #include <doctest/doctest.h>
@@ -30,7 +30,7 @@ Grid cone(std::size_t columns, std::size_t rows, const Vector2& top) {
 
 }  // namespace
 
-TEST_CASE("contours: a disc has its area, and a ring its hole") {
+TEST_CASE("contours: a disc has its area, and a ring has its hole") {
   const Grid grid = cone(81, 81, {40, 40});
   CHECK(area_of(superlevel_polygons(grid, -30)) == doctest::Approx(900 * std::numbers::pi).epsilon(0.002));
   CHECK(superlevel_polygons(grid, 1).empty());
@@ -38,11 +38,11 @@ TEST_CASE("contours: a disc has its area, and a ring its hole") {
   ring.fill([](double column, double row) { return -std::abs((Vector2(column, row) - Vector2(40, 40)).norm() - 20); });
   const std::vector<Polyline> polygons = superlevel_polygons(ring, -5);
   REQUIRE(polygons.size() == 2);
-  // One runs the other way round.
+  // One runs in the other direction.
   CHECK(area_of(polygons) == doctest::Approx(std::numbers::pi * (625 - 225)).epsilon(0.005));
 }
 
-TEST_CASE("contours: what reaches the border is closed along it, and its line is open") {
+TEST_CASE("contours: an area at the border is closed along the border, and its line is open") {
   const Grid grid = cone(41, 41, {0, 20});
   const std::vector<Polyline> polygons = superlevel_polygons(grid, -10);
   REQUIRE(polygons.size() == 1);
@@ -55,7 +55,7 @@ TEST_CASE("contours: what reaches the border is closed along it, and its line is
   CHECK(without_border(superlevel_polygons(grid, -100), grid).empty());
 }
 
-TEST_CASE("contours: two corners across a cell are joined where the middle is high") {
+TEST_CASE("contours: two opposite corners of a cell are joined if the middle is high") {
   Grid grid(2, 2);
   const auto fill = [&](double low) { grid.fill([low](double column, double row) { return column == row ? 1 : low; }); };
   fill(-0.5);
@@ -82,7 +82,7 @@ TEST_CASE("contours: a simplified line stays within its error") {
   }
 }
 
-TEST_CASE("contours: round steps") {
+TEST_CASE("contours: the levels have round steps") {
   CHECK(round_step(10, 10) == doctest::Approx(1));
   CHECK(round_step(11, 10) == doctest::Approx(2));
   CHECK(round_step(0.0034, 10) == doctest::Approx(0.0005));

@@ -1,4 +1,4 @@
-// Tests of where pairs come from: the command line, a run, the hard cases.
+// Tests of the sources of pairs: the command line, a run, the hard cases.
 #include <doctest/doctest.h>
 
 #include <functional>
@@ -63,7 +63,7 @@ class Run {
 
 }  // namespace
 
-TEST_CASE("pair: bodies of the command line") {
+TEST_CASE("pair: bodies are read from the command line") {
   const PlacedBody body = described_body("1", " superellipsoid  1 0.8 5e-1 2.5 8 ", 0.1);
   CHECK(body.shape->half_extents().isApprox(Vector3(1.1, 0.9, 0.6)));
   CHECK(body.description == "superellipsoid (1, 0.8, 0.5) m; 2.5, 8, rounded 0.1 m");
@@ -73,7 +73,7 @@ TEST_CASE("pair: bodies of the command line") {
   }
 }
 
-TEST_CASE("pair: mistakes in bodies are named with what is allowed") {
+TEST_CASE("pair: an error in a body is reported with the valid range") {
   const auto body = [](const char* text, double rounding = 0) { return [=] { described_body("2", text, rounding); }; };
   check_complaint(body("elipsoid 1 2 3"), {"--body2", "\"elipsoid\"", "did you mean \"ellipsoid\"?", "cylinder"});
   check_complaint(body(""), {"--body2", "superovoid"});
@@ -86,7 +86,7 @@ TEST_CASE("pair: mistakes in bodies are named with what is allowed") {
   check_complaint([] { position_of("--position1", std::array{0.0, 1e200, 0.0}); }, {"--position1", "1e+200", "m"});
 }
 
-TEST_CASE("pair: a hard case by its name") {
+TEST_CASE("pair: a hard case is selected by its name") {
   const Pair pair = hard_case("concentric: identical ellipsoids");
   CHECK(pair.title == "concentric: identical ellipsoids");
   CHECK(pair.body2.shape->half_extents() == Vector3(1, 0.8, 0.5));
@@ -94,7 +94,7 @@ TEST_CASE("pair: a hard case by its name") {
                   {"--case", "397 names", "--list", "did you mean \"concentric: identical ellipsoids\"?"});
 }
 
-TEST_CASE("pair: two grains of a run, or one and its neighbour") {
+TEST_CASE("pair: two grains of a run are selected, or one and its neighbour") {
   const Run run;
   const Pair pair = recorded_pair(run.recording(0.5, 0, 1));
   CHECK(pair.body1.pose.position == Vector3(0, 0, 0.1));
@@ -105,7 +105,7 @@ TEST_CASE("pair: two grains of a run, or one and its neighbour") {
   CHECK(recorded_pair(run.recording(0, 0, {})).body2.pose.position == Vector3(0, 0, 0.05));
 }
 
-TEST_CASE("pair: grains keep their indices when others go") {
+TEST_CASE("pair: grains keep their indices when others are removed") {
   const Run run("time_s,body,grain,x_m,y_m,z_m,qw,qx,qy,qz\n0,1,pea,0.1,0,0,1,0,0,0\n0,4,pea,0.2,0,0,1,0,0,0\n");
   const Pair pair = recorded_pair(run.recording(0, 4, {}));
   CHECK(pair.body1.pose.position == Vector3(0.2, 0, 0));
@@ -113,7 +113,7 @@ TEST_CASE("pair: grains keep their indices when others go") {
   check_complaint([&] { recorded_pair(run.recording(0, 2, {})); }, {"no body 2", "1 to 4, without those that have gone"});
 }
 
-TEST_CASE("pair: the size of a grain that a feeder brought is not known") {
+TEST_CASE("pair: a grain from a feeder is refused because its size is not known") {
   const std::string size = "size = { distribution = \"uniform\", smallest = 5e-3, largest = 7e-3 }";
   const std::string scene = replaced(kSceneText, "count = 5", "count = 5\n" + size);
   const Run run(
@@ -125,7 +125,7 @@ TEST_CASE("pair: the size of a grain that a feeder brought is not known") {
   check_complaint([&] { recorded_pair(run.recording(0, 0, {})); }, {"body 8: pea", "does not tell its size"});
 }
 
-TEST_CASE("pair: a run that was given other values than the scene's") {
+TEST_CASE("pair: a run with values other than the scene's is read with these values") {
   const Run run;
   Recording recording = run.recording(0.5, 0, 1);
   recording.overrides = {"grain[pea].count=3"};
@@ -134,7 +134,7 @@ TEST_CASE("pair: a run that was given other values than the scene's") {
   CHECK(complaint_of([&] { recorded_pair(recording); }).find("counts") != std::string::npos);
 }
 
-TEST_CASE("pair: mistakes in a run are named with what is allowed") {
+TEST_CASE("pair: an error in a run is reported with the valid range") {
   const Run run;
   const auto pair = [&](double time, std::size_t first, std::optional<std::size_t> second) {
     return [&run, time, first, second] { recorded_pair(run.recording(time, first, second)); };

@@ -1,4 +1,4 @@
-// Tests of the picture of a pair: what is drawn is what the library found.
+// Tests that the picture of a pair shows the library's results.
 #include "drawing/picture.hpp"
 
 #include <doctest/doctest.h>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kLargestPicture = 400'000;  // bytes
 
-/// The attributes of the first element that has all of these texts in it.
+/// The attributes of the first element that contains all of these texts.
 std::smatch find(const std::string& document, const std::string& pattern) {
   std::smatch match;
   REQUIRE(std::regex_search(document, match, std::regex(pattern)));
@@ -46,7 +46,7 @@ TEST_CASE("picture: the normal points to the right, in a right-handed frame") {
   }
 }
 
-TEST_CASE("picture: an outline reaches as far as its body, and what is lit is within") {
+TEST_CASE("picture: an outline has the extent of its body, and the lit area is inside") {
   for (const Pair& pair : sample_pairs()) {
     const Frame frame{Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
     constexpr double kScale = 400;  // px for a metre
@@ -85,7 +85,7 @@ TEST_CASE("picture: the witness points, the planes and the scale agree with the 
       return Vector2(number(match[1]), number(match[2]));
     };
     const Vector2 point1 = point("#1F5F8F"), point2 = point("#A3600F");
-    // The scale says how long its line is.
+    // The scale states the length of its line.
     const std::smatch bar =
         find(document,
              "line x1=\"([-0-9.]+)\" y1=\"76\" x2=\"([-0-9.]+)\" y2=\"76\"[^\n]*\n[^\n]*\n[^\n]*\n<text[^>]*>([0-9.]+) (m|mm)<");
@@ -104,7 +104,7 @@ TEST_CASE("picture: the witness points, the planes and the scale agree with the 
   }
 }
 
-TEST_CASE("picture: every hard case has one, of limited size and with finite coordinates") {
+TEST_CASE("picture: every hard case has a picture of limited size with finite coordinates") {
   std::istringstream list(list_of_hard_cases());
   std::string name, reason;
   int count = 0;
@@ -120,7 +120,7 @@ TEST_CASE("picture: every hard case has one, of limited size and with finite coo
   CHECK(count == 397);
 }
 
-TEST_CASE("picture: neighbouring colours of the map are equally far apart, and its lines stand out from all of them") {
+TEST_CASE("picture: neighbouring colours of the map differ equally, and its lines differ from all of them") {
   const auto rectangular = [](const Oklch& colour) {
     const double angle = colour.hue * 3.14159265358979 / 180;
     return Vector3(colour.lightness, colour.chroma * std::cos(angle), colour.chroma * std::sin(angle));
@@ -149,7 +149,7 @@ TEST_CASE("picture: text is escaped, and numbers are short") {
   CHECK(coordinate(1e300).size() == 301);
 }
 
-TEST_CASE("picture: lengths in units that leave few zeros") {
+TEST_CASE("picture: lengths have units that leave few zeros") {
   CHECK(length_text(0.5) == "0.5 m");
   CHECK(length_text(0.0123456) == "12.35 mm");
   CHECK(length_text(-1.5e-5) == "−15 µm");

@@ -1,4 +1,4 @@
-// Tests of recorded paths: they are what the library did, and the bounds hold.
+// Tests that recorded paths equal the library's evaluations, and that the bounds hold.
 #include "method/solver_path.hpp"
 
 #include <doctest/doctest.h>
@@ -29,7 +29,7 @@ std::vector<Vector3> recorded(const Pair& pair, const Settings& settings) {
 /// s(n) from the bodies' extents in the world.
 double direct_gap(const Pair& pair, const Vector3& n) { return -pair.body1.reach(n) - pair.body2.reach(-n); }
 
-/// `rest`: how many evaluations come after the answer's. Without them only the place of the contact is another.
+/// `rest`: the number of evaluations after the answer's. Without them only the contact point differs.
 void check_only_places(const Pair& pair, Settings settings, const Proximity& answer, int rest) {
   settings.max_evaluations = answer.evaluations - rest;
   const Proximity placeless = find_proximity(*pair.body1.shape, pair.body1.pose, *pair.body2.shape, pair.body2.pose, settings);
@@ -47,7 +47,7 @@ void check_path(const Pair& pair, Solver solver) {
   settings.solver = solver;
   const SolverPath path = solver_path(pair, settings);
   const Proximity plain = find_proximity(*pair.body1.shape, pair.body1.pose, *pair.body2.shape, pair.body2.pose, settings);
-  // To be watched changes no digit.
+  // Recording changes no digit.
   CHECK(path.answer.gap == plain.gap);
   CHECK(path.answer.normal == plain.normal);
   CHECK(path.answer.point1 == plain.point1);
@@ -55,7 +55,8 @@ void check_path(const Pair& pair, Solver solver) {
   CHECK(path.answer.evaluations == plain.evaluations);
   REQUIRE(path.evaluations.size() == static_cast<std::size_t>(plain.evaluations));
 
-  // The answer is one of the evaluations; of the solvers without a safeguard it is the last, but for those of the contact's place.
+  // The answer is one of the evaluations. For the solvers without a safeguard it is the last one before the evaluations for the
+  // contact point.
   const auto is_answer = [&](const Evaluation& one) { return one.s == plain.gap && (one.n - plain.normal).norm() < kRounding; };
   const auto last = std::find_if(path.evaluations.rbegin(), path.evaluations.rend(), is_answer);
   REQUIRE(last != path.evaluations.rend());
@@ -65,14 +66,14 @@ void check_path(const Pair& pair, Solver solver) {
 
 }  // namespace
 
-TEST_CASE("solver path: it is the library's, and ends at its answer") {
+TEST_CASE("solver path: the path has the library's evaluations and ends at its answer") {
   for (const Pair& pair : sample_pairs()) {
     for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) check_path(pair, solver);
   }
 }
 
 TEST_CASE(
-    "solver path: the methods of the literature end where the hybrid does, if they say so, and draw nothing of other bodies") {
+    "solver path: the methods of the literature agree with the hybrid if they claim convergence, and draw only superellipsoids") {
   int drawn = 0;
   for (const Pair& pair : sample_pairs()) {
     const Explanation plain = explain(pair, {});
@@ -93,7 +94,7 @@ TEST_CASE(
   CHECK(explain(hard_case("colliders: an ellipsoid above a box, gap -0.0625"), {}, Methods::OfLiteratureToo).paths.size() == 1);
 }
 
-TEST_CASE("solver path: cuts and intervals hold") {
+TEST_CASE("solver path: cuts and intervals contain the answer") {
   std::mt19937_64 engine(4);
   std::normal_distribution<double> gauss;
   for (const Pair& pair : sample_pairs()) {
@@ -117,13 +118,13 @@ TEST_CASE("solver path: cuts and intervals hold") {
     CHECK(path.intervals.back().evaluations == path.answer.evaluations);
     CHECK(path.intervals.back().lower == path.answer.gap);
     CHECK(path.intervals.back().upper <= path.answer.gap + path.answer.global_error);
-    // What the cuts leave holds the answer, which is below the highest evaluation by no more than the error that it states.
+    // The region that the cuts leave contains the answer. The answer is below the highest evaluation by at most its own error.
     const double room = room_left(path, path.evaluations.size(), rolling_radius, path.answer.normal);
     CHECK(room >= -path.answer.global_error - kRounding);
   }
 }
 
-TEST_CASE("solver path: fewer evaluations are the first of the whole path") {
+TEST_CASE("solver path: a path with fewer evaluations is the start of the whole path") {
   for (const Pair& pair : sample_pairs()) {
     const std::vector<Vector3> whole = recorded(pair, {});
     for (std::size_t k = 1; k < std::min<std::size_t>(whole.size(), 30); ++k) {
@@ -136,7 +137,7 @@ TEST_CASE("solver path: fewer evaluations are the first of the whole path") {
   }
 }
 
-TEST_CASE("solver path: of bodies with kinks, whichever is first") {
+TEST_CASE("solver path: bodies with nonsmooth points have a path in either order") {
   for (const char* name :
        {"colliders: an ellipsoid above a box, gap -0.0625", "colliders: an ellipsoid at a box's edge, gap 0.0625"}) {
     const Pair pair = hard_case(name);

@@ -1,4 +1,4 @@
-// Tests of the maps of the sphere: they have inverses and keep areas.
+// Tests that the maps of the sphere have inverses and preserve areas.
 #include "method/sphere_map.hpp"
 
 #include <doctest/doctest.h>
@@ -13,7 +13,7 @@ using namespace explain_pair;
 
 namespace {
 
-/// A frame that is not that of the world.
+/// A frame other than the world's.
 Frame tilted_frame() {
   const Eigen::Matrix3d R = Eigen::Quaterniond(0.5, 0.1, -0.7, 0.5).normalized().toRotationMatrix();
   return {R.col(0), R.col(1), R.col(2)};
@@ -26,7 +26,7 @@ Vector3 random_normal(std::mt19937_64& engine) {
 
 }  // namespace
 
-TEST_CASE("sphere map: Hammer's map goes back and forth") {
+TEST_CASE("sphere map: Hammer's map has its inverse") {
   std::mt19937_64 engine(1);
   const Frame frame = tilted_frame();
   double farthest = 0;
@@ -35,11 +35,11 @@ TEST_CASE("sphere map: Hammer's map goes back and forth") {
     const Vector3 back = normal_at(frame, HammerMap::to_sphere(HammerMap::to_plane(place_of(frame, n))));
     farthest = std::max(farthest, (back - n).norm());
   }
-  // Near the rim, where the map folds, digits are lost as in the square root of them.
+  // Near the rim, where the map folds, half of the digits are lost.
   CHECK(farthest < 1e-7);
 }
 
-TEST_CASE("sphere map: Lambert's map goes back and forth, to the antipode") {
+TEST_CASE("sphere map: Lambert's map has its inverse up to the antipode") {
   std::mt19937_64 engine(2);
   const Frame frame = tilted_frame();
   double farthest = 0;
@@ -53,7 +53,7 @@ TEST_CASE("sphere map: Lambert's map goes back and forth, to the antipode") {
   CHECK(LambertMap::to_plane(frame, near).y() == doctest::Approx(1e-9));
 }
 
-TEST_CASE("sphere map: both maps keep areas") {
+TEST_CASE("sphere map: both maps preserve areas") {
   std::mt19937_64 engine(3);
   std::uniform_real_distribution<double> longitude(-0.95 * std::numbers::pi, 0.95 * std::numbers::pi),
       latitude(-0.45 * std::numbers::pi, 0.45 * std::numbers::pi);
@@ -74,7 +74,7 @@ TEST_CASE("sphere map: both maps keep areas") {
   CHECK(std::numbers::pi * HammerMap::kHalfWidth * HammerMap::kHalfHeight == doctest::Approx(4 * std::numbers::pi));
 }
 
-TEST_CASE("sphere map: the centre, north and east") {
+TEST_CASE("sphere map: the centre, north and east are in their places") {
   const Frame frame = tilted_frame();
   CHECK(HammerMap::to_plane(place_of(frame, frame.right)).norm() < 1e-12);
   CHECK(HammerMap::to_plane(place_of(frame, frame.up)).y() == doctest::Approx(HammerMap::kHalfHeight));

@@ -25,12 +25,12 @@ void* operator new(std::size_t size) {
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
 
-TEST_CASE("lammps: a pair in contact and apart is solved without an allocation") {
+TEST_CASE("lammps: a pair in contact or apart is solved without allocation") {
   for (const NormalLaw law : {NormalLaw::Hooke, NormalLaw::Hertz}) {
     const ContactMaterial material{.law = law, .stiffness = 1e5, .restitution = 0.5, .friction = 0.3, .rolling_length = 1e-4};
     TwoBodies pair{{{0.02, 0.015, 0.01}, 3, 1.5}, {{0.01, 0.01, 0.02}, 8, 8}, prepared(material)};
     pair.settings.stop_when_apart = true;
-    // The first overlap that is not shallow takes the scratch memory of the thread.
+    // The first deep overlap allocates the scratch memory of the thread.
     pair.second.place({0.02, 0, 0}, Eigen::Quaterniond::Identity());
     pair.find(1e-5);
     int touching = 0;

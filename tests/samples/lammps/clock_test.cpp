@@ -1,4 +1,4 @@
-// Tests of the clock of a run whose step changes.
+// Tests of the clock of a run with a changing step.
 #include "kernel/clock.hpp"
 
 #include <doctest/doctest.h>
@@ -13,7 +13,7 @@ void advance(Clock& clock, int steps, double step) {
 
 }  // namespace
 
-TEST_CASE("the time is a product while the step is the same, and a sum of products when it changes") {
+TEST_CASE("lammps clock: the time is a product while the step is constant, and a sum of products when it changes") {
   Clock clock;
   CHECK(clock.now() == 0);
   advance(clock, 8000, 1e-5);
@@ -24,7 +24,7 @@ TEST_CASE("the time is a product while the step is the same, and a sum of produc
   CHECK(clock.now() == doctest::Approx(0.10001).epsilon(1e-14));
 }
 
-TEST_CASE("a clock that goes on from what another has saved tells the same time to the bit") {
+TEST_CASE("lammps clock: a clock resumed from saved data has the same time to the bit") {
   Clock whole;
   advance(whole, 1000, 0.1);
   advance(whole, 333, 0.07);

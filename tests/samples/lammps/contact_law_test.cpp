@@ -1,4 +1,4 @@
-// What the law of a contact promises.
+// Tests of the properties of the contact law.
 #include "kernel/contact_law.hpp"
 
 #include <doctest/doctest.h>
@@ -48,7 +48,7 @@ TwoBodies overlapping(std::mt19937& random, const ContactMaterial& material) {
 
 }  // namespace
 
-TEST_CASE("lammps: materials are refused by name, value and range") {
+TEST_CASE("lammps: an invalid material is refused with name, value and range") {
   CHECK(refusal({.stiffness = 0}) == "stiffness = 0 is outside (0, inf)");
   CHECK(refusal({.law = NormalLaw::Hertz, .stiffness = -1}) == "modulus = -1 is outside (0, inf)");
   CHECK(refusal({.stiffness = 1, .restitution = 0.01}) == "restitution = 0.01 is outside [0.05, 1]");
@@ -58,7 +58,7 @@ TEST_CASE("lammps: materials are refused by name, value and range") {
   CHECK(refusal({.stiffness = 1}).empty());
 }
 
-TEST_CASE("lammps: damping and restitution belong together on both sides of critical damping") {
+TEST_CASE("lammps: damping and restitution are inverse functions on both sides of critical damping") {
   CHECK(hooke_damping_ratio(1) == 0);
   CHECK(hooke_damping_ratio(std::exp(-2.0)) == relative(1).epsilon(1e-6));
   // At b = 1/sqrt(2) the force vanishes after pi/2 of the damped oscillation.
@@ -66,7 +66,7 @@ TEST_CASE("lammps: damping and restitution belong together on both sides of crit
   CHECK(hooke_damping_ratio(0.05) > 1);
 }
 
-TEST_CASE("lammps: Hertz's force passes into that of a flat punch without a jump, and is the slope of its energy") {
+TEST_CASE("lammps: Hertz's force becomes the force of a flat punch without a jump, and is the derivative of its energy") {
   const ContactMaterial material{.law = NormalLaw::Hertz, .stiffness = 1e7};
   const supernormal::ContactCurvature curvature{0.3, 200};
   double last = 0;
@@ -81,12 +81,12 @@ TEST_CASE("lammps: Hertz's force passes into that of a flat punch without a jump
     CHECK(here.force > last);
     last = here.force;
   }
-  // Deep down it is the punch, and for a flat contact it is nothing else.
+  // In a deep overlap it is the punch's force, and for a flat contact it is nothing else.
   CHECK(last == relative(hertz_force(material, 0.05 / 1.1, {}, 0.01).force).epsilon(0.1));
   CHECK(hertz_force(material, 1e-3, {}, 0.01).force == relative(2e2).epsilon(1e-12));
 }
 
-TEST_CASE("lammps: elastic forces and torques are the slopes of the energy") {
+TEST_CASE("lammps: elastic forces and torques are the derivatives of the energy") {
   std::mt19937 random(7);
   for (int i = 0; i < 50; ++i) {
     TwoBodies pair = overlapping(random, {.stiffness = 1e5});
@@ -103,7 +103,7 @@ TEST_CASE("lammps: elastic forces and torques are the slopes of the energy") {
         pair.second.place(position, Eigen::Quaterniond(Eigen::AngleAxisd(h, e)) * attitude);
         return pair.find(0).force.energy;
       };
-      // `contact` is that of body 1.
+      // `contact` belongs to body 1.
       CHECK((shifted(1e-8) - shifted(-1e-8)) / 2e-8 == doctest::Approx(contact.force.force[axis]).epsilon(1e-3));
       CHECK(std::abs((turned(1e-6) - turned(-1e-6)) / 2e-6 + contact.torque2()[axis]) < 1e-3 * contact.force.normal * 0.02);
     }
@@ -124,7 +124,7 @@ TEST_CASE("lammps: a contact changes neither momentum nor angular momentum") {
   }
 }
 
-TEST_CASE("lammps: friction keeps within Coulomb's cone, and turns with the pair") {
+TEST_CASE("lammps: friction stays in Coulomb's cone and rotates with the pair") {
   std::mt19937 random(9);
   const ContactMaterial material{.stiffness = 1e5, .restitution = 0.7, .friction = 0.4, .rolling_length = 1e-3};
   for (int i = 0; i < 50; ++i) {
@@ -137,7 +137,7 @@ TEST_CASE("lammps: friction keeps within Coulomb's cone, and turns with the pair
     const double friction = (before.force.force - before.force.force.dot(before.contact.normal) * before.contact.normal).norm();
     CHECK(friction <= 0.4 * before.force.normal * (1 + 1e-12));
     CHECK(before.force.rolling_torque.norm() <= 1e-3 * before.force.normal * (1 + 1e-12));
-    // Both bodies turn by half a revolution as one: the springs come along.
+    // Both bodies rotate by half a revolution as one, and the springs rotate with them.
     const Vector3 spin = 30 * Vector3(1, -2, 0.5).normalized();
     pair.first.set_velocity(Vector3::Zero(), Vector3::Zero());
     pair.second.set_velocity(Vector3::Zero(), Vector3::Zero());
@@ -161,7 +161,7 @@ TEST_CASE("lammps: friction keeps within Coulomb's cone, and turns with the pair
   }
 }
 
-TEST_CASE("lammps: the springs of friction and rolling never give energy while the contact is loaded and unloaded") {
+TEST_CASE("lammps: the springs of friction and rolling gain no energy while a contact is loaded and unloaded") {
   ContactMaterial material{.law = NormalLaw::Hertz, .stiffness = 1e7, .friction = 100};
   TwoBodies pair = balls(0.01, 0, material);
   const auto set_depth = [&](double depth) { pair.second.place({0.01 - depth, 0, 0}, Eigen::Quaterniond::Identity()); };
@@ -180,7 +180,7 @@ TEST_CASE("lammps: the springs of friction and rolling never give energy while t
   }
 }
 
-TEST_CASE("lammps: a history is stored and read digit by digit") {
+TEST_CASE("lammps: a history is stored and read without loss of digits") {
   const ContactHistory history{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, 10};
   double values[ContactHistory::kSize];
   history.store(values);

@@ -17,17 +17,17 @@ namespace {
 constexpr double kRadius = 0.01;  // m
 constexpr double kSpeed = 0.5;    // m/s
 
-// So stiff that the normal turns by little in an impact.
+// So stiff that the normal rotates little in an impact.
 constexpr double kStiffness = 1e7;  // N/m
 
 ContactMaterial hooke(double restitution) { return {.stiffness = kStiffness, .restitution = restitution}; }
 
-/// Equal balls: the mass of the relative motion is half of one.
+/// Equal balls: the mass of the relative motion is half of one mass.
 double reduced_mass(const TwoBodies& pair) { return 0.5 * pair.first.mass; }
 
 }  // namespace
 
-TEST_CASE("lammps: an elastic impact on a linear spring takes pi sqrt(m/k)") {
+TEST_CASE("lammps: an elastic impact on a linear spring lasts pi sqrt(m/k)") {
   TwoBodies pair = balls(kRadius, kSpeed, hooke(1));
   const double period = std::numbers::pi * std::sqrt(reduced_mass(pair) / kStiffness);
   const Impact impact = collide(pair, period / 2000);
@@ -36,10 +36,10 @@ TEST_CASE("lammps: an elastic impact on a linear spring takes pi sqrt(m/k)") {
   CHECK(pair.second.body.velocity.x() == relative(0.5 * kSpeed).epsilon(1e-6));
 }
 
-TEST_CASE("lammps: elastic impacts after Hertz have his overlap and time") {
+TEST_CASE("lammps: elastic Hertz impacts have the overlap and time of the closed form") {
   ContactMaterial material{.law = NormalLaw::Hertz, .stiffness = effective_modulus(1e8, 0.3)};
   TwoBodies pair = balls(kRadius, kSpeed, material);
-  // Two equal balls: the relative radius is half of one (Johnson, Contact Mechanics, section 11.4).
+  // Two equal balls: the relative radius is half of one radius (Johnson, Contact Mechanics, section 11.4).
   const double k = 4.0 / 3 * material.stiffness * std::sqrt(0.5 * kRadius);
   const double overlap = std::pow(1.25 * reduced_mass(pair) * kSpeed * kSpeed / k, 0.4);
   const double time = 2.9432675 * overlap / kSpeed;
@@ -49,7 +49,7 @@ TEST_CASE("lammps: elastic impacts after Hertz have his overlap and time") {
   CHECK(pair.second.body.velocity.x() == relative(0.5 * kSpeed).epsilon(1e-6));
 }
 
-TEST_CASE("lammps: impacts lose what the restitution says, at every velocity") {
+TEST_CASE("lammps: impacts have the given restitution at every velocity") {
   for (const NormalLaw law : {NormalLaw::Hooke, NormalLaw::Hertz}) {
     for (const double restitution : {0.05, 0.1, 0.3, 0.7, 0.95}) {
       for (const double speed : {0.01, 1.0}) {
@@ -63,7 +63,7 @@ TEST_CASE("lammps: impacts lose what the restitution says, at every velocity") {
   }
 }
 
-TEST_CASE("lammps: an impact off the line of centres has its restitution in the mass that is felt there") {
+TEST_CASE("lammps: an impact off the line of centres has the restitution for the effective mass there") {
   ContactMaterial material = hooke(0.6);
   TwoBodies pair{{{0.02, 0.005, 0.005}, 2, 2}, {{0.02, 0.005, 0.005}, 2, 2}, prepared(material)};
   pair.second.place({0.025, 0.01, 0}, Eigen::Quaterniond::Identity());
@@ -87,9 +87,9 @@ TEST_CASE("lammps: an impact off the line of centres has its restitution in the 
   CHECK(-out / in == relative(0.6).epsilon(0.01));
 }
 
-TEST_CASE("lammps: in an oblique impact that sticks, the tangential spring makes its part of an oscillation") {
-  // Without rotation of the normal the tangential motion is that of a spring on the mass 1/(1/m + R^2/I) = 2/7 m of the relative
-  // motion: its velocity has changed by cos(omega_t t) when the contact ends (Schaefer, Dippel and Wolf, J. Phys. I 6, 5 (1996)).
+TEST_CASE("lammps: in an oblique impact that sticks, the tangential spring makes the part of an oscillation of the closed form") {
+  // If the normal does not rotate, the tangential motion is the motion of a spring on the mass 1/(1/m + R^2/I) = 2/7 m. Its
+  // velocity has changed by cos(omega_t t) when the contact ends (Schaefer, Dippel and Wolf, J. Phys. I 6, 5 (1996)).
   for (const double ratio : {0.1, 2 / 7.0, 0.8}) {
     ContactMaterial material = hooke(1);
     material.friction = 1e6;

@@ -48,7 +48,7 @@ std::string refusal(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("to LAMMPS: a box of grains, with their masses, and springs that give by a hundredth") {
+TEST_CASE("to LAMMPS: a box of grains has the masses of the scene, and springs that overlap by a hundredth") {
   const Scene scene = scene_of("short");
   const LammpsInput input = lammps_input(scene);
   CHECK(has(input.commands, "wall/supernormal box 0 0 0 0.05 0.05"));
@@ -56,7 +56,7 @@ TEST_CASE("to LAMMPS: a box of grains, with their masses, and springs that give 
   CHECK(has(input.commands, " friction 0.4"));
   CHECK(has(input.commands, "pair_coeff 3 3 exponents 2 2.8  # tablet_biconvex"));
 
-  // LAMMPS makes the mass of the volume of the ellipsoid.
+  // LAMMPS computes the mass from the volume of the ellipsoid.
   std::istringstream data(input.data.substr(input.data.find("ellipsoid\n\n", input.data.find("Atoms")) + 11));
   double lightest = INFINITY, heaviest = 0, top = 0;
   for (int i = 0; i < scene.grains_at_start(); ++i) {
@@ -78,14 +78,14 @@ TEST_CASE("to LAMMPS: a box of grains, with their masses, and springs that give 
   CHECK(number_after(input.commands, "\nrun ") == relative(scene.time.duration / step).epsilon(1e-5));
 }
 
-TEST_CASE("to LAMMPS: a drum turns from when it does in the scene") {
+TEST_CASE("to LAMMPS: a drum rotates from the time of the scene") {
   const LammpsInput input = lammps_input(scene_of("drum"));
   CHECK(has(input.commands, "cylinder 0 0 0.06 0 1 0 0.06"));
   CHECK(has(input.commands, "move rotate 0 1 0 0 0 0.06 20 from 0.5"));
   CHECK(has(input.commands, "plane 0 0.05 0.06 0 -1 0"));
 }
 
-TEST_CASE("to LAMMPS: a hopper and its dish are meshes, and the lid goes when the outlet opens") {
+TEST_CASE("to LAMMPS: a hopper and its dish are meshes, and the lid is removed when the outlet opens") {
   const Scene scene = scene_of("heap");
   const LammpsInput input = lammps_input(scene);
   CHECK(has(input.commands, "fix tray all wall/supernormal box -0.15 -0.15 0 0.15 0.15 1e3 hooke"));
@@ -96,7 +96,7 @@ TEST_CASE("to LAMMPS: a hopper and its dish are meshes, and the lid goes when th
   REQUIRE(lid != std::string::npos);
   CHECK(number_after(input.commands.substr(0, lid), "\nrun ") == relative(0.5 / step).epsilon(1e-5));
   CHECK(number_after(input.commands.substr(lid), "\nrun ") == relative(3.5 / step).epsilon(1e-5));
-  // Grains fall off the dish, into a tray that is wider than the hopper.
+  // Grains fall off the dish into a tray that is wider than the hopper.
   CHECK(number_after(input.data, "types\n\n") < -0.15);
 
   const Mesh mesh = make_mesh(std::get<Hopper>(scene.container));
@@ -109,13 +109,13 @@ TEST_CASE("to LAMMPS: a hopper and its dish are meshes, and the lid goes when th
   CHECK(number_after(text, "f ") == mesh.triangles[0][0] + 1);
 }
 
-TEST_CASE("to LAMMPS: a scene's own springs are kept") {
+TEST_CASE("to LAMMPS: the springs of a scene are kept") {
   Scene scene = scene_of("short");
   scene.effects.emplace_back(fx::Hertz{1e8, 0.3, 0.7, {}});
   CHECK(has(lammps_input(scene).commands, "hertz 100000000 0.3 restitution 0.7 friction 0.4"));
 }
 
-TEST_CASE("to LAMMPS: what has no counterpart is refused by name") {
+TEST_CASE("to LAMMPS: a setting without a counterpart is refused by name") {
   CHECK(has(refusal(scene_of("terrain")), "a container of kind terrain has no counterpart"));
   Scene scene = scene_of("short");
   scene.effects.emplace_back(fx::StokesDrag{});

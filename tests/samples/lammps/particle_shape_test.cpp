@@ -1,4 +1,4 @@
-// Shapes of particles and how they turn.
+// Shapes of particles and their rotation.
 #include "kernel/particle_shape.hpp"
 
 #include <doctest/doctest.h>
@@ -13,13 +13,13 @@
 using namespace granular;
 using supernormal::test::relative;
 
-TEST_CASE("lammps: the bounding radius is the farthest point's distance") {
+TEST_CASE("lammps: the bounding radius is the distance of the farthest point") {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   for (const auto& [delta, epsilon] : {std::pair(1.3, 1.6), {2.0, 2.0}, {2.5, 8.0}, {8.0, 1.5}, {1.5, 50.0}, {100.0, 100.0}}) {
     const Vector3 axes(0.02, 0.015, 0.008);
     const ParticleShape shape(axes, delta, epsilon);
-    // r(n) is the point itself where it is farthest away: climb there from many starts.
+    // r(n) is parallel to n at the farthest point. Ascend there from many starts.
     double farthest = 0;
     for (int start = 0; start < 50; ++start) {
       Vector3 n = Vector3(normal(random), normal(random), normal(random)).normalized();
@@ -39,7 +39,7 @@ TEST_CASE("lammps: an ellipsoid has its volume and inertia") {
   CHECK(shape.unit_inertia.z() == relative((0.09 + 0.04) / 5).epsilon(1e-12));
 }
 
-TEST_CASE("lammps: shapes are made once") {
+TEST_CASE("lammps: equal shapes are made once") {
   ShapeCache cache;
   const ParticleShape& shape = cache.find({1, 2, 3}, 2, 4);
   CHECK(&cache.find({1, 2, 3}, 2, 4) == &shape);
@@ -47,8 +47,8 @@ TEST_CASE("lammps: shapes are made once") {
   CHECK(cache.size() == 2);
 }
 
-TEST_CASE("lammps: a symmetric top precesses as Euler says") {
-  // With the moments I1 = I2, the axis turns about the angular momentum L at L/I1.
+TEST_CASE("lammps: a symmetric top precesses with Euler's period") {
+  // With the moments I1 = I2, the axis rotates about the angular momentum L at L/I1.
   const Vector3 inertia(2, 2, 0.5), momentum(0.3, 0, 1);
   const double period = 2 * std::acos(-1.0) / (momentum.norm() / inertia.x());
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();

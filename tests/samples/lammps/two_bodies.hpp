@@ -45,7 +45,7 @@ class Particle {
   std::shared_ptr<const ParticleShape> shape;
   double mass;  ///< kg
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();
-  Vector3 momentum = Vector3::Zero();  ///< kg m^2/s; of the spin
+  Vector3 momentum = Vector3::Zero();  ///< kg m^2/s; the angular momentum
   Body body;
 
  private:
@@ -63,7 +63,7 @@ class Particle {
   }
 };
 
-/// Two bodies and what their contact remembers.
+/// Two bodies and the history of their contact.
 struct TwoBodies {
   Particle first, second;
   ContactMaterial material;
@@ -72,7 +72,7 @@ struct TwoBodies {
 
   PairContact find(double step) { return find_pair_contact(first.body, second.body, material, settings, step, history); }
 
-  /// A step of velocity Verlet as LAMMPS takes it; `last` holds the contact before and after it.
+  /// A step of velocity Verlet as in LAMMPS. `last` is the contact before and after it.
   void advance(double step, PairContact& last) {
     const auto kick = [&] {
       if (last.state != PairState::Touching) return;
@@ -87,7 +87,7 @@ struct TwoBodies {
   }
 };
 
-/// Two balls of a radius (m) that are about to touch along x and come together with the speed (m/s).
+/// Two balls of a radius (m) that are about to touch along x and approach each other with the speed (m/s).
 inline TwoBodies balls(double radius, double speed, const ContactMaterial& material) {
   const Vector3 axes = Vector3::Constant(radius);
   TwoBodies pair{{axes, 2, 2}, {axes, 2, 2}, prepared(material)};
@@ -98,13 +98,13 @@ inline TwoBodies balls(double radius, double speed, const ContactMaterial& mater
   return pair;
 }
 
-/// What an impact was.
+/// The result of an impact.
 struct Impact {
   double time = 0;     ///< s
   double overlap = 0;  ///< m; the largest
 };
 
-/// Runs until the bodies part.
+/// Runs until the bodies separate.
 inline Impact collide(TwoBodies& pair, double step) {
   Impact impact;
   PairContact last;

@@ -1,4 +1,4 @@
-// Walls: where particles touch them, and what the contacts remember.
+// Walls: where particles touch them, and the histories of the contacts.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ const Vector3 kAxes(0.02, 0.012, 0.008);  // m
 
 }  // namespace
 
-TEST_CASE("lammps: a ball touches the three walls of a corner, each as a plane") {
+TEST_CASE("lammps: a ball in a corner touches three walls, each as a plane") {
   BoxWall box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1});
   const ParticleShape ball(Vector3::Constant(0.01), 2, 2);
   const auto contacts = contacts_of(box, ball, at({0.0905, -0.091, 0.092}));
@@ -56,7 +56,7 @@ TEST_CASE("lammps: a ball touches the three walls of a corner, each as a plane")
   CHECK_THROWS_AS(BoxWall({0, 0, 0}, {1, 1, 0}), std::invalid_argument);
 }
 
-TEST_CASE("lammps: a ball in a drum is as deep as it sticks out") {
+TEST_CASE("lammps: a ball in a drum overlaps it by the length that sticks out") {
   const ParticleShape ball(Vector3::Constant(0.01), 2, 2);
   const Vector3 axis = Vector3(1, 2, 0.5).normalized(), point(0.3, 0.1, -0.2);
   CylinderWall drum(point, axis, 0.1);
@@ -118,7 +118,7 @@ TEST_CASE("lammps: a rod across a drum lies on both of its ends") {
   CHECK(contacts[0].normal.x() == relative(-contacts[1].normal.x()).epsilon(1e-9));
 }
 
-TEST_CASE("lammps: a floor of triangles is a plane") {
+TEST_CASE("lammps: a floor of triangles has the contacts of a plane") {
   MeshWall mesh(square(0.5));
   PlaneWall plane(Vector3::Zero(), Vector3::UnitZ());
   const ParticleShape shape(kAxes, 3, 1.6);
@@ -134,7 +134,7 @@ TEST_CASE("lammps: a floor of triangles is a plane") {
   CHECK_THROWS_AS(MeshWall({}), std::invalid_argument);
 }
 
-TEST_CASE("lammps: a belt drags a ball along, and a wall's force and torque are those on the particle turned round") {
+TEST_CASE("lammps: a belt drags a ball along, and the wall's force and torque are opposite to the particle's") {
   PlaneWall plane(Vector3::Zero(), Vector3::UnitZ());
   Particle ball(Vector3::Constant(0.01), 2, 2);
   const ContactMaterial material = prepared({.stiffness = 1e4, .friction = 0.5});
@@ -150,14 +150,14 @@ TEST_CASE("lammps: a belt drags a ball along, and a wall's force and torque are 
   CHECK(found.force.z() == relative(1e4 * 1e-4).epsilon(1e-9));
   CHECK(found.force.x() == relative(0.5 * found.force.z()).epsilon(1e-9));
   CHECK((found.torque + found.wall_torque + (ball.body.pose.position - belt.pose.position).cross(found.force)).norm() < 1e-15);
-  // Off the belt everything is forgotten.
+  // Off the belt the history is deleted.
   CHECK(history.count == 1);
   ball.place({0, 0, 0.011}, Eigen::Quaterniond::Identity());
   CHECK(find_wall_force(plane, belt, *ball.shape, ball.body, material, 1e-5, history, scratch).contacts == 0);
   CHECK(history.count == 0);
 }
 
-TEST_CASE("lammps: in a corner each wall has springs of its own, whatever the order of the contacts") {
+TEST_CASE("lammps: in a corner each wall has its own springs, in any order of the contacts") {
   BoxWall box({-0.1, -0.1, 0}, {0.1, 0.1, 0.2});
   Particle ball(Vector3::Constant(0.01), 2, 2);
   ball.set_velocity({0, 0.1, 0}, Vector3::Zero());
@@ -166,7 +166,7 @@ TEST_CASE("lammps: in a corner each wall has springs of its own, whatever the or
   walls.pose = at({0, 0, 0});
   WallHistory history;
   std::vector<WallContact> scratch;
-  // First on the floor alone, then against the wall x = -0.1 too, which the box names before the floor.
+  // First only on the floor, then also against the wall x = -0.1, which the box lists before the floor.
   ball.place({0, 0, 0.0099}, Eigen::Quaterniond::Identity());
   for (int i = 0; i < 10; ++i) find_wall_force(box, walls, *ball.shape, ball.body, material, 1e-5, history, scratch);
   const Vector3 spring = history.contacts[0].sliding;

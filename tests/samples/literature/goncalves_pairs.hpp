@@ -1,4 +1,4 @@
-// The random pairs of Goncalves, Bernardino, Jorge and Lopes (2017), as the generator of their program draws them.
+// The random pairs of Goncalves, Bernardino, Jorge and Lopes (2017), drawn as by the generator of their program.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,13 +18,13 @@ struct RandomPair {
 };
 
 /// The linear congruential generator of the C standard's example, with 32 bits of state, of which the upper 15 count. Numbers are
-/// rounded to single precision, as they are there.
+/// rounded to single precision, as in their program.
 class Generator {
  public:
   /// A multiple of 1/1024 of the range, m or without unit.
   double in_range(double low, double high) { return float_of(low + number() % 1024 / 1024.0 * (high - low)); }
 
-  /// A quaternion of four sums of 16 uniform numbers each, which are nearly normal.
+  /// A quaternion of four sums of 16 uniform numbers each, which are almost normally distributed.
   supernormal::Matrix3 rotation() {
     std::array<double, 4> q{};
     for (double& part : q) {
@@ -35,7 +35,7 @@ class Generator {
     return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
   }
 
-  /// Half-axes 0.5...1.5, exponents 2/1.1...2/0.3; two more numbers are the tapers, which are 0 here.
+  /// Half-axes 0.5...1.5, exponents 2/1.1...2/0.3. Two more numbers are the tapers, which are 0 here.
   supernormal::Superellipsoid superellipsoid() {
     supernormal::Vector3 half_axes;
     for (double& half_axis : half_axes) half_axis = in_range(0.5, 1.5);

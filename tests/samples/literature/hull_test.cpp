@@ -9,7 +9,7 @@
 using namespace accuracy_cost;
 using supernormal::Vector3;
 
-TEST_CASE("hull: climbing from any vertex ends at the farthest of all") {
+TEST_CASE("hull: climbing from any vertex ends at the farthest vertex") {
   std::mt19937_64 engine(5);
   std::normal_distribution<double> gauss;
   for (const double exponent : {1.3, 2.0, 4.0, 12.0}) {

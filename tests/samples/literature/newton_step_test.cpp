@@ -9,7 +9,7 @@ using Eigen::Vector2d;
 using literature::newton_step;
 using literature::newton_step_of_any_rank;
 
-TEST_CASE("literature: a step of Newton's method solves its system") {
+TEST_CASE("literature: a step of Newton's method solves its linear system") {
   const Matrix2d jacobian{{1, 2}, {3, 5}};
   const auto step = newton_step(jacobian, Vector2d(4, 11));
   REQUIRE(step.has_value());

@@ -1,4 +1,4 @@
-// Tests of the methods of the literature on published cases: none may be a straw man.
+// Tests of the methods of the literature on published cases, so that the comparison is fair.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -45,14 +45,14 @@ void check_gap(const NamedMethod& method, const Bodies& bodies, double gap, doub
 
 }  // namespace
 
-TEST_CASE("the first 100 pairs of Goncalves et al. have the sum of distances that was published for them") {
+TEST_CASE("the first 100 pairs of Goncalves et al. have the published sum of distances") {
   double sum = 0;
   for (const RandomPair& pair : goncalves_pairs(100)) sum += certified(pair).gap;
   CHECK(std::abs(sum - 175.0763787139) <= 1e-10);
 }
 
-TEST_CASE("the 1000 pairs of Goncalves et al. are solved, but for a few, and none is solved wrongly") {
-  // The most failures of 1000, cold and with the normal of a pose a millimetre away.
+TEST_CASE("the 1000 pairs of Goncalves et al. are solved with few failures and no wrong answer") {
+  // The largest number of failures of 1000, from a cold start and with the normal of a pose a millimetre away.
   struct Most {
     int cold, warm;
   };
@@ -90,7 +90,7 @@ TEST_CASE("the 1000 pairs of Goncalves et al. are solved, but for a few, and non
   }
 }
 
-TEST_CASE("R1 and R2 of the contact-space demos: the methods find the gaps") {
+TEST_CASE("the methods of the literature find the gaps of R1 and R2 of the contact-space demos") {
   const Superellipsoid first(Vector3(15, 10, 5), 2 / 0.7, 2 / 0.5), second(Vector3(5, 3, 2), 2 / 0.2, 2 / 1.25);
   const Bodies apart(first, at({2.82, -16.4, 7.52}, kHalfTurnAboutX), second, at({-0.47, 8.44, 0.8}, kHalfTurnAboutX));
   const Ellipsoid large(Vector3(20, 15, 10)), small(Vector3(15, 12, 8));
@@ -102,7 +102,7 @@ TEST_CASE("R1 and R2 of the contact-space demos: the methods find the gaps") {
   }
 }
 
-TEST_CASE("L1 and L2 of the LAMMPS unit tests: the midway point is where the bodies touch, and knows how deep they overlap") {
+TEST_CASE("for L1 and L2 of the LAMMPS unit tests the midway point is the point of touch, with the right overlap") {
   constexpr double kRadius = 3.456;
   for (int halves = 4; halves <= 20; ++halves) {
     const double exponent = 0.5 * halves;
@@ -119,7 +119,7 @@ TEST_CASE("L1 and L2 of the LAMMPS unit tests: the midway point is where the bod
   }
 }
 
-TEST_CASE("a recorded path ends at the answer and changes nothing") {
+TEST_CASE("a recorded path of the literature's methods ends at the answer and does not change it") {
   const RandomPair pair = goncalves_pairs(1).front();
   const Bodies bodies(pair.shape1, pair.pose1, pair.shape2, pair.pose2);
   for (const NamedMethod& method : methods()) {
@@ -134,7 +134,7 @@ TEST_CASE("a recorded path ends at the answer and changes nothing") {
   }
 }
 
-TEST_CASE("a shape that is no superellipsoid is refused") {
+TEST_CASE("the methods of the literature refuse a shape that is not a superellipsoid") {
   struct Unknown : supernormal::Shape {
     void evaluate(const Vector3& n, supernormal::Order /*order*/, supernormal::Jet& jet) const override { jet.r = n; }
   };

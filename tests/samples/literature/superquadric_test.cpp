@@ -1,4 +1,4 @@
-// Tests of the descriptions of the literature: derivatives against differences, and one description against the other.
+// Tests of the descriptions of the literature: derivatives against differences, and the descriptions against each other.
 #include "literature/superquadric.hpp"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ using namespace literature;
 
 namespace {
 
-constexpr double kStep = 1e-6;        // of central differences; their error is about its square
+constexpr double kStep = 1e-6;        // step of central differences; their error is about its square
 constexpr double kDifference = 1e-7;  // relative: the rounding of the function over the step, and the square of the step
 
 std::vector<Superquadric> bodies() {
@@ -38,7 +38,7 @@ Value difference(const auto& function, const Argument& at, int k) {
 
 }  // namespace
 
-TEST_CASE("superquadric: the implicit function's derivatives are those of its differences") {
+TEST_CASE("superquadric: the implicit function's derivatives agree with finite differences") {
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<double> coordinate(0.1, 1.2);
   for (const Superquadric& body : bodies()) {
@@ -56,7 +56,7 @@ TEST_CASE("superquadric: the implicit function's derivatives are those of its di
   }
 }
 
-TEST_CASE("superquadric: points of the angles are on the surface, with the gradient as normal") {
+TEST_CASE("superquadric: the points by angles are on the surface, with the gradient as normal") {
   std::mt19937_64 engine(2);
   for (const Superquadric& body : bodies()) {
     for (int i = 0; i < 50; ++i) {
@@ -79,7 +79,7 @@ TEST_CASE("superquadric: points of the angles are on the surface, with the gradi
   }
 }
 
-TEST_CASE("superquadric: the library's point of a normal is the point of the angles of this normal") {
+TEST_CASE("superquadric: the library's point of a normal is the point of this normal's angles") {
   std::mt19937_64 engine(3);
   for (const Superquadric& body : bodies()) {
     const supernormal::Superellipsoid shape(body.half_axes, body.delta, body.epsilon);
@@ -90,7 +90,7 @@ TEST_CASE("superquadric: the library's point of a normal is the point of the ang
   }
 }
 
-TEST_CASE("tangents: they are an orthonormal frame with the normal, and their derivatives are those of differences") {
+TEST_CASE("tangents: they form an orthonormal frame with the normal, and their derivatives agree with finite differences") {
   std::mt19937_64 engine(4);
   std::normal_distribution<double> gauss;
   for (int i = 0; i < 100; ++i) {

@@ -1,4 +1,4 @@
-// Needles and coins: radii of curvature from 1e-4 to 1e4 times the size, and tolerances that go by the smallest half-axis.
+// Needles and coins: radii of curvature from 1e-4 to 1e4 times the size, with tolerances relative to the smallest half-axis.
 #include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {

@@ -19,7 +19,7 @@ namespace {
 
 using Kind = Body::Kind;
 
-/// A polytope refers to its points: here they live as long as it does.
+/// A polytope and the points to which it refers.
 struct OwnedPolytope {
   explicit OwnedPolytope(std::vector<Vector3> corners) : points(std::move(corners)), shape(points) {}
 

@@ -19,15 +19,15 @@ struct Body {
   double taper_x = 0, taper_y = 0;    ///< tapers of superovoids
   std::vector<Vector3> points = {};   ///< m; points of polytopes
   double rounding = 0;                ///< m; radius of a sphere that sweeps the body
-  bool is_callback = false;           ///< known by its support function and boundary point alone, without a Hessian
+  bool is_callback = false;           ///< has only its support function and boundary point, without a Hessian
 
-  /// This body swept by a sphere of that radius, m.
+  /// This body swept by a sphere of this radius, m.
   Body rounded(double radius) const;
 
   /// This body with lengths in units of `unit` m. A power of two changes no digit.
   Body scaled(double unit) const;
 
-  /// This body known by functions alone.
+  /// This body with is_callback.
   Body by_callbacks() const;
 };
 
@@ -45,13 +45,13 @@ Body superball(double radius, double exponent);
 /// Throws std::invalid_argument when the shape refuses a parameter.
 std::shared_ptr<const Shape> make_shape(const Body& body);
 
-/// Describes the body, such as "superellipsoid (1, 0.8, 0.5) m; 20, 4".
+/// A description of the body, such as "superellipsoid (1, 0.8, 0.5) m; 20, 4".
 std::string describe(const Body& body);
 
-/// Writes a number with as few digits as %g does.
+/// Writes a number with the few digits of %g.
 std::string text(double value);
 
-/// Writes a number with all the digits that it takes to read the same number back.
+/// Writes a number with all digits that reproduce it.
 std::string exact_text(double value);
 std::string exact_text(const Vector3& v);
 

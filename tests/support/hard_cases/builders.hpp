@@ -11,9 +11,9 @@ namespace supernormal::samples {
 HardCase pair(std::string name, std::string reason, const Body& body1, const Body& body2, const Pose& pose2,
               std::optional<double> gap = {});
 
-/// A case in which body 2 has the attitude `rotation2`, its tangent plane of normal -n is `gap` m above body 1's of normal n, and
-/// the two boundary points lie above one another: n is a common normal. If the bodies are apart or touch it is the only one and
-/// the gap is known.
+/// A case in which body 2 has the orientation `rotation2`. Its tangent plane of normal -n is `gap` m above body 1's of normal n,
+/// and the two boundary points lie above one another. So n is a common normal. If the bodies are apart or touch, it is the only one
+/// and the gap is known.
 HardCase on_normal(std::string name, std::string reason, const Body& body1, const Vector3& n, const Body& body2,
                    const Matrix3& rotation2, double gap);
 
@@ -21,16 +21,16 @@ HardCase on_normal(std::string name, std::string reason, const Body& body1, cons
 inline Pose at(const Vector3& position) { return {position, Matrix3::Identity()}; }
 inline Pose at(const Vector3& position, const Matrix3& rotation) { return {position, rotation}; }
 
-/// The attitude turned about an axis (of any length) by an angle in radians.
+/// The orientation after a rotation about an axis (of any length) by an angle in radians.
 inline Matrix3 turned(const Vector3& axis, double angle) { return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix(); }
 
-/// An attitude far from any symmetry.
+/// An orientation far from any symmetry.
 inline Matrix3 askew() { return Eigen::Quaterniond(0.3, -0.7, 0.2, 0.6).normalized().toRotationMatrix(); }
 
 inline constexpr double kQuarterTurn = 1.5707963267948966;
 inline constexpr double kEighthTurn = 0.7853981633974483;
 
-// Half-axes of bodies, m; those of the second are sums of powers of two, so that places far away are exact.
+// Half-axes of bodies, m. The second body's are sums of powers of two, so that places far away are exact.
 inline const Vector3 kLengths(1, 0.8, 0.5);
 inline const Vector3 kDyadicLengths(1, 0.75, 0.5);
 

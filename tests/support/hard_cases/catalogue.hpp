@@ -1,4 +1,4 @@
-// The catalogue of hard cases: pairs of bodies on which methods for smooth convex bodies break, each with its reason.
+// The catalogue of hard cases: pairs of smooth convex bodies on which methods fail, each with its reason.
 #pragma once
 
 #include <functional>
@@ -20,16 +20,16 @@ struct HardCase {
   std::shared_ptr<const Shape> shape1, shape2;  ///< made of the bodies
   Pose pose1, pose2;
   std::optional<double> gap = {};            ///< m; signed, in closed form where there is one; otherwise a reference has to find it
-  std::optional<Vector3> first_normal = {};  ///< unit, body 1's frame; where the solver is to start
+  std::optional<Vector3> first_normal = {};  ///< unit, body 1's frame; the start of the solver
 };
 
 /// All cases, in the order of the themes. They live in cases/, one file a theme.
 std::vector<HardCase> hard_cases();
 
-/// The case with the bodies' names exchanged.
+/// The case with the bodies exchanged.
 HardCase swapped(const HardCase& original);
 
-/// The case in another frame: x is now at motion.rotation x + motion.position.
+/// The case in another frame: x moves to motion.rotation x + motion.position.
 HardCase moved(const HardCase& original, const Pose& motion);
 
 /// The case with lengths in units of `unit` m. Throws std::invalid_argument when a length leaves the range of its shape.
@@ -45,7 +45,7 @@ struct Refusal {
 /// Parameters of shapes and settings that are not finite, too small, too large or contradict each other.
 std::vector<Refusal> refusals();
 
-/// Poses that are not finite: a query has to end with Status::InvalidInput.
+/// Poses that are not finite: a query must end with Status::InvalidInput.
 std::vector<HardCase> cases_without_answer();
 
 }  // namespace supernormal::samples

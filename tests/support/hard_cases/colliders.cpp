@@ -1,4 +1,4 @@
-// Bodies with faces and edges in the strict sense: all points of a face share one normal, all normals of a corner one point.
+// Bodies with exact faces and edges: all points of a face share one normal, all normals of a vertex share one point.
 #include <cmath>
 
 #include "support/hard_cases/builders.hpp"

@@ -1,4 +1,4 @@
-// Concentric, identical, aligned bodies: the centre line has no direction, or every direction is as good.
+// Concentric, identical, aligned bodies. The centre line has no direction, or every direction is equally good.
 #include <cmath>
 
 #include "support/hard_cases/builders.hpp"
@@ -6,7 +6,7 @@
 namespace supernormal::samples {
 namespace {
 
-/// Twice the smallest half-axis: no support function of such a body is less, and both attain it there.
+/// Twice the smallest half-axis: the minimum of the support function, which both bodies attain there.
 constexpr double kGap = -1;
 
 void add_identical(std::vector<HardCase>& cases) {
@@ -19,7 +19,7 @@ void add_identical(std::vector<HardCase>& cases) {
   for (const auto& [delta, epsilon] : {std::pair{4., 4.}, {8., 20.}, {50., 2.}, {200., 200.}, {1000., 1000.}}) {
     add("superellipsoids " + text(delta) + ", " + text(epsilon), superellipsoid(kLengths, delta, epsilon), kGap);
   }
-  // Below exponent 2 the nearest planes lean towards (1, 1, 1): tests/data/README.md.
+  // Below exponent 2 the nearest planes are tilted towards (1, 1, 1): tests/data/README.md.
   for (const double exponent : {1.01, 1.3, 1.9}) {
     add("superballs " + text(exponent), superball(0.7, exponent), -1.4 * std::pow(3, 0.5 - 1 / exponent));
   }
@@ -56,7 +56,7 @@ void add_turned(std::vector<HardCase>& cases) {
                        ellipsoid({0.01, 1, 0.01}), {}, -0.02));
 }
 
-/// Homothetic aligned bodies touch where their common boundary says so: tests/data/README.md.
+/// Homothetic aligned bodies touch by a closed form: tests/data/README.md.
 void add_homothetic(std::vector<HardCase>& cases) {
   for (const double exponent : {1.05, 30.}) {
     for (const Vector3& direction : {Vector3(1, 1, 0), Vector3(1, 1, 1), Vector3(3, -2, 1)}) {

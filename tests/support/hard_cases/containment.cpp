@@ -1,4 +1,4 @@
-// Deep overlap up to total containment: there are several separating translations, and the shortest may be far from the centre
+// Deep overlap up to total containment. There are several separating translations, and the shortest may be far from the centre
 // line.
 #include "support/hard_cases/builders.hpp"
 
@@ -13,7 +13,7 @@ struct Family {
 constexpr Family kFamilies[] = {{"ellipsoids", 2, 2},           {"boxy (8)", 8, 8},       {"boxy (60)", 60, 60},
                                 {"octahedral (1.1)", 1.1, 1.1}, {"cylinder-like", 2, 60}, {"spindles", 60, 1.3}};
 
-/// Places body 2 on its way from touching at an oblique normal (share 0) to concentric (share 1).
+/// Places body 2 between touching at an oblique normal (fraction 0) and concentric (fraction 1).
 HardCase at_depth(const Family& family, double share, const Matrix3& rotation, const std::string& attitude) {
   const Body large = superellipsoid({1, 0.8, 0.5}, family.delta, family.epsilon);
   const Body small = superellipsoid({0.5, 0.7, 0.3}, family.delta, family.epsilon);

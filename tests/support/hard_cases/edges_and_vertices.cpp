@@ -10,7 +10,7 @@ struct Meeting {
   Matrix3 rotation2;  // turns the edge or vertex towards the other body
 };
 
-/// Meetings of bodies like boxes: edges and corners lie diagonally.
+/// Pairs of bodies like boxes: edges and vertices lie diagonally.
 std::vector<Meeting> boxy_meetings() {
   const Vector3 edge(0, 1, 1), corner(1, 1, 1);
   return {
@@ -24,7 +24,7 @@ std::vector<Meeting> boxy_meetings() {
   };
 }
 
-/// Meetings of bodies like octahedra: vertices lie on the axes, edges between two of them.
+/// Pairs of bodies like octahedra: vertices lie on the axes, edges between two of them.
 std::vector<Meeting> octahedral_meetings() {
   const Vector3 edge(0.8, 1, 0);
   return {

@@ -1,4 +1,4 @@
-// Face to face: the boundary point is a steep power of the normal, and the witness points jump by the size of the face.
+// Face to face. The boundary point changes steeply with the normal, and the witness points jump by the size of the face.
 #include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {

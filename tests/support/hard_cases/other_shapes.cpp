@@ -1,4 +1,4 @@
-// Superovoids at the limit of convexity, bodies swept by a sphere, bodies known by two functions.
+// Superovoids at the limit of convexity, rounded bodies, bodies with only two functions.
 #include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {

@@ -1,4 +1,4 @@
-// Bodies far from the origin; normals and centre lines on and near the coordinate planes; starts that lead nowhere.
+// Bodies far from the origin; normals and centre lines on and near the coordinate planes; unfavourable starts.
 #include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {
@@ -46,7 +46,7 @@ void add_beside_planes(std::vector<HardCase>& cases, const FarFamily& family) {
   }
 }
 
-/// For bodies apart, every start leads to the one maximum.
+/// For separate bodies, every start leads to the one maximum.
 void add_bad_starts(std::vector<HardCase>& cases, const FarFamily& family) {
   const Body body = body_of(family);
   const auto add = [&](const std::string& what, const Vector3& first_normal) {

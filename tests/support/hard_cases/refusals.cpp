@@ -1,4 +1,4 @@
-// Input that has to be refused: parameters and poses with which nothing can be computed.
+// Input that must be refused: unusable parameters and poses.
 #include <limits>
 
 #include "supernormal/proximity/solve.hpp"

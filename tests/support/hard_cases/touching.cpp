@@ -6,7 +6,7 @@
 namespace supernormal::samples {
 namespace {
 
-constexpr double kUlp = 0x1p-53;  // m; 1.1e-16: the last place of the distance below, up and down
+constexpr double kUlp = 0x1p-53;  // m; 1.1e-16: one unit in the last place of the distance below
 
 struct OneExponent {
   const char* name;
@@ -30,7 +30,7 @@ std::vector<HardCase> touching_cases() {
     cases.push_back(on_normal("touching: " + std::string(family.name) + ", askew", "the gap is zero but for rounding", body,
                               Vector3(1, 2, -1), body, askew(), 0));
   }
-  // The LAMMPS unit tests have these superballs (tests/data/README.md).
+  // These superballs are from the LAMMPS unit tests (tests/data/README.md).
   for (const double exponent : {2., 3.5, 8.}) {
     HardCase touching = pair("touching: LAMMPS superballs " + text(exponent), "published: touch at the origin",
                              superball(3.456, exponent), superball(3.456, exponent), at({3.456, 0, 0}), 0);

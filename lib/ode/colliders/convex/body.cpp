@@ -4,11 +4,11 @@
 
 namespace supernormal::ode {
 
-ContactManifold query_body(dGeomID ours, dGeomID collider, Goal goal) {
+ContactManifold query_body(dGeomID ours, dGeomID collider, QueryKind kind) {
   const BodyPair pair(ours, collider);
   const PairKey key = pair.key();
   LastNormal last;
-  ContactManifold manifold = pair.solve(reserve_entry(key), goal, last);
+  ContactManifold manifold = pair.solve(reserve_entry(key), kind, last);
   last.store(key);
   return manifold;
 }

@@ -7,11 +7,11 @@
 
 namespace supernormal::ode {
 
-ContactManifold query_capsule(dGeomID ours, dGeomID collider, Goal goal) {
+ContactManifold query_capsule(dGeomID ours, dGeomID collider, QueryKind kind) {
   const Capsule capsule = capsule_of(collider);
   const ColliderShape shape{collider, capsule, pose_of(collider),
                             collider_kind(dCapsuleClass, {capsule.radius(), 2 * capsule.half_length()})};
-  return solve_pair(ours, shape, goal);
+  return solve_pair(ours, shape, kind);
 }
 
 }  // namespace supernormal::ode

@@ -17,12 +17,12 @@ ConvexVertices& kept_vertices() {
 
 }  // namespace
 
-ContactManifold query_convex(dGeomID ours, dGeomID collider, Goal goal) {
+ContactManifold query_convex(dGeomID ours, dGeomID collider, QueryKind kind) {
   ConvexVertices& vertices = kept_vertices();
   if (!vertices.read(collider)) return {};
   const Polytope hull(vertices.points());
   const ColliderShape shape{collider, hull, vertices.pose(), collider_kind(dConvexClass, {vertices.fingerprint()})};
-  return solve_pair(ours, shape, goal);
+  return solve_pair(ours, shape, kind);
 }
 
 }  // namespace supernormal::ode

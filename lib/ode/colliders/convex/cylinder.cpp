@@ -7,11 +7,11 @@
 
 namespace supernormal::ode {
 
-ContactManifold query_cylinder(dGeomID ours, dGeomID collider, Goal goal) {
+ContactManifold query_cylinder(dGeomID ours, dGeomID collider, QueryKind kind) {
   const Cylinder cylinder = cylinder_of(collider);
   const ColliderShape shape{collider, cylinder, pose_of(collider),
                             collider_kind(dCylinderClass, {cylinder.radius(), 2 * cylinder.half_length()})};
-  return solve_pair(ours, shape, goal);
+  return solve_pair(ours, shape, kind);
 }
 
 }  // namespace supernormal::ode

@@ -10,18 +10,18 @@
 
 namespace supernormal::ode {
 
-ContactManifold query_plane(dGeomID ours, dGeomID collider, Goal goal) {
+ContactManifold query_plane(dGeomID ours, dGeomID collider, QueryKind kind) {
   const Body& body = require_body(ours);
   dVector4 plane;
   dGeomPlaneGetParams(collider, plane);
   const Pose pose = pose_of(ours);
   const Proximity result = find_plane_proximity(body.shape(), pose, to_vector(plane), plane[3]);
   count_closed_form();
-  if (body.look_ahead() > 0 && is_for_contacts(goal)) {
+  if (body.look_ahead() > 0 && is_for_contacts(kind)) {
     const MotionAhead motion = motion_ahead_of(ours, pose.position, body.shape().bounding_radius());
     return find_plane_contacts_ahead({body.shape(), pose, motion}, body.look_ahead(), result);
   }
-  return goal == Goal::Contacts ? find_plane_contact_manifold(body.shape(), pose, result) : ContactManifold(result);
+  return kind == QueryKind::Contacts ? find_plane_contact_manifold(body.shape(), pose, result) : ContactManifold(result);
 }
 
 }  // namespace supernormal::ode

@@ -42,10 +42,10 @@ Proximity as_contact(const RayHit& hit) {
 
 }  // namespace
 
-ContactManifold query_ray(dGeomID ours, dGeomID collider, Goal goal) {
+ContactManifold query_ray(dGeomID ours, dGeomID collider, QueryKind kind) {
   const Body& body = require_body(ours);
   const Ray ray(collider);
-  const Settings settings = for_goal(body.settings(), goal);
+  const Settings settings = settings_for(body.settings(), kind);
   const Proximity result = find_ray_proximity(body.shape(), pose_of(ours), ray.origin, ray.direction, ray.length, settings);
   count_query(result, false);
   return result;

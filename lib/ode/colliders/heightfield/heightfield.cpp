@@ -192,7 +192,7 @@ Proximity find_nearest(HeightfieldProbe& probe, const Visitor& visitor) {
 
 }  // namespace
 
-ContactManifold query_heightfield(dGeomID ours, dGeomID collider, Goal /*goal*/) {
+ContactManifold query_heightfield(dGeomID ours, dGeomID collider, QueryKind /*kind*/) {
   const Pose frame = pose_of_heightfield(collider);
   const Visitor visitor(require_body(ours), pose_of(ours), frame);
   if (!visitor.is_finite()) return {};

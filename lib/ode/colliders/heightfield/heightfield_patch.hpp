@@ -48,7 +48,7 @@ class HeightfieldPatch {
   std::unordered_map<dHeightfieldDataID, FoundGrid> grids_;
   std::vector<double> x_, z_;    // m, ascending; coordinates of a lattice of surface points
   std::vector<double> heights_;  // m, at the node (i, j); NaN where there is no surface
-  std::vector<Facet> facets_;    // a facet at the node; that of the triangle abc if the cell has one
+  std::vector<Facet> facets_;    // a facet at the node; the facet of the triangle abc if the cell has one
   std::vector<MeshTriangle> triangles_;
 };
 

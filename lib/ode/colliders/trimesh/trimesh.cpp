@@ -162,7 +162,7 @@ MeshContact find_nearest(const Visit& visit) {
 // Returns the deepest contact, as dCollide does. Without a contact it returns the distance to the nearest triangle from either
 // side. This distance is negative only for a body that touches the mesh from behind at the border of a sheet, which makes no
 // contact.
-ContactManifold query_trimesh(dGeomID ours, dGeomID collider, Goal /*goal*/) {
+ContactManifold query_trimesh(dGeomID ours, dGeomID collider, QueryKind /*kind*/) {
   const Visit visit(ours, collider);
   if (!visit.is_usable()) return {};
   const std::span<const MeshContact> contacts = find_contacts(visit, visit.triangles_within(0));

@@ -1,4 +1,4 @@
-// Tests of the properties of a dHeightfield that are found through ODE's geoms: the places of its samples, and its triangles.
+// Tests of the properties of a dHeightfield that are found through ODE's geoms: the positions of its samples, and its triangles.
 #include "ode/colliders/heightfield/heightfield_grid.hpp"
 
 #include <doctest/doctest.h>
@@ -36,7 +36,7 @@ std::vector<Landscape> landscapes() {
           {"pyramid", [](int i, int j) { return -static_cast<double>(std::max(std::abs(i - 5), std::abs(j - 4))); }}};
 }
 
-// A facet near the cell (5, 4), wherever the border is.
+// A facet near the cell (5, 4), for any border.
 Facet facet_near(HeightfieldProbe& probe, const Terrain& terrain, double u, double v) {
   const Vec corner = terrain.vertex(5, 4);
   Facet facet;
@@ -57,7 +57,7 @@ void check_axis(const SampleAxis& axis, double spacing, double half, int count, 
   CHECK(std::abs(shift - std::round(shift)) < within_rounding(1e-12) * (1 + std::abs(shift)));
 }
 
-// Checks that every triangle's vertices are samples, and that every cell of the region is there with both triangles.
+// Checks that every triangle's vertices are samples, and that every cell of the region has both triangles.
 void check_triangles(std::span<const MeshTriangle> triangles, const Terrain& terrain, const Region& region) {
   std::size_t expected = 0;
   for (int i = -60; i < 60; ++i) {
@@ -93,7 +93,7 @@ void check_triangles(std::span<const MeshTriangle> triangles, const Terrain& ter
 
 }  // namespace
 
-TEST_CASE("the grid is found: every landscape, finite and infinite, wherever one looks") {
+TEST_CASE("the grid of every landscape is found at any place, finite or infinite") {
   const OdeSession session;
   Random random(31);
   for (const Landscape& landscape : landscapes()) {
@@ -108,11 +108,11 @@ TEST_CASE("the grid is found: every landscape, finite and infinite, wherever one
         HeightfieldProbe& probe = HeightfieldProbe::looking_at(geom);
         const Facet spot = facet_near(probe, terrain, random.uniform(-1, 2), random.uniform(-1, 2));
         bool is_plane = false;
-        // The reach goes from that of a body of a hundredth of a cell to that of one of four cells.
+        // The reach is for bodies from a hundredth of a cell to four cells.
         const double reach = terrain.spacing_x() * std::pow(10, random.uniform(-2, 0.6));
         std::optional<FoundGrid> found = find_grid(probe, spot, reach, is_plane);
         if (!found) {
-          // All of the neighbourhood is a plane, which shows no samples.
+          // The whole neighbourhood is a plane, which shows no samples.
           REQUIRE(is_plane);
           found = find_grid(probe, spot, 6 * std::max(terrain.spacing_x(), terrain.spacing_z()), is_plane);
         }
@@ -124,7 +124,7 @@ TEST_CASE("the grid is found: every landscape, finite and infinite, wherever one
   }
 }
 
-TEST_CASE("small grids, long cells") {
+TEST_CASE("small grids and long cells are found") {
   const OdeSession session;
   for (const std::pair<int, int>& size : {std::pair(2, 2), std::pair(2, 3), std::pair(3, 2), std::pair(3, 3), std::pair(2, 40)}) {
     const int columns = size.first;
@@ -147,7 +147,7 @@ TEST_CASE("small grids, long cells") {
   check_triangles(patch.read(HeightfieldProbe::looking_at(geom), region), terrain, region);
 }
 
-TEST_CASE("the triangles are the samples, from every source") {
+TEST_CASE("the vertices of the triangles are the samples, from every source") {
   const OdeSession session;
   Random random(32);
   for (const Source source : {Source::Callback, Source::Byte, Source::Short, Source::Single, Source::Double}) {
@@ -157,7 +157,7 @@ TEST_CASE("the triangles are the samples, from every source") {
       const Terrain terrain({17, 12, 6.1, 7.3, repeats, source, 0.013, 0.7}, rough(5, 100));
       const Geom geom(terrain.create());
       HeightfieldPatch patch;
-      patch.read(HeightfieldProbe::looking_at(geom), {-1, 1, -1, 1});  // before, a small region is part of one plane
+      patch.read(HeightfieldProbe::looking_at(geom), {-1, 1, -1, 1});  // before that, a small region is part of one plane
       for (int k = 0; k < 50; ++k) {
         CAPTURE(k);
         const double limit = repeats ? 12 : 3;
@@ -171,7 +171,7 @@ TEST_CASE("the triangles are the samples, from every source") {
   }
 }
 
-TEST_CASE("what the program changes is seen") {
+TEST_CASE("a query sees the changes of the program") {
   const OdeSession session;
   Terrain terrain({9, 9, 8, 8}, rough(6, 1));
   const Geom geom(terrain.create());
@@ -181,7 +181,7 @@ TEST_CASE("what the program changes is seen") {
   terrain.set(5, 4, 0.5);
   terrain.set(4, 4, 0.25);
   check_triangles(patch.read(HeightfieldProbe::looking_at(geom), region), terrain, region);
-  // The changes are: the same extent with another number of samples; then another extent; then without end.
+  // The changes: the same extent with another number of samples, another extent, and an infinite field.
   terrain.build({14, 11, 8, 8}, rough(7, 1));
   check_triangles(patch.read(HeightfieldProbe::looking_at(geom), region), terrain, region);
   terrain.build({14, 11, 7, 9}, rough(8, 1));
@@ -190,11 +190,11 @@ TEST_CASE("what the program changes is seen") {
   check_triangles(patch.read(HeightfieldProbe::looking_at(geom), region), terrain, region);
 }
 
-TEST_CASE("a rebuilt heightfield, or another one at its address, is read as a new one") {
+TEST_CASE("a heightfield built anew, or another one at its address, is read again") {
   const OdeSession session;
   Random random(33);
   const std::vector<Landscape> all = landscapes();
-  constexpr std::array<int, 10> kCounts = {3, 4, 5, 6, 7, 9, 11, 13, 17, 33};  // some are finer by a whole factor than others
+  constexpr std::array<int, 10> kCounts = {3, 4, 5, 6, 7, 9, 11, 13, 17, 33};  // some are finer than others by a whole factor
   const auto any_of = [&](const auto& list) {
     return list[static_cast<std::size_t>(random.uniform(0, static_cast<double>(list.size())))];
   };
@@ -217,17 +217,17 @@ TEST_CASE("a rebuilt heightfield, or another one at its address, is read as a ne
     }
     if (worst > within_rounding(1e-12)) ++wrong;
   }
-  // With single precision the grid of one in 240 is not found, which is then read at points of its surface.
+  // In single precision the grid of one field in 240 is not found. Such a field is read at points of its surface.
   CHECK(wrong <= (kIsSinglePrecision ? 3000 / 240 : 0));
 }
 
-TEST_CASE("an infinite heightfield far from the origin") {
+TEST_CASE("the grid of an infinite heightfield is valid far from the origin") {
   const OdeSession session;
   const Terrain terrain({7, 9, 2.3, 3.1, true}, rough(11, 0.3));
   const Geom geom(terrain.create());
   for (const double far : {-1e3, 1e4, -1e5}) {
     CAPTURE(far);
-    HeightfieldPatch patch;  // finds the grid there
+    HeightfieldPatch patch;  // finds the grid at this place
     const Region region{far, far + 0.9, 0.5 * far, 0.5 * far + 1.1};
     for (const MeshTriangle& triangle : patch.read(HeightfieldProbe::looking_at(geom), region)) {
       for (const Vector3& v : triangle.vertices) {
@@ -248,7 +248,7 @@ TEST_CASE("an infinite heightfield far from the origin") {
   CHECK_THROWS_AS(patch.read(HeightfieldProbe::looking_at(geom), {1e12, 1e12 + 1, 0, 1}), std::domain_error);
 }
 
-TEST_CASE("a plane shows no grid, and is one") {
+TEST_CASE("a plane heightfield shows no grid and is read as a plane") {
   const OdeSession session;
   const auto slope = [](int i, int j) { return 0.5 * i - 0.25 * j; };
   for (const Terrain::Height& height : {Terrain::Height([](int, int) { return 0.3; }), Terrain::Height(slope)}) {
@@ -263,7 +263,7 @@ TEST_CASE("a plane shows no grid, and is one") {
   }
 }
 
-TEST_CASE("samples that are not numbers are holes") {
+TEST_CASE("samples that are NaN are holes") {
   const OdeSession session;
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   Terrain terrain({9, 9, 8, 8}, rough(12, 1));
@@ -281,7 +281,7 @@ TEST_CASE("samples that are not numbers are holes") {
   CHECK(patch.read(HeightfieldProbe::looking_at(geom), all).empty());
 }
 
-TEST_CASE("more cells than can be read: points of the surface") {
+TEST_CASE("a region with too many cells is read at points of the surface") {
   const OdeSession session;
   const Terrain terrain({1201, 1201, 12, 12}, hills(0.1, 0.02));
   const Geom geom(terrain.create());

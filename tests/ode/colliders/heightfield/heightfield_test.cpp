@@ -1,4 +1,4 @@
-// Bodies against dHeightfield: planes, peaks and rough ground, in every way that a heightfield can be made and placed.
+// Bodies against dHeightfield: planes, peaks and rough ground, with every kind of data and pose.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -96,7 +96,7 @@ Vector3 nearest_on(const std::vector<MeshTriangle>& triangles, const Vector3& p)
 
 }  // namespace
 
-TEST_CASE("a level heightfield is a plane") {
+TEST_CASE("a level heightfield gives the contacts of a plane") {
   const OdeSession session;
   Random random(41);
   for (const bool repeats : {false, true}) {
@@ -110,7 +110,7 @@ TEST_CASE("a level heightfield is a plane") {
       const Pose frame = pose_of(heightfield);
       const Vector3 up = frame.rotation.col(1);
       const Geom plane(dCreatePlane(nullptr, dReal(up.x()), dReal(up.y()), dReal(up.z()), dReal(up.dot(frame.position) + 0.25)));
-      // The body is anywhere, above a line of the grid, or above a sample; from below the surface to above it.
+      // The body is anywhere, above a line of the grid or above a sample, from below the surface to above it.
       Vector3 where{random.uniform(-10, 10), 0.25 + random.uniform(-0.3, 1.6), random.uniform(-10, 10)};
       if (k % 3 > 0) where.x() = std::round(where.x());
       if (k % 3 > 1) where.z() = std::round(where.z());
@@ -125,7 +125,7 @@ TEST_CASE("a level heightfield is a plane") {
   }
 }
 
-TEST_CASE("a slope is a plane, before and after its grid is known") {
+TEST_CASE("a sloped heightfield gives the contacts of a plane, before and after its grid is known") {
   const OdeSession session;
   Random random(42);
   for (const bool is_bumpy : {false, true}) {
@@ -150,7 +150,7 @@ TEST_CASE("a slope is a plane, before and after its grid is known") {
   }
 }
 
-TEST_CASE("a sphere on rough ground: as far as its centre from the nearest triangle") {
+TEST_CASE("a sphere on rough ground is as far as its centre from the nearest triangle") {
   const OdeSession session;
   Random random(43);
   for (const Source source : {Source::Double, Source::Callback, Source::Short}) {
@@ -199,7 +199,7 @@ TEST_CASE("a sphere on rough ground: as far as its centre from the nearest trian
   }
 }
 
-TEST_CASE("any body on rough ground: the contacts with all triangles") {
+TEST_CASE("any body on rough ground has the contacts with all triangles") {
   const OdeSession session;
   Random random(45);
   const Terrain terrain({11, 9, 10, 9.6}, rough(46, 0.6));
@@ -210,14 +210,14 @@ TEST_CASE("any body on rough ground: the contacts with all triangles") {
   for (int k = 0; k < 400; ++k) {
     CAPTURE(k);
     const Geom body(random_body(random));
-    const double x = random.uniform(-5.5, 5.5);  // beyond the border as well
+    const double x = random.uniform(-5.5, 5.5);  // also beyond the border
     const double z = random.uniform(-5.3, 5.3);
     place(body, {x, random.uniform(0.2, 1.9), z});
     const auto& shape = require_body(body).shape();
     const std::span<const MeshContact> expected = reference.find(shape, pose_of(body), triangles, {});
     const Contacts contacts = collide(body, heightfield, 100);
     REQUIRE(contacts.size() >= expected.size());
-    // The corners of flat overlaps follow them.
+    // The manifold points of flat overlaps follow them.
     for (std::size_t i = expected.size(); i < contacts.size(); ++i) CHECK(contacts[i].depth <= contacts[0].depth);
     for (std::size_t i = 0; i < expected.size(); ++i, ++count) {
       const Proximity& proximity = expected[i].proximity;
@@ -234,12 +234,12 @@ TEST_CASE("any body on rough ground: the contacts with all triangles") {
   CHECK(count > 300);
 }
 
-TEST_CASE("the peak of a pyramid: as the solid of the same shape") {
+TEST_CASE("the peak of a pyramid collides as the solid of the same shape") {
   const OdeSession session;
   Random random(47);
   const Terrain terrain({9, 9, 8, 8}, [](int i, int j) { return i == 4 && j == 4 ? 0.8 : 0.0; });
   const Geom heightfield(terrain.create());
-  // These are the samples next to (4, 4) on the six triangles there.
+  // The samples next to (4, 4) on the six triangles there.
   std::vector<Vector3> points = {{0, 0.8, 0}};
   for (const auto& [x, z] :
        {std::pair(1, 0), std::pair(0, 1), std::pair(-1, 1), std::pair(-1, 0), std::pair(0, -1), std::pair(1, -1)}) {
@@ -273,7 +273,7 @@ TEST_CASE("the peak of a pyramid: as the solid of the same shape") {
   CHECK(touching > 30);
 }
 
-TEST_CASE("what has sunk comes up") {
+TEST_CASE("a sunk body comes up") {
   const OdeSession session;
   Random random(48);
   const Terrain terrain({11, 11, 10, 10}, rough(49, 0.5));
@@ -294,7 +294,7 @@ TEST_CASE("what has sunk comes up") {
   }
 }
 
-TEST_CASE("both orders, as many contacts as there is room for, into contacts of any size") {
+TEST_CASE("a heightfield in both orders, with any max_contacts and skip") {
   const OdeSession session;
   Random random(50);
   const Terrain terrain({21, 21, 4, 4}, rough(51, 0.2));
@@ -327,7 +327,7 @@ TEST_CASE("both orders, as many contacts as there is room for, into contacts of 
   CHECK(norm(to_vec(forward.normal) + to_vec(backward.normal)) == 0);
 }
 
-TEST_CASE("gaps from high above and from beside") {
+TEST_CASE("a heightfield has the right gap from high above and from beside") {
   const OdeSession session;
   Random random(52);
   const Terrain terrain({9, 9, 8, 8}, rough(53, 1));
@@ -346,7 +346,7 @@ TEST_CASE("gaps from high above and from beside") {
   }
 }
 
-TEST_CASE("nothing that is not finite gets through, and nothing aborts") {
+TEST_CASE("a heightfield with values that are not finite gives no such contact and no abort") {
   const OdeSession session;
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const Geom body(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.4), dReal(0.3)));
@@ -366,7 +366,7 @@ TEST_CASE("nothing that is not finite gets through, and nothing aborts") {
     place(body, {0, 0, 0});
     CHECK(collide(body, heightfield).empty());
   }
-  // The body is on the border to the last digit, where a ray would make ODE abort.
+  // The body is on the border to the last digit, where a ray would abort in ODE.
   const Terrain terrain({9, 9, 8, 8}, rough(54, 1));
   const Geom heightfield(terrain.create());
   for (const double x : {4.0, std::nextafter(4.0, 5.0), std::nextafter(4.0, 3.0), 4.5, 4.0 + 1e-12}) {

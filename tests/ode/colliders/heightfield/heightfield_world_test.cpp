@@ -1,4 +1,4 @@
-// Bodies on heightfields in a running world: none may fall through.
+// Bodies on heightfields in a running world. None may fall through.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -24,8 +24,8 @@ dBodyID add(const World& world, dGeomID geom) {
   return world.add(geom, mass);
 }
 
-/// The least height of the body's middle above the surface while it falls from `start` for two seconds, over the heightfield
-/// only.
+/// The smallest height of the body's middle above the surface while it falls from `start` for two seconds, as long as it is over
+/// the heightfield.
 double lowest_height(dGeomID (*create)(dSpaceID space), const Terrain& terrain, const Vec& start) {
   World world;
   set_up(world);
@@ -49,7 +49,7 @@ dGeomID create_egg(dSpaceID space) { return snCreateEllipsoid(space, dReal(0.08)
 
 }  // namespace
 
-TEST_CASE("small bodies dropped on ridges and peaks stay above: dSphere does not") {
+TEST_CASE("small bodies dropped on ridges and peaks stay above, where dSphere does not") {
   const OdeSession session;
   const Terrain ridge({9, 9, 8, 8}, [](int i, int /*j*/) { return 2.0 - 0.8 * std::abs(i - 4); });
   const Terrain peak({9, 9, 8, 8}, [](int i, int j) { return i == 4 && j == 4 ? 1.5 : 0.0; });
@@ -72,12 +72,12 @@ TEST_CASE("small bodies dropped on ridges and peaks stay above: dSphere does not
   }
 }
 
-TEST_CASE("50 bodies on a terrain for 20 s: none gets through") {
+TEST_CASE("50 bodies on a terrain for 20 s do not fall through") {
   const OdeSession session;
   Random random(61);
   World world;
   set_up(world);
-  // The ground is rough, and higher towards the border, so that the bodies stay.
+  // The ground is rough, and higher towards the border, so the bodies stay on it.
   const Terrain terrain({25, 25, 6, 6}, [](int i, int j) {
     const double r = std::max(std::abs(i - 12), std::abs(j - 12)) / 12.0;
     return rough(62, 0.15)(i, j) + 2 * r * r * r;
@@ -104,13 +104,13 @@ TEST_CASE("50 bodies on a terrain for 20 s: none gets through") {
       REQUIRE(p[1] > terrain.surface(p[0], p[2]));
     }
   }
-  // At rest, they are on it and not in it.
+  // At rest they are on the ground and not in it.
   for (const dGeomID geom : geoms) {
     for (const dContactGeom& contact : collide(geom, dSpaceGetGeom(world.space(), 0), 20)) CHECK(contact.depth < 0.01);
   }
 }
 
-TEST_CASE("an infinite heightfield carries what rolls a long way") {
+TEST_CASE("an infinite heightfield carries a body that rolls far") {
   const OdeSession session;
   World world;
   set_up(world);

@@ -12,7 +12,7 @@ namespace supernormal {
 /// contact, but its centre keeps the fraction a^2 / (a^2 + k^2) of its velocity, with the radius of gyration k. If the displacement
 /// is long compared to the body, the centre passes through the wall and the body rotates by many radians. With a shorter arm the
 /// rotation is small and the body stops before the wall. The lost rotation could not be resolved at this step size.
-void limit_turn(const BodyAhead& body1, const BodyAhead& body2, double time, double share, ContactManifold& manifold);
+void limit_rotation(const BodyAhead& body1, const BodyAhead& body2, double time, double share, ContactManifold& manifold);
 
 /// Replaces the contact normal of two free bodies by the direction between their centres of mass, if the contact would rotate one
 /// of them too far within `time`. A shift of the contact would not help, because no place in its tangent plane is in line with both

@@ -1,4 +1,4 @@
-#include "impact/turning.hpp"
+#include "impact/body_rotation.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -61,8 +61,8 @@ Matrix3 rotation_at(const Motion& motion, double time) {
   return Eigen::AngleAxisd(speed * time, motion.angular_velocity / speed).toRotationMatrix() * motion.pose.rotation;
 }
 
-Turning::Turning(const Shape& shape, const Motion& motion) : speed_(motion.angular_velocity.stableNorm()) {
-  if (!is_turning()) {
+BodyRotation::BodyRotation(const Shape& shape, const Motion& motion) : speed_(motion.angular_velocity.stableNorm()) {
+  if (!is_rotating()) {
     reach_ = shape.half_extents().norm() + motion.centre.norm();
     return;
   }
@@ -81,7 +81,7 @@ Turning::Turning(const Shape& shape, const Motion& motion) : speed_(motion.angul
 // A body of revolution about the unit vector e consists of the points g + q. Here g is a point of the axis that moves with the
 // body. The vector q follows e but does not spin about it. It rotates with w = W - (W.e) e, where W is the angular velocity of the
 // body. Since W.e is constant and e' = W x e, w' = -(W.e) W x e. Hence q'' = w' x q + w x (w x q).
-void Turning::use_axis(const Shape& shape, const Motion& motion) {
+void BodyRotation::use_axis(const Shape& shape, const Motion& motion) {
   const std::optional<Vector3> e = axis_of_revolution(shape);
   if (!e) return;
   is_revolved_ = true;
@@ -93,14 +93,14 @@ void Turning::use_axis(const Shape& shape, const Motion& motion) {
 
 // A point on a circle about the axis has the velocity W x q and the acceleration W x (W x q). The product with n equals the product
 // of W x (W x n) with the part of q across the axis.
-double Turning::bound(const Vector3& n, double angle, double turn) const {
-  if (!is_turning()) return 0;
+double BodyRotation::bound(const Vector3& n, double angle, double normal_rate) const {
+  if (!is_rotating()) return 0;
   const double across = speed_ * std::min(axis_.cross(n).norm() + angle, 1.0);  // of the angular velocity, to n
   const double circling = speed_ * across;
-  const double plain = circling * axis_distance_ + 2 * turn * speed_ * reach_;
+  const double plain = circling * axis_distance_ + 2 * normal_rate * speed_ * reach_;
   if (!is_revolved_) return plain;
-  const double pivot = pivot_distance_ * (circling + 2 * turn * speed_);
-  const double following = follow_speed_ * (follow_speed_ + 2 * turn) + follow_acceleration_;
+  const double pivot = pivot_distance_ * (circling + 2 * normal_rate * speed_);
+  const double following = follow_speed_ * (follow_speed_ + 2 * normal_rate) + follow_acceleration_;
   return std::min(plain, pivot + following * (reach_ + pivot_distance_));
 }
 

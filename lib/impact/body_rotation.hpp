@@ -9,11 +9,11 @@ namespace supernormal {
 Matrix3 rotation_at(const Motion& motion, double time);
 
 /// Bounds for a body that rotates about Motion::centre.
-class Turning {
+class BodyRotation {
  public:
-  Turning(const Shape& shape, const Motion& motion);
+  BodyRotation(const Shape& shape, const Motion& motion);
 
-  bool is_turning() const { return speed_ > 0; }
+  bool is_rotating() const { return speed_ > 0; }
 
   /// The radius of a ball about the centre that contains the body, m. An estimate if the body does not rotate.
   double reach() const { return reach_; }
@@ -22,9 +22,9 @@ class Turning {
   double fastest() const { return speed_ * axis_distance_; }
 
   /// Upper bound of n.q'' + 2 n'.q', m/s^2, for every point q of the body, relative to its centre. The unit normal rotates from n
-  /// by at most `angle` (rad). Its angular velocity is at most `turn` (rad/s). In a body of revolution the points do not spin about
-  /// its axis: they form the same body at every time.
-  double bound(const Vector3& n, double angle, double turn) const;
+  /// by at most `angle` (rad), with an angular velocity of at most `normal_rate` (rad/s). In a body of revolution the points do not
+  /// spin about its axis: they form the same body at every time.
+  double bound(const Vector3& n, double angle, double normal_rate) const;
 
  private:
   void use_axis(const Shape& shape, const Motion& motion);

@@ -1,4 +1,4 @@
-#include "contact/ahead/small_turn.hpp"
+#include "contact/ahead/small_rotation.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 // Largest rotation of a body by an impact, rad. Manifold points are valid for such rotations (manifold/manifold_of_gaps.cpp). It is
 // smaller if the middle of the body is farther from the centre of mass than the body is thick. Then the rotation moves the middle
 // by at most this fraction of the thickness.
-constexpr double kLargestTurn = 0.1;
+constexpr double kLargestRotation = 0.1;
 
 // At this multiple of the largest rotation the lever arm has its limit. Below it the arm is interpolated, so no force jumps.
 constexpr double kFarTooLarge = 2;
@@ -42,10 +42,10 @@ Vector3 velocity_at(const BodyAhead& body, const Vector3& place) {
 }
 
 /// The largest rotation of a body by an impact, rad.
-double largest_turn_of(const BodyAhead& body) {
+double largest_rotation_of(const BodyAhead& body) {
   const double thickness = body.shape.half_extents().minCoeff();
   const double distance = (middle_of(body) - body.motion.centre).norm();
-  return distance > thickness ? kLargestTurn * thickness / distance : kLargestTurn;
+  return distance > thickness ? kLargestRotation * thickness / distance : kLargestRotation;
 }
 
 /// The squared radius of gyration about the axis of a force with this lever arm, m^2; 0 for a body of infinite inertia.
@@ -63,8 +63,8 @@ class LeverLimit {
         gained_(time * std::max(body1.motion.acceleration, body2.motion.acceleration)),
         centre_(share * body1.motion.centre + (1 - share) * body2.motion.centre),
         turning_(share * body1.motion.turning + (1 - share) * body2.motion.turning),
-        turn_(time * (share * body1.motion.angular_velocity - (1 - share) * body2.motion.angular_velocity)),
-        largest_turn_(share * largest_turn_of(body1) + (1 - share) * largest_turn_of(body2)),
+        rotation_(time * (share * body1.motion.angular_velocity - (1 - share) * body2.motion.angular_velocity)),
+        largest_rotation_(share * largest_rotation_of(body1) + (1 - share) * largest_rotation_of(body2)),
         approach_(approach_at(under_centre(contact.contact))),
         height_(std::max(0.0, share * normal_.dot(contact.contact - middle_of(body1)) -
                                   (1 - share) * normal_.dot(contact.contact - middle_of(body2)) + std::min(0.0, contact.gap))) {}
@@ -76,15 +76,15 @@ class LeverLimit {
   Vector3 under_centre(const Vector3& place) const { return centre_ + normal_.dot(place - centre_) * normal_; }
 
   /// The fraction of its lever arm that a contact at `place` keeps.
-  double part_at(const Vector3& place) const {
+  double fraction_at(const Vector3& place) const {
     const Vector3 arm = place - under_centre(place);
-    return std::min(part_for_small_turn(arm, normal_, approach_), part_for_height(arm));
+    return std::min(fraction_for_small_rotation(arm, normal_, approach_), fraction_for_height(arm));
   }
 
   /// The shift of a contact at `place`, m.
   Vector3 shift_of(const Vector3& place) const {
     const Vector3 under = under_centre(place);
-    return (part_at(place) - 1) * (place - under) + shift_for_friction(place, under - centre_);
+    return (fraction_at(place) - 1) * (place - under) + shift_for_friction(place, under - centre_);
   }
 
  private:
@@ -101,56 +101,57 @@ class LeverLimit {
     const Vector3 closing = closing_at(place);
     const Vector3 slip = closing - normal_.dot(closing) * normal_;
     const double speed = slip.norm();
-    const double way = std::min(speed * time_, approach_ - gained_ * time_);
-    if (!(way > 0)) return Vector3::Zero();
-    return (part_for_small_turn(arm, slip / speed, way) - 1) * arm;
+    const double displacement = std::min(speed * time_, approach_ - gained_ * time_);
+    if (!(displacement > 0)) return Vector3::Zero();
+    return (fraction_for_small_rotation(arm, slip / speed, displacement) - 1) * arm;
   }
 
-  /// The largest fraction of a lever arm with which a force against `direction`, which stops the displacement `way` (m), rotates
-  /// the bodies by at most the largest rotation. The removal of a present rotation is free.
-  double part_for_small_turn(const Vector3& arm, const Vector3& direction, double way) const {
+  /// The largest fraction of a lever arm with which a force against `direction`, which stops the displacement `displacement` (m),
+  /// rotates the bodies by at most the largest rotation. The removal of a present rotation is free.
+  double fraction_for_small_rotation(const Vector3& arm, const Vector3& direction, double displacement) const {
     const Vector3 torque = arm.cross(direction);
     const Vector3 axis = turning_ * torque;
     const double lever = arm.norm();
     const double gyration = squared_gyration(lever, torque.dot(axis));
     if (!(gyration > 0)) return 1;
-    const double largest = largest_turn_ + std::max(0.0, turn_.dot(axis.normalized()));
-    // An arm beyond the radius of gyration rotates the body by less, but shorter arms on the way to the limit rotate it by more.
+    const double largest = largest_rotation_ + std::max(0.0, rotation_.dot(axis.normalized()));
+    // An arm beyond the radius of gyration rotates the body by less. But the shorter arms between it and the limit rotate it by
+    // more.
     const double worst = std::min(lever, std::sqrt(gyration));
-    const double excess = way * worst / (worst * worst + gyration) / largest;
+    const double excess = displacement * worst / (worst * worst + gyration) / largest;
     if (!(excess > 1)) return 1;
     const double twice = 2 * largest * std::sqrt(gyration);
-    const double root = std::sqrt(std::max(0.0, way * way - twice * twice));
-    const double small = std::min(lever, 2 * largest * gyration / (way + root));
+    const double root = std::sqrt(std::max(0.0, displacement * displacement - twice * twice));
+    const double small = std::min(lever, 2 * largest * gyration / (displacement + root));
     return 1 - std::min(1.0, (excess - 1) / (kFarTooLarge - 1)) * (1 - small / lever);
   }
 
   /// The largest fraction of a lever arm b with which the bodies approach by no more than the height H. The impact and the present
   /// rotation u contribute: (A b^2 + u b k^2) / (b^2 + k^2) <= H with the approach A and the radius of gyration k.
-  double part_for_height(const Vector3& arm) const {
+  double fraction_for_height(const Vector3& arm) const {
     const Vector3 torque = arm.cross(normal_);
     const double lever = arm.norm();
     const double gyration = squared_gyration(lever, torque.dot(turning_ * torque));
-    const double of_turn = turn_.norm() * gyration;
-    const double discriminant = of_turn * of_turn + 4 * (approach_ - height_) * height_ * gyration;
+    const double of_rotation = rotation_.norm() * gyration;
+    const double discriminant = of_rotation * of_rotation + 4 * (approach_ - height_) * height_ * gyration;
     if (!(discriminant >= 0)) return 1;
     const double allowed = 2 * height_ * gyration;
-    const double asked = lever * (of_turn + std::sqrt(discriminant));
+    const double asked = lever * (of_rotation + std::sqrt(discriminant));
     return allowed < asked ? allowed / asked : 1;
   }
 
   const BodyAhead& body1_;
   const BodyAhead& body2_;
-  double time_;          // s
-  Vector3 normal_;       // unit, from body 1 to body 2
-  double gap_;           // m; the present gap, 0 in an overlap
-  double gained_;        // m/s; from gravity and forces
-  Vector3 centre_;       // m; centre of mass
-  Matrix3 turning_;      // 1/m^2
-  Vector3 turn_;         // rad; by the present angular velocity
-  double largest_turn_;  // rad; limit for an impact
-  double approach_;      // m
-  double height_;        // m; limit for the approach of the middles, neither beyond the plane
+  double time_;              // s
+  Vector3 normal_;           // unit, from body 1 to body 2
+  double gap_;               // m; the present gap, 0 in an overlap
+  double gained_;            // m/s; from gravity and forces
+  Vector3 centre_;           // m; centre of mass
+  Matrix3 turning_;          // 1/m^2
+  Vector3 rotation_;         // rad; by the present angular velocity
+  double largest_rotation_;  // rad; limit for an impact
+  double approach_;          // m
+  double height_;            // m; limit for the approach of the middles, neither beyond the plane
 };
 
 /// The larger rotation that a contact gives one of two free bodies, in units of its limit. The contact stops `approach` (m).
@@ -159,8 +160,8 @@ double excess_of(const BodyAhead& body1, const BodyAhead& body2, double share, d
   const Vector3 torque2 = (contact.contact - body2.motion.centre).cross(contact.normal);
   const Vector3 axis1 = share * (body1.motion.turning * torque1);
   const Vector3 axis2 = (1 - share) * (body2.motion.turning * torque2);
-  const double turn = std::max(axis1.norm() / largest_turn_of(body1), axis2.norm() / largest_turn_of(body2));
-  return approach * turn / (1 + torque1.dot(axis1) + torque2.dot(axis2));
+  const double rotation = std::max(axis1.norm() / largest_rotation_of(body1), axis2.norm() / largest_rotation_of(body2));
+  return approach * rotation / (1 + torque1.dot(axis1) + torque2.dot(axis2));
 }
 
 }  // namespace
@@ -184,7 +185,7 @@ void act_between_centres(const BodyAhead& body1, const BodyAhead& body2, double 
   manifold.corner_count = 0;
 }
 
-void limit_turn(const BodyAhead& body1, const BodyAhead& body2, double time, double share, ContactManifold& manifold) {
+void limit_rotation(const BodyAhead& body1, const BodyAhead& body2, double time, double share, ContactManifold& manifold) {
   const LeverLimit limit(body1, body2, time, share, manifold.deepest);
   if (!(limit.approach() > 0)) return;
   const Vector3 under = limit.under_centre(manifold.deepest.contact);
@@ -193,7 +194,7 @@ void limit_turn(const BodyAhead& body1, const BodyAhead& body2, double time, dou
   for (ManifoldCorner& corner : manifold.corners) corner.point += shift;
   manifold.deepest.contact += limit.shift_of(manifold.deepest.contact);  // used alone if max_contacts is 1
   // If all contacts are on one side of the centre, only the nearest one acts. Quickstep does not find this.
-  const bool is_beside = manifold.corner_count > 0 && place != under && limit.part_at(place) < 1;
+  const bool is_beside = manifold.corner_count > 0 && place != under && limit.fraction_at(place) < 1;
   if (is_beside) {
     manifold.deepest.contact = place + shift;
     manifold.corner_count = 0;
