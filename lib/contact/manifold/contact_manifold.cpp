@@ -6,6 +6,7 @@
 #include <span>
 
 #include "contact/manifold/common_corners.hpp"
+#include "contact/manifold/corner_depth.hpp"
 #include "contact/manifold/support_polygon.hpp"
 
 namespace supernormal {
@@ -28,22 +29,6 @@ constexpr double kLeastWeight = 0.01;
 bool may_have_corners(const Shape& shape, const Proximity& proximity) {
   const bool is_answer = proximity.status != Status::InvalidInput && proximity.status != Status::Apart;
   return is_answer && may_have_corners(shape) && proximity.gap < 0;
-}
-
-/// Faces count as flat between the manifold points, so only differences of separations matter. If the separation of a point exceeds
-/// `depth` and `allowed_separation` (m), the point is in the air. It moves in towards the deepest point, to where the separation is
-/// just as much.
-void write(const CornerList& corners, double allowed_separation, double depth, ContactManifold& manifold) {
-  const double least = *std::min_element(corners.separations.begin(), corners.separations.end());
-  const Vector3& deepest = manifold.deepest.contact;
-  const double margin_at_deepest = std::max(0.0, depth + allowed_separation + std::min(0.0, least));
-  for (std::size_t k = 0; k < corners.points.size(); ++k) {
-    const double separation = corners.separations[k] - least;
-    const double margin = depth + allowed_separation - separation;
-    const double share = margin < 0 ? margin_at_deepest / (margin_at_deepest - margin) : 1;
-    manifold.corners[k] = {deepest + share * (corners.points[k] - deepest), std::max(0.0, depth - share * separation)};
-  }
-  manifold.corner_count = ContactManifold::kMaxCorners;
 }
 
 /// Moves both points to one place between them, with the depth of the deeper one. So the deepest contact stays as deep as the
@@ -142,7 +127,7 @@ ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, co
   manifold.evaluations += polygon2.evaluations();
   if (!polygon2.has_width()) return manifold;
   const std::optional<CornerList> corners = find_common_corners(polygon1, polygon2, proximity.normal, proximity.contact);
-  if (corners) write(*corners, std::min(polygon1.allowed_separation(), polygon2.allowed_separation()), depth, manifold);
+  if (corners) write_depths(*corners, std::min(allowed_separation(polygon1), allowed_separation(polygon2)), depth, manifold);
   manifold.same_place = kSamePlace * std::min(polygon1.size(), polygon2.size());
   manifold.margin = std::max(0.0, polygon1.largest_separation() + polygon2.largest_separation() - depth);
   return manifold;
@@ -160,7 +145,7 @@ ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose
   const SupportPolygon polygon(shape, pose, proximity.normal, stands_on, depth);
   manifold.evaluations = polygon.evaluations();
   if (!polygon.has_width()) return manifold;
-  write(corners_over_plane(polygon, proximity.normal), polygon.allowed_separation(), depth, manifold);
+  write_depths(corners_over_plane(polygon, proximity.normal), allowed_separation(polygon), depth, manifold);
   manifold.same_place = kSamePlace * polygon.size();
   manifold.margin = std::max(0.0, polygon.largest_separation() - depth);
   return manifold;
@@ -172,21 +157,21 @@ ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose
 //
 // Two contacts let a body rotate about the line through them. A body that is about to meet a face still has all its velocity. With
 // max_contacts 2 it is stopped at one place, near the line through its centre of mass (ahead/small_rotation).
-ContactManifold reduced_to(ContactManifold manifold, int room) {
-  if (room < 2) manifold.corner_count = 0;
+ContactManifold reduced_to(ContactManifold manifold, int max_contacts) {
+  if (max_contacts < 2) manifold.corner_count = 0;
   if (manifold.corner_count == 0) return manifold;
   std::array<ManifoldCorner, ContactManifold::kMaxCorners>& corners = manifold.corners;
   const bool is_ahead = manifold.shallow > 0;
-  if (room == 2 && is_ahead && is_face(manifold)) {
+  if (max_contacts == 2 && is_ahead && is_face(manifold)) {
     manifold.corner_count = 0;
     return manifold;
   }
   const double depth = -manifold.deepest.gap;
   const double shallow = std::max(depth, manifold.shallow);
   const double least_weight = kLeastWeight * shallow;
-  if (room == 3) put_shallowest_pair_first(corners, shallow);
-  if (room < 4) merge(corners[0], corners[1], depth - shallow, least_weight);
-  if (room < 3) merge(corners[2], corners[3], depth - shallow, least_weight);
+  if (max_contacts == 3) put_shallowest_pair_first(corners, shallow);
+  if (max_contacts < 4) merge(corners[0], corners[1], depth - shallow, least_weight);
+  if (max_contacts < 3) merge(corners[2], corners[3], depth - shallow, least_weight);
   move_together(corners, manifold.same_place);
   remove_repeated(manifold);
   put_deepest_first({corners.begin(), static_cast<std::size_t>(manifold.corner_count)}, manifold.shallow);

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "contact/manifold/common_corners.hpp"
+#include "contact/manifold/corner_depth.hpp"
 #include "contact/manifold/support_polygon.hpp"
 #include "supernormal/contact/contacts_ahead.hpp"
 
@@ -16,13 +17,8 @@ bool may_stand(const Shape& shape, const Proximity& proximity) {
   return proximity.status != Status::InvalidInput && may_have_corners(shape);
 }
 
-/// `gap` is the gap of the manifold point with the smallest separation, m.
-void write_gaps(const CornerList& corners, double gap, double size, ContactManifold& manifold) {
-  const double least = *std::min_element(corners.separations.begin(), corners.separations.end());
-  for (std::size_t k = 0; k < corners.points.size(); ++k) {
-    manifold.corners[k] = {corners.points[k], least - corners.separations[k] - gap};
-  }
-  manifold.corner_count = ContactManifold::kMaxCorners;
+/// Sets the distances within which manifold points are merged.
+void set_distances(double size, ContactManifold& manifold) {
   manifold.same_place = kSamePlace * size;
   manifold.shallow = kShallow * manifold.same_place;
 }
@@ -41,7 +37,9 @@ ContactManifold find_manifold_of_gaps(const Shape& shape1, const Pose& pose1, co
   manifold.evaluations += polygon2.evaluations();
   if (!polygon2.has_width()) return manifold;
   const std::optional<CornerList> corners = find_common_corners(polygon1, polygon2, proximity.normal, manifold.deepest.contact);
-  if (corners) write_gaps(*corners, proximity.gap, std::min(polygon1.size(), polygon2.size()), manifold);
+  if (!corners) return manifold;
+  write_gaps(*corners, proximity.gap, manifold);
+  set_distances(std::min(polygon1.size(), polygon2.size()), manifold);
   return manifold;
 }
 
@@ -54,7 +52,8 @@ ContactManifold find_plane_manifold_of_gaps(const Shape& shape, const Pose& pose
   if (!polygon.has_width()) return manifold;
   // At the border of a sheet the contact may be beside the point on which the body would stand if the sheet continued.
   const double below = std::max(0.0, proximity.normal.dot(support_point - proximity.point1));
-  write_gaps(corners_over_plane(polygon, proximity.normal), proximity.gap - below, polygon.size(), manifold);
+  write_gaps(corners_over_plane(polygon, proximity.normal), proximity.gap - below, manifold);
+  set_distances(polygon.size(), manifold);
   return manifold;
 }
 

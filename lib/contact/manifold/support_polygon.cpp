@@ -21,19 +21,14 @@ constexpr double kReachOfDepth = 12;
 // the air.
 constexpr double kLargestReach = 0.07;
 
-// Allowed separation of a manifold point beyond the depth, as a fraction of the reach. With a larger fraction, bodies fall asleep
-// tilted. The allowed separation is smaller if all vertices are within kSmallPolygon least extents of the deepest point, as for a
-// stubby capsule. The same separation is a larger angle there.
-constexpr double kAllowedSeparation = 0.5;
-constexpr double kSmallPolygon = 0.5;
-
 // A face like |x|^e with this exponent has its vertices exactly at the reach. The vertices of a flatter face are nearer to its end.
 constexpr double kFaceExponent = 8;
 
 // Largest tilt, half-heights over half-extents. With a larger tilt the vertices would be on the sides of the body.
 constexpr double kLargestTilt = 1;
 
-// At a larger tilt than this, a flat body with round ends looks round. So the widths are taken at this tilt, too.
+// At a larger tilt than this, a flat body with round ends looks round. So the widths are taken at this tilt, too. A capsule of
+// half-length 0.3 radii is still flat at it.
 constexpr double kNear = 0.3;
 
 // Exponents of faces like |x|^e: the body is round up to the first, and flat from the second on. The closed forms of rocking bodies
@@ -45,7 +40,7 @@ constexpr double kFlatExponent = 6;
 // In half-extents; two ends nearer to each other than this differ by rounding. The body then ends in an edge or a vertex.
 constexpr double kLeastLength = 1e-6;
 
-// A polygon is long from this ratio of its sides on.
+// A polygon is long from this ratio of its sides on. Any ratio well above 1 does: a square polygon has no axis to tell from.
 constexpr double kLong = 2;
 
 using Tilt = std::array<double, 2>;  // of the normal, n + tilt[0] axes[0] + tilt[1] axes[1]
@@ -286,12 +281,6 @@ void SupportPolygon::find(const View& view, const std::array<double, 2>& tangent
   if (!has_width()) return;
   place_vertices(tilts);
   put_axis_across();
-}
-
-double SupportPolygon::allowed_separation() const {
-  double farthest = 0;
-  for (const Vector3& vertex : vertices_) farthest = std::max(farthest, vertex.norm());
-  return kAllowedSeparation * reach_ * std::min(1.0, farthest / (kSmallPolygon * least_extent_));
 }
 
 // The fraction is small where the body is flat and the plane is parallel to the face. Otherwise the tangent plane parallel to the

@@ -33,7 +33,7 @@ class SupportPolygon {
                  double thickness = HUGE_VAL);
 
   /// The same with one tilt along both axes, whatever the depth: for contacts whose gaps are known. The vertices are the points of
-  /// the tilts, at any distance from the plane. allowed_separation() is not valid.
+  /// the tilts, at any distance from the plane. Its reach() is infinite.
   static SupportPolygon of_tilt(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double tilt);
 
   /// Whether the polygon is more than the support point.
@@ -57,8 +57,11 @@ class SupportPolygon {
   double area() const { return extents_[0] * extents_[1]; }
   double size() const { return std::min(extents_[0], extents_[1]); }
 
-  /// m; a manifold point whose separation exceeds the depth by more than this is in the air.
-  double allowed_separation() const;
+  /// m; how far apart the bodies may be where they rest on each other.
+  double reach() const { return reach_; }
+
+  /// m; the smallest of the half-height and the half-extents along the plane.
+  double least_extent() const { return least_extent_; }
 
   /// The largest separation of a vertex from the plane, m.
   double largest_separation() const { return largest_separation_; }
