@@ -105,22 +105,41 @@ Proximity climb_and_search(GapFunction& gap, const Settings& settings, const Sto
   return out;
 }
 
-}  // namespace
-
-Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, WantedMaximum wanted) {
-  const StoppingRule rule(gap, settings);
+/// The first cut costs no evaluation: the distance from a centre of symmetry to every tangent plane is at least the radius of the
+/// rolling ball.
+CuttingPlanes first_cuts(const GapFunction& gap) {
   CuttingPlanes cuts;
-  // The first cut costs no evaluation: the distance from a centre of symmetry to every tangent plane is at least the radius of the
-  // rolling ball.
   if (gap.shape1().is_symmetric() && gap.shape2().is_symmetric()) cuts.set_centre(gap.offset());
-  if (!CertifiedNewton::is_for(gap)) return climb_and_search(gap, settings, rule, cuts, start, wanted);
-  CertifiedNewton newton(gap, cuts, rule);
-  const CertifiedNewton::End end = newton.run(start, wanted);
+  return cuts;
+}
+
+/// The answer of Newton's method, or of the search that goes on where it ended.
+Proximity after_newton(GapFunction& gap, const Settings& settings, const StoppingRule& rule, CuttingPlanes& cuts,
+                       const CertifiedNewton& newton, CertifiedNewton::End end, WantedMaximum wanted) {
   if (end == CertifiedNewton::End::Open) return climb_and_search(gap, settings, rule, cuts, newton.best(), wanted);
   const Status status = end == CertifiedNewton::End::Apart ? Status::Apart : Status::Converged;
   Proximity out = answer(gap, rule, newton.best(), newton.error(), status);
   place_contact(gap, rule, newton.best(), out, newton.beside());
   return out;
+}
+
+}  // namespace
+
+Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, WantedMaximum wanted) {
+  const StoppingRule rule(gap, settings);
+  CuttingPlanes cuts = first_cuts(gap);
+  if (!CertifiedNewton::is_for(gap)) return climb_and_search(gap, settings, rule, cuts, start, wanted);
+  CertifiedNewton newton(gap, cuts, rule);
+  return after_newton(gap, settings, rule, cuts, newton, newton.run(start, wanted), wanted);
+}
+
+Proximity resume_hybrid(GapFunction& gap, const Settings& settings, const GapJet& best, std::span<const Vector3> known_cuts,
+                        WantedMaximum wanted) {
+  const StoppingRule rule(gap, settings);
+  CuttingPlanes cuts = first_cuts(gap);
+  for (const Vector3& cut : known_cuts) cuts.add(cut);
+  CertifiedNewton newton(gap, cuts, rule);
+  return after_newton(gap, settings, rule, cuts, newton, newton.resume(best), wanted);
 }
 
 }  // namespace supernormal

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapes/lanes/lane_body_of.hpp"
 #include "shapes/sharp_section.hpp"
 #include "shapes/validation.hpp"
 
@@ -70,7 +71,8 @@ Superellipsoid::Superellipsoid(const Vector3& half_axes, double delta, double ep
       inner_gauge_(PowerNorm::of_exponent(delta)),
       outer_gauge_(PowerNorm::of_exponent(epsilon)),
       rolling_radius_(rolling_radius_of(half_axes_, delta, epsilon)),
-      bounding_radius_(largest_radius(largest_radius(half_axes_.x(), half_axes_.y(), delta), half_axes_.z(), epsilon)) {}
+      bounding_radius_(largest_radius(largest_radius(half_axes_.x(), half_axes_.y(), delta), half_axes_.z(), epsilon)),
+      numbers_(lane_body_of(*this, half_axes, delta, epsilon)) {}
 
 // With equal exponents the two norms are one norm of three numbers. A sharp body does not use this, because its high powers p
 // amplify the rounding of the ratios.

@@ -1,6 +1,7 @@
 // Ellipsoid: its support function is a Euclidean norm and needs no powers.
 #pragma once
 
+#include "supernormal/shapes/lane_body.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {
@@ -13,6 +14,7 @@ class SUPERNORMAL_API Ellipsoid final : public Shape {
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
   bool has_hessian() const override { return true; }
+  const LaneBody* lane_body() const override { return &numbers_; }
   bool is_round() const override { return true; }
   bool is_symmetric() const override { return true; }
   bool surely_contains(const Vector3& point) const override;
@@ -28,6 +30,7 @@ class SUPERNORMAL_API Ellipsoid final : public Shape {
  private:
   Vector3 half_axes_;
   Vector3 squares_;  // m^2; half_axes_ squared
+  LaneBody numbers_;
 };
 
 }  // namespace supernormal

@@ -62,6 +62,7 @@ class ActiveVertices {
 };
 
 class Superellipsoid;
+struct LaneBody;
 
 /// A convex body in its normal parameterization (Roemer; lib/shapes/README.md). The functions of a shape are pure: any number of
 /// threads may call them at once.
@@ -81,6 +82,9 @@ class SUPERNORMAL_API Shape {
 
   /// This object if it is a superellipsoid, null otherwise. Two superellipsoids are evaluated together.
   virtual const Superellipsoid* as_superellipsoid() const { return nullptr; }
+
+  /// The numbers of an ellipsoid or superellipsoid; null for other shapes. Queries evaluate such bodies in vector lanes.
+  virtual const LaneBody* lane_body() const { return nullptr; }
 
   /// Whether evaluate() delivers H for Order::Hessian. Override it in this case, because queries then take fewer evaluations.
   /// Otherwise solvers estimate the radii of curvature from boundary points, and mass_properties() uses differences of boundary

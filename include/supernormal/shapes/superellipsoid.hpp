@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 
+#include "supernormal/shapes/lane_body.hpp"
 #include "supernormal/shapes/power_norm.hpp"
 #include "supernormal/shapes/shape.hpp"
 
@@ -40,6 +41,7 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   /// Evaluates four normals in half of the time, with the same digits.
   static void evaluate_four(const std::array<EvalRequest, 4>& requests, Order order);
   const Superellipsoid* as_superellipsoid() const override { return this; }
+  const LaneBody* lane_body() const override { return &numbers_; }
 
   /// Moves the boundary point and takes the normal there, the gradient of the implicit function. On a flat face r is a high power
   /// of n, so r changes steeply with n; n changes slowly with r.
@@ -81,6 +83,7 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   PowerNorm inner_support_, outer_support_;  // norms of (a nx, b ny) and of (inner, c nz): exponents p and q
   PowerNorm inner_gauge_, outer_gauge_;      // norms of (x/a, y/b) and of (inner, z/c): exponents delta and epsilon
   double rolling_radius_, bounding_radius_;  // m
+  LaneBody numbers_;
 };
 
 }  // namespace supernormal
