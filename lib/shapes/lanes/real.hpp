@@ -175,6 +175,20 @@ SUPERNORMAL_LANES Real<W> abs(Real<W> a) { return from_bits(bits_of(a) & ~kSignB
 /// `magnitude`, which is not negative, with the sign of `sign`.
 SUPERNORMAL_LANES Real<W> with_sign(Real<W> magnitude, Real<W> sign) { return from_bits(bits_of(magnitude) | (bits_of(sign) & kSignBit)); }
 
+/// The numbers of all lanes, from a function of the lane. The registers are filled without a way through memory.
+template <int W, typename Number>
+SUPERNORMAL_INLINE Real<W> lanes_from(const Number& number) {
+  if constexpr (W == 1) {
+    return Real<1>(number(0));
+  } else if constexpr (W == 2) {
+    return Real<2>(typename Real<2>::Raw{number(0), number(1)});
+  } else if constexpr (W == 4) {
+    return Real<4>(typename Real<4>::Raw{number(0), number(1), number(2), number(3)});
+  } else {
+    return Real<8>(typename Real<8>::Raw{number(0), number(1), number(2), number(3), number(4), number(5), number(6), number(7)});
+  }
+}
+
 SUPERNORMAL_LANES Real<W> load(const double* from) {
   Real<W> result;
   __builtin_memcpy(&result.v, from, sizeof result.v);
@@ -182,12 +196,31 @@ SUPERNORMAL_LANES Real<W> load(const double* from) {
 }
 SUPERNORMAL_LANES void store(double* to, Real<W> a) { __builtin_memcpy(to, &a.v, sizeof a.v); }
 
+template <typename M>
+struct TwoMasks {
+  M a, b;
+};
+template <typename M>
+SUPERNORMAL_INLINE TwoMasks<M> operator&(TwoMasks<M> x, TwoMasks<M> y) {
+  return {x.a & y.a, x.b & y.b};
+}
+template <typename M>
+SUPERNORMAL_INLINE TwoMasks<M> operator|(TwoMasks<M> x, TwoMasks<M> y) {
+  return {x.a | y.a, x.b | y.b};
+}
+template <typename M>
+SUPERNORMAL_INLINE TwoMasks<M> operator~(TwoMasks<M> x) {
+  return {~x.a, ~x.b};
+}
+template <typename M>
+SUPERNORMAL_INLINE bool any(TwoMasks<M> x) {
+  return any(x.a | x.b);
+}
+
 /// Two numbers side by side, for the two bodies of a pair. Their operations alternate, so that one body's do not wait for each other.
 template <typename Real>
 struct Two {
-  struct Mask {
-    typename Real::Mask a, b;
-  };
+  using Mask = TwoMasks<typename Real::Mask>;
   Real a, b;
   Two() = default;
   SUPERNORMAL_INLINE Two(Real x, Real y) : a(x), b(y) {}
@@ -204,6 +237,7 @@ SUPERNORMAL_TWO Two<R> operator+(Two<R> x, double y) { return {x.a + y, x.b + y}
 SUPERNORMAL_TWO Two<R> operator-(Two<R> x, double y) { return {x.a - y, x.b - y}; }
 SUPERNORMAL_TWO Two<R> operator*(Two<R> x, double y) { return {x.a * y, x.b * y}; }
 SUPERNORMAL_TWO typename Two<R>::Mask operator<(Two<R> x, Two<R> y) { return {x.a < y.a, x.b < y.b}; }
+SUPERNORMAL_TWO typename Two<R>::Mask operator<=(Two<R> x, Two<R> y) { return {x.a <= y.a, x.b <= y.b}; }
 SUPERNORMAL_TWO typename Two<R>::Mask operator==(Two<R> x, Two<R> y) { return {x.a == y.a, x.b == y.b}; }
 SUPERNORMAL_TWO Two<R> select(typename Two<R>::Mask mask, Two<R> x, Two<R> y) { return {select(mask.a, x.a, y.a), select(mask.b, x.b, y.b)}; }
 SUPERNORMAL_TWO Two<R> min(Two<R> x, Two<R> y) { return {min(x.a, y.a), min(x.b, y.b)}; }

@@ -56,6 +56,18 @@ SUPERNORMAL_INLINE T norm_value(T x, T y, const NormExponents<T>& p) {
   return larger * exp2(p.inverse * log2(power_1 * k + 1.0));
 }
 
+/// Two numbers with the ratio of the norm's first derivatives; the larger is 1.
+template <typename T>
+SUPERNORMAL_INLINE void gradient_direction(T x, T y, T p_minus_1, T& dx, T& dy) {
+  const auto x_is_larger = y < x;
+  const T larger = max(x, y), smaller = min(x, y);
+  const auto is_positive = T(0.0) < larger;
+  const T k = select(is_positive, smaller, T(1.0)) / select(is_positive, larger, T(1.0));
+  const T power_1 = select(T(0.0) < k, exp2(p_minus_1 * log2(max(k, T(kLanesLeastRatio)))), T(0.0));
+  dx = select(x_is_larger, T(1.0), power_1);
+  dy = select(x_is_larger, power_1, T(1.0));
+}
+
 /// The second derivatives times the value, and value * dx / x.
 template <typename T>
 struct NormBends {
