@@ -6,9 +6,7 @@ namespace supernormal {
 namespace {
 
 /// k^(p-2) at the smallest ratio k of plain numbers.
-double flat_power(double p_minus_1) {
-  return exp2(Real<1>(p_minus_1 - 1) * log2(Real<1>(kLanesFlatRatio))).v;
-}
+double flat_power(double p_minus_1) { return power(Real<1>(kLanesFlatRatio), Real<1>(p_minus_1 - 1)).v; }
 
 }  // namespace
 

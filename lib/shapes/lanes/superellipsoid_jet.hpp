@@ -35,9 +35,9 @@ SUPERNORMAL_INLINE NormJet<T> norm_jet(T x, T y, const NormExponents<T>& p) {
   // At the origin the direction is undefined. The values are then the values for x = y.
   const auto is_positive = T(0.0) < larger;
   out.k = select(is_positive, smaller, T(1.0)) / select(is_positive, larger, T(1.0));
-  out.power_1 = select(T(0.0) < out.k, exp2(p.power_1 * log2(max(out.k, T(kLanesLeastRatio)))), T(0.0));
+  out.power_1 = select(T(0.0) < out.k, power(max(out.k, T(kLanesLeastRatio)), p.power_1), T(0.0));
   const T sum = out.power_1 * out.k + 1.0;
-  out.root = exp2(p.inverse * log2(sum));
+  out.root = root(sum, p.inverse);
   out.value = larger * out.root;
   out.d_larger = out.root / sum;
   const T d_smaller = out.d_larger * out.power_1;
@@ -52,8 +52,8 @@ SUPERNORMAL_INLINE T norm_value(T x, T y, const NormExponents<T>& p) {
   const T larger = max(x, y), smaller = min(x, y);
   const auto is_positive = T(0.0) < larger;
   const T k = select(is_positive, smaller, T(1.0)) / select(is_positive, larger, T(1.0));
-  const T power_1 = select(T(0.0) < k, exp2(p.power_1 * log2(max(k, T(kLanesLeastRatio)))), T(0.0));
-  return larger * exp2(p.inverse * log2(power_1 * k + 1.0));
+  const T power_1 = select(T(0.0) < k, power(max(k, T(kLanesLeastRatio)), p.power_1), T(0.0));
+  return larger * root(power_1 * k + 1.0, p.inverse);
 }
 
 /// Two numbers with the ratio of the norm's first derivatives; the larger is 1.
@@ -63,7 +63,7 @@ SUPERNORMAL_INLINE void gradient_direction(T x, T y, T p_minus_1, T& dx, T& dy) 
   const T larger = max(x, y), smaller = min(x, y);
   const auto is_positive = T(0.0) < larger;
   const T k = select(is_positive, smaller, T(1.0)) / select(is_positive, larger, T(1.0));
-  const T power_1 = select(T(0.0) < k, exp2(p_minus_1 * log2(max(k, T(kLanesLeastRatio)))), T(0.0));
+  const T power_1 = select(T(0.0) < k, power(max(k, T(kLanesLeastRatio)), p_minus_1), T(0.0));
   dx = select(x_is_larger, T(1.0), power_1);
   dy = select(x_is_larger, power_1, T(1.0));
 }
