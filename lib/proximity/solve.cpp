@@ -81,6 +81,10 @@ Proximity find_proximity(const Shape& shape1, const Pose& pose1, const Shape& sh
   return find_alone(pair, settings, is_warm);
 }
 
+Proximity find_proximity(const ProximityQuery& query, const Settings& settings) {
+  return find_proximity(*query.shape1, *query.pose1, *query.shape2, *query.pose2, settings, query.first_normal);
+}
+
 void find_proximities(std::span<const ProximityQuery> queries, const Settings& settings, std::span<Proximity> results) {
   check(settings);
   if (results.size() != queries.size()) {

@@ -110,7 +110,8 @@ struct LaneSearch {
     auto& rows = pairs.rows;
     for (int i = 0; i < 3; ++i) rows[(is_second ? kHalf2 : kHalf1) + i][column] = body.half[i];
     if (of_ellipsoids) return;
-    const int norms = is_second ? kNorms2 : kNorms1, flats = is_second ? kFlats2 : kFlats1, gauges = is_second ? kGauges2 : kGauges1;
+    const int norms = is_second ? kNorms2 : kNorms1, flats = is_second ? kFlats2 : kFlats1,
+              gauges = is_second ? kGauges2 : kGauges1;
     rows[norms][column] = body.p_minus_1;
     rows[norms + 1][column] = body.inverse_p;
     rows[norms + 2][column] = body.q_minus_1;
@@ -195,7 +196,8 @@ struct LaneSearch {
     if (any(~is_given)) {
       const R size1 = number(false, &LaneBody::size), size2 = number(true, &LaneBody::size);
       const M is_concentric = distance <= (size1 + size2) * kLaneConcentric;
-      const V direction = select(is_concentric, V{R(1.0), R(0.0), R(0.0)}, offset * (R(1.0) / select(is_concentric, R(1.0), distance)));
+      const V direction =
+          select(is_concentric, V{R(1.0), R(0.0), R(0.0)}, offset * (R(1.0) / select(is_concentric, R(1.0), distance)));
       V guessed = guess(rotation, half1, half2, size1, size2, direction);
       if (any(is_concentric)) {
         const V axis = select(smallest(half1) <= smallest(half2), thinnest_axis(half1), rotation * thinnest_axis(half2));
@@ -248,8 +250,8 @@ struct LaneSearch {
       // 1 - w_x^2 = w_y^2 + w_z^2 keeps the digits of a needle's small radii (ellipsoid.cpp).
       const V w = times(half1, n) * inverse1, a = times(half1, w), squares = times(half1, half1) * inverse1;
       const V w2 = times(w, w);
-      H1 = {squares.x * (w2.y + w2.z),     squares.y * (w2.z + w2.x),     squares.z * (w2.x + w2.y),
-            -(a.x * a.y * inverse1), -(a.x * a.z * inverse1), -(a.y * a.z * inverse1)};
+      H1 = {squares.x * (w2.y + w2.z), squares.y * (w2.z + w2.x), squares.z * (w2.x + w2.y),
+            -(a.x * a.y * inverse1),   -(a.x * a.z * inverse1),   -(a.y * a.z * inverse1)};
       const S B = rotated_diagonal(rotation, times(half2, half2) * inverse2);
       const V b = r2 * inverse2;
       H = {H1.xx + (B.xx - r2.x * b.x), H1.yy + (B.yy - r2.y * b.y), H1.zz + (B.zz - r2.z * b.z),
@@ -281,7 +283,8 @@ struct LaneSearch {
       return {dot(n, offset) - jets.h.a - jets.h.b, jets.h.a, r2 + (offset - r1), r1};
     }
     SUPERNORMAL_INLINE void hessians(V, S& of_1, S& of_both) {
-      const Sym<P> H = hessian(bodies, jets, P(state.at(kFlats1), state.at(kFlats2)), P(state.at(kFlats1 + 1), state.at(kFlats2 + 1)));
+      const Sym<P> H =
+          hessian(bodies, jets, P(state.at(kFlats1), state.at(kFlats2)), P(state.at(kFlats1 + 1), state.at(kFlats2 + 1)));
       H1 = {H.xx.a, H.yy.a, H.zz.a, H.xy.a, H.xz.a, H.yz.a};
       H2 = {H.xx.b, H.yy.b, H.zz.b, H.xy.b, H.xz.b, H.yz.b};
       H2_in_1 = rotated(rotation, H2);
@@ -303,8 +306,8 @@ struct LaneSearch {
     SUPERNORMAL_INLINE M is_flat(int gauges) const { return (R(1.0) < state.at(gauges)) & (R(1.0) < state.at(gauges + 2)); }
 
     /// The tilts beyond n + step and m - step of the normals at the boundary points to which the step leads
-    /// (CertifiedNewton::through_boundary_points). Zero for a body that is not flat, and where the normal rotates too far. For a body
-    /// with one flat norm and one sharp norm the step in the normal takes 8 % more evaluations, and each costs 20 % less.
+    /// (CertifiedNewton::through_boundary_points). Zero for a body that is not flat, and where the normal rotates too far. For a
+    /// body with one flat norm and one sharp norm the step in the normal takes 8 % more evaluations, and each costs 20 % less.
     SUPERNORMAL_INLINE void tilts(V n, V m, V step1, V step2, V& tilt1, V& tilt2) const {
       const Vec<P> normal = {{n.x, m.x}, {n.y, m.y}, {n.z, m.z}}, dn = {{step1.x, step2.x}, {step1.y, step2.y}, {step1.z, step2.z}};
       const Sym<P> H = {{H1.xx, H2.xx}, {H1.yy, H2.yy}, {H1.zz, H2.zz}, {H1.xy, H2.xy}, {H1.xz, H2.xz}, {H1.yz, H2.yz}};
@@ -506,7 +509,8 @@ struct LaneSearch {
   /// Whether the bodies contain a point of body 1's frame, by their equations (Shape::surely_contains).
   SUPERNORMAL_INLINE static M both_contain(const Pairs& pairs, int column, bool of_ellipsoids, V point, V from2) {
     const V half1 = pairs.vec(kHalf1, column), half2 = pairs.vec(kHalf2, column);
-    const V x1 = {point.x / half1.x, point.y / half1.y, point.z / half1.z}, x2 = {from2.x / half2.x, from2.y / half2.y, from2.z / half2.z};
+    const V x1 = {point.x / half1.x, point.y / half1.y, point.z / half1.z},
+            x2 = {from2.x / half2.x, from2.y / half2.y, from2.z / half2.z};
     if (of_ellipsoids) return (dot(x1, x1) <= R(1.0)) & (dot(x2, x2) <= R(1.0));
     using P = Two<R>;
     const auto both = [&](int field) { return P(pairs.at(kGauges1 + field, column), pairs.at(kGauges2 + field, column)); };
@@ -529,8 +533,8 @@ struct LaneSearch {
   };
 
   /// The contact (contact_point.cpp), and where its formula serves.
-  SUPERNORMAL_INLINE static M place_contact(const Pairs& pairs, const Ends& ends, int column, bool of_ellipsoids, const Radii& radii,
-                                            M wanted, V& contact) {
+  SUPERNORMAL_INLINE static M place_contact(const Pairs& pairs, const Ends& ends, int column, bool of_ellipsoids,
+                                            const Radii& radii, M wanted, V& contact) {
     const V n = ends.vec(kFoundNormal, column), d = ends.vec(kFoundD, column), r1 = ends.vec(kFoundR, column);
     const R s = ends.at(kFoundS, column), unit_length = pairs.at(kUnit, column);
     const Regular sum(ends.sym(kFoundHessian, column), R(0.0), n, unit_length, kLaneFlatContact);
@@ -642,7 +646,8 @@ struct LaneSearch {
         for (int lane = here - column; lane < W; ++lane) {
           for (auto& row : ends.rows) row[column + lane] = row[here - 1];
         }
-        finish(pairs + first + column, prepared, ends, column, here - column < W ? here - column : W, of_ellipsoids, answers + first + column);
+        finish(pairs + first + column, prepared, ends, column, here - column < W ? here - column : W, of_ellipsoids,
+               answers + first + column);
       }
     }
   }

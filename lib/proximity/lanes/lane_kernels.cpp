@@ -8,7 +8,8 @@ LaneKernels available() {
 #ifdef SUPERNORMAL_WIDE_LANES
   __builtin_cpu_init();
   if (__builtin_cpu_supports("avx2") != 0) all.kernels[all.count++] = &kFourLanes;
-  if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512vl") != 0) {
+  if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+      __builtin_cpu_supports("avx512vl") != 0) {
     all.kernels[all.count++] = &kEightLanes;
   }
 #endif

@@ -10,8 +10,12 @@ namespace supernormal {
 namespace {
 
 LanePair lane_pair(const ProximityQuery& pair) {
-  return {pair.shape1->lane_body(),      pair.shape2->lane_body(),       pair.pose1->position.data(),
-          pair.pose1->rotation.data(),   pair.pose2->position.data(),    pair.pose2->rotation.data(),
+  return {pair.shape1->lane_body(),
+          pair.shape2->lane_body(),
+          pair.pose1->position.data(),
+          pair.pose1->rotation.data(),
+          pair.pose2->position.data(),
+          pair.pose2->rotation.data(),
           pair.first_normal != nullptr ? pair.first_normal->data() : nullptr};
 }
 

@@ -40,9 +40,9 @@ enum Found {
   kFoundHessian1,                      // m; of body 1
   kFoundHessian = kFoundHessian1 + 6,  // m; H1 + H2
   kFoundOfEllipsoids = kFoundHessian + 6,
-  kFoundH2 = kFoundOfEllipsoids,   // m; the support function of body 2; the rest in its own frame
-  kFoundR2,                        // m; the boundary point
-  kFoundHessian2 = kFoundR2 + 3,   // m
+  kFoundH2 = kFoundOfEllipsoids,  // m; the support function of body 2; the rest in its own frame
+  kFoundR2,                       // m; the boundary point
+  kFoundHessian2 = kFoundR2 + 3,  // m
   kFoundFields = kFoundHessian2 + 6
 };
 

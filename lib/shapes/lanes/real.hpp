@@ -1,8 +1,8 @@
 // Doubles in lanes: W numbers on which one operation acts at once.
 //
 // The same source is compiled once for each instruction set, and the digits must not depend on the width, so every operation here
-// is one correctly rounded operation per lane. Nothing is fused (-ffp-contract=off), and nothing comes from libm, whose pow, log and
-// exp depend on the processor.
+// is one correctly rounded operation per lane. Nothing is fused (-ffp-contract=off), and nothing comes from libm, whose pow, log
+// and exp depend on the processor.
 //
 // The files that include this header for wide registers include no Eigen and no inline function of the standard library. A linker
 // keeps one copy of an inline function, and a copy with AVX instructions would then run on every machine. The names here are in an
@@ -31,26 +31,26 @@ template <int W>
 struct Real;
 
 // One specialization a width, because a vector type of GCC and clang may not depend on a parameter of a template.
-#define SUPERNORMAL_WIDTH(W)                                                  \
-  template <>                                                                 \
-  struct Bits<W> {                                                            \
-    using Raw = unsigned long long __attribute__((vector_size(8 * (W))));     \
-    Raw v;                                                                    \
-  };                                                                          \
-  template <>                                                                 \
-  struct Mask<W> {                                                            \
-    using Raw = long long __attribute__((vector_size(8 * (W))));              \
-    Raw v;                                                                    \
-  };                                                                          \
-  template <>                                                                 \
-  struct Real<W> {                                                            \
-    using Raw = double __attribute__((vector_size(8 * (W))));                 \
-    using Mask = supernormal::Mask<W>;                                        \
-    static constexpr int kWidth = W;                                          \
-    Raw v;                                                                    \
-    Real() = default;                                                         \
-    SUPERNORMAL_INLINE Real(Raw raw) : v(raw) {}                              \
-    SUPERNORMAL_INLINE Real(double x) : v(Raw{} + x) {}                       \
+#define SUPERNORMAL_WIDTH(W)                                              \
+  template <>                                                             \
+  struct Bits<W> {                                                        \
+    using Raw = unsigned long long __attribute__((vector_size(8 * (W)))); \
+    Raw v;                                                                \
+  };                                                                      \
+  template <>                                                             \
+  struct Mask<W> {                                                        \
+    using Raw = long long __attribute__((vector_size(8 * (W))));          \
+    Raw v;                                                                \
+  };                                                                      \
+  template <>                                                             \
+  struct Real<W> {                                                        \
+    using Raw = double __attribute__((vector_size(8 * (W))));             \
+    using Mask = supernormal::Mask<W>;                                    \
+    static constexpr int kWidth = W;                                      \
+    Raw v;                                                                \
+    Real() = default;                                                     \
+    SUPERNORMAL_INLINE Real(Raw raw) : v(raw) {}                          \
+    SUPERNORMAL_INLINE Real(double x) : v(Raw{} + x) {}                   \
   };
 SUPERNORMAL_WIDTH(2)
 SUPERNORMAL_WIDTH(4)
@@ -78,7 +78,9 @@ struct Real<1> {
   SUPERNORMAL_INLINE Real(double x) : v(x) {}
 };
 
-#define SUPERNORMAL_LANES template <int W> SUPERNORMAL_INLINE
+#define SUPERNORMAL_LANES \
+  template <int W>        \
+  SUPERNORMAL_INLINE
 
 SUPERNORMAL_LANES Real<W> operator+(Real<W> a, Real<W> b) { return {a.v + b.v}; }
 SUPERNORMAL_LANES Real<W> operator-(Real<W> a, Real<W> b) { return {a.v - b.v}; }
@@ -173,7 +175,9 @@ constexpr unsigned long long kSignBit = 0x8000000000000000ULL;
 
 SUPERNORMAL_LANES Real<W> abs(Real<W> a) { return from_bits(bits_of(a) & ~kSignBit); }
 /// `magnitude`, which is not negative, with the sign of `sign`.
-SUPERNORMAL_LANES Real<W> with_sign(Real<W> magnitude, Real<W> sign) { return from_bits(bits_of(magnitude) | (bits_of(sign) & kSignBit)); }
+SUPERNORMAL_LANES Real<W> with_sign(Real<W> magnitude, Real<W> sign) {
+  return from_bits(bits_of(magnitude) | (bits_of(sign) & kSignBit));
+}
 
 /// The numbers of all lanes, from a function of the lane. The registers are filled without a way through memory.
 template <int W, typename Number>
@@ -217,7 +221,8 @@ SUPERNORMAL_INLINE bool any(TwoMasks<M> x) {
   return any(x.a | x.b);
 }
 
-/// Two numbers side by side, for the two bodies of a pair. Their operations alternate, so that one body's do not wait for each other.
+/// Two numbers side by side, for the two bodies of a pair. Their operations alternate, so that one body's do not wait for each
+/// other.
 template <typename Real>
 struct Two {
   using Mask = TwoMasks<typename Real::Mask>;
@@ -227,7 +232,9 @@ struct Two {
   SUPERNORMAL_INLINE Two(double x) : a(x), b(x) {}
 };
 
-#define SUPERNORMAL_TWO template <typename R> SUPERNORMAL_INLINE
+#define SUPERNORMAL_TWO \
+  template <typename R> \
+  SUPERNORMAL_INLINE
 SUPERNORMAL_TWO Two<R> operator+(Two<R> x, Two<R> y) { return {x.a + y.a, x.b + y.b}; }
 SUPERNORMAL_TWO Two<R> operator-(Two<R> x, Two<R> y) { return {x.a - y.a, x.b - y.b}; }
 SUPERNORMAL_TWO Two<R> operator*(Two<R> x, Two<R> y) { return {x.a * y.a, x.b * y.b}; }
@@ -239,7 +246,9 @@ SUPERNORMAL_TWO Two<R> operator*(Two<R> x, double y) { return {x.a * y, x.b * y}
 SUPERNORMAL_TWO typename Two<R>::Mask operator<(Two<R> x, Two<R> y) { return {x.a < y.a, x.b < y.b}; }
 SUPERNORMAL_TWO typename Two<R>::Mask operator<=(Two<R> x, Two<R> y) { return {x.a <= y.a, x.b <= y.b}; }
 SUPERNORMAL_TWO typename Two<R>::Mask operator==(Two<R> x, Two<R> y) { return {x.a == y.a, x.b == y.b}; }
-SUPERNORMAL_TWO Two<R> select(typename Two<R>::Mask mask, Two<R> x, Two<R> y) { return {select(mask.a, x.a, y.a), select(mask.b, x.b, y.b)}; }
+SUPERNORMAL_TWO Two<R> select(typename Two<R>::Mask mask, Two<R> x, Two<R> y) {
+  return {select(mask.a, x.a, y.a), select(mask.b, x.b, y.b)};
+}
 SUPERNORMAL_TWO Two<R> min(Two<R> x, Two<R> y) { return {min(x.a, y.a), min(x.b, y.b)}; }
 SUPERNORMAL_TWO Two<R> max(Two<R> x, Two<R> y) { return {max(x.a, y.a), max(x.b, y.b)}; }
 SUPERNORMAL_TWO Two<R> sqrt(Two<R> x) { return {sqrt(x.a), sqrt(x.b)}; }

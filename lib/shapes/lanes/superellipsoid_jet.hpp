@@ -121,8 +121,12 @@ SUPERNORMAL_INLINE Sym<T> hessian(const PowerBody<T>& body, const PointJet<T>& j
   const T tt = out.xx * inverse, tz = out.xy * inverse, slope = out.dx_over_x * inverse;
   const Vec<T>& a = jet.signed_axes;
   const T x = a.x * jet.inner.dx, y = a.y * jet.inner.dy;
-  return {tt * x * x + slope * in.xx * (a.x * a.x), tt * y * y + slope * in.yy * (a.y * a.y), out.yy * inverse * (a.z * a.z),
-          tt * x * y + slope * in.xy * (a.x * a.y), tz * x * a.z, tz * y * a.z};
+  return {tt * x * x + slope * in.xx * (a.x * a.x),
+          tt * y * y + slope * in.yy * (a.y * a.y),
+          out.yy * inverse * (a.z * a.z),
+          tt * x * y + slope * in.xy * (a.x * a.y),
+          tz * x * a.z,
+          tz * y * a.z};
 }
 
 }  // namespace

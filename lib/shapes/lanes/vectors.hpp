@@ -23,7 +23,9 @@ struct Mat {
   Vec<T> x, y, z;
 };
 
-#define SUPERNORMAL_VEC template <typename T> SUPERNORMAL_INLINE
+#define SUPERNORMAL_VEC \
+  template <typename T> \
+  SUPERNORMAL_INLINE
 SUPERNORMAL_VEC Vec<T> operator+(Vec<T> a, Vec<T> b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 SUPERNORMAL_VEC Vec<T> operator-(Vec<T> a, Vec<T> b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 SUPERNORMAL_VEC Vec<T> operator-(Vec<T> a) { return {-a.x, -a.y, -a.z}; }
