@@ -22,7 +22,7 @@ constexpr double kLaneEpsilon = 0x1p-52;
 // contact_point.cpp, where their reasons stand.
 constexpr double kLaneRoundingUnits = 8, kLaneFloor = 4, kLaneConcentric = 1e-12, kLaneSingularGuess = 1e-150;
 constexpr double kLaneFlattest = 1e8, kLaneFlatContact = 1e4, kLaneSingular = 1e-12, kLaneNothing = 1e-30, kLaneGrazing = 1e-6;
-constexpr double kLaneSameTurn = 0.01, kLaneBacktrack = 0.5, kLaneLongestStep = 1, kLaneNear = 1e-7;
+constexpr double kLaneSameTurn = 0.01, kLaneBacktrack = 0.5, kLaneLongestStep = 1, kLaneNear = 1e-7, kLaneGainSafety = 3;
 
 /// The columns of a table of pairs. Of ellipsoids only the first kEllipsoidFields are in use.
 enum Field {
@@ -228,6 +228,7 @@ struct LaneSearch {
 
   /// Of two ellipsoids: h = |A n| with A = diag(half), r = A A n / h, and H = (A A - r r^T) / h.
   struct Ellipsoids {
+    static constexpr bool kOfEllipsoids = true;
     Mat<R> rotation;
     V half1, half2;
     V r2;  // minus the boundary point of body 2, in body 1's frame
@@ -265,6 +266,7 @@ struct LaneSearch {
 
   /// Of two superellipsoids, evaluated side by side.
   struct Superellipsoids {
+    static constexpr bool kOfEllipsoids = false;
     using P = Two<R>;
     const Table<kFields, W>& state;
     Mat<R> rotation;
@@ -382,7 +384,7 @@ struct LaneSearch {
 
   /// The pairs that end with an evaluation.
   struct Round {
-    M is_apart, is_proved, is_open;
+    M is_apart, is_proved, is_followed, is_open;
   };
 
   /// One evaluation of every lane, and the next normal of those that go on.
@@ -418,7 +420,11 @@ struct LaneSearch {
     round.is_apart = settings.stop_when_apart ? is_active & is_better & (R(0.0) < now.s) : R(1.0) < R(0.0);
     round.is_proved = is_active & is_better & is_provable & (error <= tolerance) & ~round.is_apart;
     // Deeper than rho there may be several maxima, and Newton's steps may lead away from the one that is tracked.
-    const M is_left = is_first & (R(0.5) < state.at(kIsTracked)) & ~is_provable;
+    // A shallow one is followed to its top.
+    const M is_deep = (R(0.5) < state.at(kIsTracked)) & ~is_provable;
+    const M may_follow = is_deep & (-now.s <= state.at(kUnit) * R(settings.followed_depth));
+    const M is_left = is_first & is_deep & ~may_follow;
+    round.is_followed = R(1.0) < R(0.0);
     round.is_open = is_active & is_left & ~(round.is_apart | round.is_proved);
     M goes_on = is_active & ~(round.is_apart | round.is_proved | round.is_open);
     if (!any(goes_on | round.is_proved | round.is_open)) return round;
@@ -431,12 +437,18 @@ struct LaneSearch {
 
     const Regular regular(H, now.s, n, state.at(kUnit), kLaneFlattest);
     V step = regular.solve(now.d - n * now.s);
+    // The model's gain is half of this product.
+    const R twice_gain = dot(now.d, step);
+    round.is_followed =
+        goes_on & is_better & may_follow & regular.is_regular & (twice_gain * R(0.5 * kLaneGainSafety) <= tolerance);
+    goes_on = goes_on & ~round.is_followed;
     bodies.improve(n, m, now, regular, goes_on & is_better & regular.is_regular, step);
     const M gains = tolerance < dot(now.d, step);
     // A face is level: no shorter step leads higher.
     const M is_level = bodies.has_flat_faces() & (best_s - state.at(kRounding) <= now.s);
     const M is_last = R(settings.most_evaluations - 1.5) < evaluations;
-    const M is_stuck = (is_better & (~regular.is_regular | ~(is_provable | gains))) | (~is_better & is_level) | is_last;
+    const M is_stuck =
+        (is_better & (~regular.is_regular | ~(is_provable | may_follow | gains))) | (~is_better & is_level) | is_last;
     round.is_open = round.is_open | (goes_on & is_stuck);
     goes_on = goes_on & ~is_stuck;
 
@@ -451,7 +463,7 @@ struct LaneSearch {
 
   template <typename Bodies>
   SUPERNORMAL_INLINE static void search(Pairs& pairs, int count, const LaneSettings& settings, Ends& ends, LaneAnswer* answers) {
-    constexpr bool kOfEllipsoids = __is_same(Bodies, Ellipsoids);
+    constexpr bool kOfEllipsoids = Bodies::kOfEllipsoids;
     constexpr int kInUse = kOfEllipsoids ? static_cast<int>(kEllipsoidFields) : static_cast<int>(kFields);
     constexpr int kFoundInUse = kOfEllipsoids ? static_cast<int>(kFoundOfEllipsoids) : static_cast<int>(kFoundFields);
     // A single pair is searched where it lies.
@@ -476,17 +488,19 @@ struct LaneSearch {
       const Round round = advance<Bodies>(settings, lanes);
       for (int lane = 0; lane < W; ++lane) lanes.evaluations[lane] += 1;
       const unsigned apart = lanes_of(round.is_apart), proved = lanes_of(round.is_proved), open = lanes_of(round.is_open);
-      for (unsigned ended = apart | proved | open; ended != 0; ended &= ended - 1) {
+      const unsigned followed = lanes_of(round.is_followed);
+      for (unsigned ended = apart | proved | followed | open; ended != 0; ended &= ended - 1) {
         const int lane = __builtin_ctz(ended), index = lanes.pair[lane];
         const bool is_open = (open >> lane & 1) != 0;
         LaneAnswer& answer = answers[index];
         answer.outcome = is_open ? LaneOutcome::Open : (apart >> lane & 1) != 0 ? LaneOutcome::Apart : LaneOutcome::Proved;
+        answer.is_followed = (followed >> lane & 1) != 0;
         answer.evaluations = static_cast<int>(lanes.evaluations[lane]);
         if constexpr (W > 1) {
           for (int field = 0; field < kFoundInUse; ++field) ends.rows[field][index] = lanes.found.rows[field][lane];
         }
         answer.has_jet = !kOfEllipsoids;
-        if (is_open) {
+        if (is_open || answer.is_followed) {
           const int best = static_cast<int>(lanes.best_at[lane]);
           answer.has_jet = !kOfEllipsoids && best == answer.evaluations - 1;
           for (int i = 0; i < 3; ++i) ends.rows[kFoundNormal + i][index] = lanes.best_normal.rows[i][lane];
@@ -507,7 +521,8 @@ struct LaneSearch {
   // -------------------------------------------------------------------------------------------------------------------- finish
 
   /// Whether the bodies contain a point of body 1's frame, by their equations (Shape::surely_contains).
-  SUPERNORMAL_INLINE static M both_contain(const Pairs& pairs, int column, bool of_ellipsoids, V point, V from2) {
+  template <typename PairTable>
+  SUPERNORMAL_INLINE static M both_contain(const PairTable& pairs, int column, bool of_ellipsoids, V point, V from2) {
     const V half1 = pairs.vec(kHalf1, column), half2 = pairs.vec(kHalf2, column);
     const V x1 = {point.x / half1.x, point.y / half1.y, point.z / half1.z},
             x2 = {from2.x / half2.x, from2.y / half2.y, from2.z / half2.z};
@@ -534,7 +549,7 @@ struct LaneSearch {
 
   /// The contact (contact_point.cpp), and where its formula serves.
   SUPERNORMAL_INLINE static M place_contact(const Pairs& pairs, const Ends& ends, int column, bool of_ellipsoids,
-                                            const Radii& radii, M wanted, V& contact) {
+                                            const Radii& radii, M wanted, M is_followed, V& contact) {
     const V n = ends.vec(kFoundNormal, column), d = ends.vec(kFoundD, column), r1 = ends.vec(kFoundR, column);
     const R s = ends.at(kFoundS, column), unit_length = pairs.at(kUnit, column);
     const Regular sum(ends.sym(kFoundHessian, column), R(0.0), n, unit_length, kLaneFlatContact);
@@ -567,7 +582,8 @@ struct LaneSearch {
 
     const V to_centre1 = contact - (r1 - n * radii.rolling1), to_centre2 = contact - (r1 + d + n * radii.rolling2);
     const M is_in_balls = (length(to_centre1) <= radii.rolling1 + near) & (length(to_centre2) <= radii.rolling2 + near);
-    const M is_open = wanted & is_good & (s < R(0.0)) & ~is_in_balls;
+    // That a point is in both bodies also proves that they overlap where a maximum is followed.
+    const M is_open = wanted & is_good & (s < R(0.0)) & (is_followed | ~is_in_balls);
     if (any(is_open)) {
       const Mat<R> rotation = {pairs.vec(kRotation, column), pairs.vec(kRotation + 3, column), pairs.vec(kRotation + 6, column)};
       const V from2 = transposed_times(rotation, contact - pairs.vec(kOffset, column));
@@ -579,15 +595,18 @@ struct LaneSearch {
   SUPERNORMAL_INLINE static void finish(const LanePair* inputs, const Pairs& pairs, const Ends& ends, int column, int count,
                                         bool of_ellipsoids, LaneAnswer* answers) {
     const Place place1(inputs, count, false);
-    alignas(64) double proved[W];
-    for (int lane = 0; lane < W; ++lane) proved[lane] = lane < count && answers[lane].outcome == LaneOutcome::Proved ? 1 : 0;
-    const M is_proved = R(0.5) < load<W>(proved);
+    const auto find = [&](auto&& has) {
+      return R(0.5) < lanes_from<W>([&](int lane) { return lane < count && has(answers[lane]) ? 1.0 : 0.0; });
+    };
+    const M is_proved = find([](const LaneAnswer& answer) { return answer.outcome == LaneOutcome::Proved; });
+    const M is_followed = find([](const LaneAnswer& answer) { return answer.is_followed; });
     const V n = ends.vec(kFoundNormal, column), d = ends.vec(kFoundD, column), r1 = ends.vec(kFoundR, column);
     V contact = r1 + d * R(0.5);
     M is_complete = is_proved;
     if (any(is_proved)) {
       V placed;
-      is_complete = is_proved & place_contact(pairs, ends, column, of_ellipsoids, Radii(inputs, count), is_proved, placed);
+      is_complete =
+          is_proved & place_contact(pairs, ends, column, of_ellipsoids, Radii(inputs, count), is_proved, is_followed, placed);
       contact = select(is_complete, placed, contact);
     }
     const auto to_world = [&place1](V point) { return place1.rotation * point + place1.position; };
@@ -610,7 +629,9 @@ struct LaneSearch {
     const unsigned complete = lanes_of(is_complete);
     for (int lane = 0; lane < count; ++lane) {
       LaneAnswer& answer = answers[lane];
-      if (answer.outcome == LaneOutcome::Proved && (complete >> lane & 1) == 0) answer.outcome = LaneOutcome::ProvedButContact;
+      if (answer.outcome == LaneOutcome::Proved && (complete >> lane & 1) == 0) {
+        answer.outcome = answer.is_followed ? LaneOutcome::Open : LaneOutcome::ProvedButContact;
+      }
       answer.gap = out[0][lane];
       answer.error = out[1][lane];
       answer.rounding = out[2][lane];

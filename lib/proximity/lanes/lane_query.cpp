@@ -5,6 +5,7 @@
 
 #include "proximity/answer.hpp"
 #include "proximity/solvers.hpp"
+#include "proximity/tuning.hpp"
 
 namespace supernormal {
 namespace {
@@ -20,24 +21,25 @@ LanePair lane_pair(const ProximityQuery& pair) {
 }
 
 LaneSettings lane_settings(const Settings& settings) {
-  return {settings.tolerance, std::min(kMostLaneEvaluations, settings.max_evaluations), settings.stop_when_apart};
+  return {settings.tolerance, std::min(kMostLaneEvaluations, settings.max_evaluations), settings.stop_when_apart,
+          settings.certify_depth ? 0 : kTuning.followed_depth};
 }
 
 Vector3 vector_of(const double* numbers) { return {numbers[0], numbers[1], numbers[2]}; }
 
-/// Proved or apart: answer() where s + rho > 0.
+/// Proved, followed or apart: what answer() says of it.
 Proximity complete_answer(const LaneAnswer& lane) {
   Proximity out;
   out.gap = lane.gap;
-  out.error = lane.error + lane.rounding;
+  out.error = (lane.is_followed ? std::min(lane.error, lane.tolerance) : lane.error) + lane.rounding;
   out.normal = vector_of(lane.normal);
   out.point1 = vector_of(lane.point1);
   out.point2 = vector_of(lane.point2);
   out.contact = vector_of(lane.contact);
   out.evaluations = lane.evaluations;
   out.status = lane.outcome == LaneOutcome::Apart ? Status::Apart : Status::Converged;
-  out.is_global = true;
-  out.global_error = std::max(out.error, lane.tolerance + lane.rounding);
+  out.is_global = !lane.is_followed || 2 * lane.gap >= -lane.tolerance;
+  out.global_error = out.is_global ? std::max(out.error, lane.tolerance + lane.rounding) : lane.error + lane.rounding;
   return out;
 }
 

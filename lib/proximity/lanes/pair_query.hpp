@@ -15,9 +15,10 @@ struct LanePair {
 
 /// What all pairs have in common.
 struct LaneSettings {
-  double tolerance;      ///< Settings::tolerance
-  int most_evaluations;  ///< of one pair, at least 1 and at most kMostLaneEvaluations
-  bool stop_when_apart;  ///< Settings::stop_when_apart
+  double tolerance;       ///< Settings::tolerance
+  int most_evaluations;   ///< of one pair, at least 1 and at most kMostLaneEvaluations
+  bool stop_when_apart;   ///< Settings::stop_when_apart
+  double followed_depth;  ///< of the length unit: in a shallower overlap the maximum of a first normal is followed, without a proof
 };
 
 inline constexpr int kMostLaneEvaluations = 8;
@@ -50,6 +51,7 @@ enum Found {
 /// `jet` and the cuts are set.
 struct LaneAnswer {
   LaneOutcome outcome;
+  bool is_followed;  ///< Proved, but only as a local maximum, by the gain that the model leaves
   int evaluations;
   double gap, error, rounding, tolerance;  ///< m; `error` without the rounding
   double normal[3];
