@@ -2,6 +2,6 @@
 
 namespace supernormal {
 
-constinit const LaneKernel kEightLanes = {8, "AVX-512", LaneSearch<8>::query};
+constinit const LaneKernel kEightLanes = {8, "8, AVX-512", LaneSearch<8>::query};
 
 }  // namespace supernormal

@@ -2,6 +2,6 @@
 
 namespace supernormal {
 
-constinit const LaneKernel kFourLanes = {4, "AVX2", LaneSearch<4>::query};
+constinit const LaneKernel kFourLanes = {4, "4, AVX2", LaneSearch<4>::query};
 
 }  // namespace supernormal

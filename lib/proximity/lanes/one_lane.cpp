@@ -2,6 +2,6 @@
 
 namespace supernormal {
 
-constinit const LaneKernel kOneLane = {1, "one", LaneSearch<1>::query};
+constinit const LaneKernel kOneLane = {1, "one lane", LaneSearch<1>::query};
 
 }  // namespace supernormal

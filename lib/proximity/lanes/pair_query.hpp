@@ -65,7 +65,7 @@ struct LaneAnswer {
 /// Answers `count` pairs, all of ellipsoids (`of_ellipsoids`) or of any kind.
 struct LaneKernel {
   int width;         ///< lanes
-  const char* name;  ///< of the instruction set
+  const char* name;  ///< the width and the instruction set
   void (*query)(const LanePair* pairs, int count, bool of_ellipsoids, const LaneSettings& settings, LaneAnswer* answers);
 };
 

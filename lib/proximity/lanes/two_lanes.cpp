@@ -2,6 +2,6 @@
 
 namespace supernormal {
 
-constinit const LaneKernel kTwoLanes = {2, "two", LaneSearch<2>::query};
+constinit const LaneKernel kTwoLanes = {2, "2 lanes", LaneSearch<2>::query};
 
 }  // namespace supernormal
