@@ -1,6 +1,6 @@
 // Prints a number that depends on every digit of the answers for some pairs: tests/proximity/same_digits.cmake. The pairs are made
 // without the C library's functions, whose digits may differ.
-#include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -51,8 +51,13 @@ class Pairs {
   }
 
   Pose pose(const Vector3& position) {
-    Eigen::Quaterniond q(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), 1);
-    return {position, q.normalized().toRotationMatrix()};
+    double x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1), w = 1;
+    const double scale = 1 / std::sqrt(x * x + y * y + z * z + w * w);
+    x *= scale, y *= scale, z *= scale, w *= scale;
+    Pose out{position, {}};
+    out.rotation << 1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), 2 * (x * y + w * z), 1 - 2 * (x * x + z * z),
+        2 * (y * z - w * x), 2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y);
+    return out;
   }
 
  private:

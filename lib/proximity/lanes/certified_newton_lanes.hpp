@@ -25,26 +25,24 @@ constexpr double kLaneFlattest = 1e8, kLaneFlatContact = 1e4, kLaneSingular = 1e
 constexpr double kLaneSameTurn = 0.01, kLaneBacktrack = 0.5, kLaneLongestStep = 1, kLaneNear = 1e-7, kLaneGainSafety = 3;
 
 /// The columns of a table of pairs. Of ellipsoids only the first kEllipsoidFields are in use.
-enum Field {
-  kHalf1 = 0,
-  kHalf2 = 3,
-  kRotation = 6,  // of body 2 in body 1's frame, by columns
-  kOffset = 15,
-  kRho = 18,
-  kUnit,
-  kTolerance,
-  kRounding,
-  kIsTracked,  // 1 if a first normal was given
-  kNormal,
-  kEllipsoidFields = kNormal + 3,
-  kNorms1 = kEllipsoidFields,  // inner p - 1, inner 1/p, outer p - 1, outer 1/p
-  kNorms2 = kNorms1 + 4,
-  kFlats1 = kNorms2 + 4,  // inner, outer
-  kFlats2 = kFlats1 + 2,
-  kGauges1 = kFlats2 + 2,  // delta - 1, 1/delta, epsilon - 1, 1/epsilon
-  kGauges2 = kGauges1 + 4,
-  kFields = kGauges2 + 4
-};
+constexpr int kHalf1 = 0;
+constexpr int kHalf2 = 3;
+constexpr int kRotation = 6;  // of body 2 in body 1's frame, by columns
+constexpr int kOffset = 15;
+constexpr int kRho = 18;
+constexpr int kUnit = kRho + 1;
+constexpr int kTolerance = kUnit + 1;
+constexpr int kRounding = kTolerance + 1;
+constexpr int kIsTracked = kRounding + 1;  // 1 if a first normal was given
+constexpr int kNormal = kIsTracked + 1;
+constexpr int kEllipsoidFields = kNormal + 3;
+constexpr int kNorms1 = kEllipsoidFields;  // inner p - 1, inner 1/p, outer p - 1, outer 1/p
+constexpr int kNorms2 = kNorms1 + 4;
+constexpr int kFlats1 = kNorms2 + 4;  // inner, outer
+constexpr int kFlats2 = kFlats1 + 2;
+constexpr int kGauges1 = kFlats2 + 2;  // delta - 1, 1/delta, epsilon - 1, 1/epsilon
+constexpr int kGauges2 = kGauges1 + 4;
+constexpr int kFields = kGauges2 + 4;
 
 template <int W>
 struct LaneSearch {
@@ -58,7 +56,7 @@ struct LaneSearch {
   /// A table: one row of numbers for each field.
   template <int kRows, int kColumns>
   struct Table {
-    alignas(64) double rows[kRows][kColumns];
+    alignas(8 * W) double rows[kRows][kColumns];
     SUPERNORMAL_INLINE R at(int field, int column = 0) const { return load<W>(&rows[field][column]); }
     SUPERNORMAL_INLINE V vec(int field, int column = 0) const {
       return {at(field, column), at(field + 1, column), at(field + 2, column)};
@@ -272,7 +270,7 @@ struct LaneSearch {
     Mat<R> rotation;
     PowerBody<P> bodies;
     PointJet<P> jets;
-    S H1, H2, H2_in_1;
+    S H1, H2, rotated2;
     SUPERNORMAL_INLINE Superellipsoids(const Table<kFields, W>& pairs, const Mat<R>& of_2) : state(pairs), rotation(of_2) {
       bodies = {{both(kHalf1, kHalf2), both(kHalf1 + 1, kHalf2 + 1), both(kHalf1 + 2, kHalf2 + 2)},
                 {both(kNorms1, kNorms2), both(kNorms1 + 1, kNorms2 + 1)},
@@ -289,9 +287,9 @@ struct LaneSearch {
           hessian(bodies, jets, P(state.at(kFlats1), state.at(kFlats2)), P(state.at(kFlats1 + 1), state.at(kFlats2 + 1)));
       H1 = {H.xx.a, H.yy.a, H.zz.a, H.xy.a, H.xz.a, H.yz.a};
       H2 = {H.xx.b, H.yy.b, H.zz.b, H.xy.b, H.xz.b, H.yz.b};
-      H2_in_1 = rotated(rotation, H2);
+      rotated2 = rotated(rotation, H2);
       of_1 = H1;
-      of_both = H1 + H2_in_1;
+      of_both = H1 + rotated2;
     }
     SUPERNORMAL_INLINE void put_body2(Table<kFoundFields, W>& found) const {
       found.put(kFoundH2, jets.h.b);
@@ -343,7 +341,7 @@ struct LaneSearch {
       const V none = {R(0.0), R(0.0), R(0.0)};
       V tilt1, tilt2;
       tilts(n, m, select(open, step, none), select(open, step2, none), tilt1, tilt2);
-      const V through = step + regular.solve(H1 * tilt1 - H2_in_1 * (rotation * tilt2));
+      const V through = step + regular.solve(H1 * tilt1 - rotated2 * (rotation * tilt2));
       step = select(open & (R(0.0) < dot(now.d, through)), through, step);
     }
   };
@@ -353,11 +351,11 @@ struct LaneSearch {
     Table<kFields, W>& state;
     Table<kFoundFields, W>& found;
     Table<3, W> best_normal, step;
-    alignas(64) double best_s[W];
-    alignas(64) double best_at[W];  // the evaluation of the best normal
-    alignas(64) double evaluations[W];
-    alignas(64) double is_active[W];  // 1 or 0
-    int pair[W];                      // of the chunk
+    alignas(8 * W) double best_s[W];
+    alignas(8 * W) double best_at[W];  // the evaluation of the best normal
+    alignas(8 * W) double evaluations[W];
+    alignas(8 * W) double is_active[W];  // 1 or 0
+    int pair[W];                         // of the chunk
     double cuts[W][kMostLaneEvaluations][3];
 
     SUPERNORMAL_INLINE void load_pair(int lane, const Pairs& pairs, int index, int fields) {
@@ -370,7 +368,7 @@ struct LaneSearch {
       pair[lane] = index;
     }
     void keep_cut(V cut) {
-      alignas(64) double c[3][W];
+      alignas(8 * W) double c[3][W];
       store(c[0], cut.x);
       store(c[1], cut.y);
       store(c[2], cut.z);
@@ -464,8 +462,8 @@ struct LaneSearch {
   template <typename Bodies>
   SUPERNORMAL_INLINE static void search(Pairs& pairs, int count, const LaneSettings& settings, Ends& ends, LaneAnswer* answers) {
     constexpr bool kOfEllipsoids = Bodies::kOfEllipsoids;
-    constexpr int kInUse = kOfEllipsoids ? static_cast<int>(kEllipsoidFields) : static_cast<int>(kFields);
-    constexpr int kFoundInUse = kOfEllipsoids ? static_cast<int>(kFoundOfEllipsoids) : static_cast<int>(kFoundFields);
+    constexpr int kInUse = kOfEllipsoids ? kEllipsoidFields : kFields;
+    constexpr int kFoundInUse = kOfEllipsoids ? kFoundOfEllipsoids : kFoundFields;
     // A single pair is searched where it lies.
     Table<kFields, W> own_state;
     Table<kFoundFields, W> own_found;
@@ -611,7 +609,7 @@ struct LaneSearch {
     }
     const auto to_world = [&place1](V point) { return place1.rotation * point + place1.position; };
     const V normal = unit(place1.rotation * n), point1 = to_world(r1), point2 = to_world(r1 + d), point = to_world(contact);
-    alignas(64) double out[19][W];
+    alignas(8 * W) double out[19][W];
     const auto put = [&out](int i, V v) {
       store(out[i], v.x);
       store(out[i + 1], v.y);

@@ -20,6 +20,10 @@ LanePair lane_pair(const ProximityQuery& pair) {
           pair.first_normal != nullptr ? pair.first_normal->data() : nullptr};
 }
 
+bool is_of_ellipsoids(const LanePair& pair) {
+  return pair.body1 != nullptr && pair.body1->is_ellipsoid && pair.body2 != nullptr && pair.body2->is_ellipsoid;
+}
+
 LaneSettings lane_settings(const Settings& settings) {
   return {settings.tolerance, std::min(kMostLaneEvaluations, settings.max_evaluations), settings.stop_when_apart,
           settings.certify_depth ? 0 : kTuning.followed_depth};
@@ -99,7 +103,7 @@ bool is_for_lanes(const LaneBody* body1, const LaneBody* body2, const Settings& 
 Proximity find_in_one_lane(const ProximityQuery& pair, const Settings& settings) {
   const LanePair input = lane_pair(pair);
   LaneAnswer lane;
-  kOneLane.query(&input, 1, input.body1->is_ellipsoid && input.body2->is_ellipsoid, lane_settings(settings), &lane);
+  kOneLane.query(&input, 1, is_of_ellipsoids(input), lane_settings(settings), &lane);
   return answer_of(pair, settings, lane);
 }
 
@@ -118,7 +122,7 @@ void find_in_lanes(std::span<const ProximityQuery> pairs, const Settings& settin
     };
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const LanePair input = lane_pair(pairs[k]);
-      if ((input.body1->is_ellipsoid && input.body2->is_ellipsoid) != of_ellipsoids) continue;
+      if (is_of_ellipsoids(input) != of_ellipsoids) continue;
       which[count] = k;
       inputs[count++] = input;
       if (count == kAtOnce) run();

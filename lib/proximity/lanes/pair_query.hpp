@@ -31,21 +31,19 @@ enum class LaneOutcome {
 };
 
 /// The columns of an evaluation, in body 1's frame. Symmetric matrices: xx, yy, zz, xy, xz, yz.
-enum Found {
-  kFoundS = 0,                         // m
-  kFoundError,                         // m; the bound on what is left
-  kFoundNormal,                        // unit
-  kFoundD = kFoundNormal + 3,          // m; from the boundary point of body 1 to that of body 2
-  kFoundR = kFoundD + 3,               // m; the boundary point of body 1
-  kFoundH = kFoundR + 3,               // m; the support function of body 1
-  kFoundHessian1,                      // m; of body 1
-  kFoundHessian = kFoundHessian1 + 6,  // m; H1 + H2
-  kFoundOfEllipsoids = kFoundHessian + 6,
-  kFoundH2 = kFoundOfEllipsoids,  // m; the support function of body 2; the rest in its own frame
-  kFoundR2,                       // m; the boundary point
-  kFoundHessian2 = kFoundR2 + 3,  // m
-  kFoundFields = kFoundHessian2 + 6
-};
+inline constexpr int kFoundS = 0;                         // m
+inline constexpr int kFoundError = kFoundS + 1;           // m; the bound on what is left
+inline constexpr int kFoundNormal = kFoundError + 1;      // unit
+inline constexpr int kFoundD = kFoundNormal + 3;          // m; from the boundary point of body 1 to that of body 2
+inline constexpr int kFoundR = kFoundD + 3;               // m; the boundary point of body 1
+inline constexpr int kFoundH = kFoundR + 3;               // m; the support function of body 1
+inline constexpr int kFoundHessian1 = kFoundH + 1;        // m; of body 1
+inline constexpr int kFoundHessian = kFoundHessian1 + 6;  // m; H1 + H2
+inline constexpr int kFoundOfEllipsoids = kFoundHessian + 6;
+inline constexpr int kFoundH2 = kFoundOfEllipsoids;  // m; the support function of body 2; the rest in its own frame
+inline constexpr int kFoundR2 = kFoundH2 + 1;        // m; the boundary point
+inline constexpr int kFoundHessian2 = kFoundR2 + 3;  // m
+inline constexpr int kFoundFields = kFoundHessian2 + 6;
 
 /// The answer of a pair. Apart and Proved: in the world's frame. Otherwise only `normal` (in body 1's frame), `evaluations`,
 /// `jet` and the cuts are set.

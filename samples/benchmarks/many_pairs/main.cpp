@@ -4,12 +4,12 @@
 //
 // Pairs are drawn at a random normal, at which their witness points have the gap. The rounds of all ways of asking are interleaved,
 // and the least processor time of each counts.
-#include <time.h>
-
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
+#include <exception>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -137,7 +137,7 @@ void print_row(const Kind& kind, std::size_t count, int rounds, unsigned seed) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App app("What a pair costs alone and among many.");
   std::size_t count = 2048;
   int rounds = 7;
@@ -154,4 +154,7 @@ int main(int argc, char** argv) {
   std::printf("\n");
   for (const Kind& kind : kKinds) print_row(kind, count, rounds, seed);
   return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "many_pairs: %s\n", error.what());
+  return 1;
 }
