@@ -38,6 +38,7 @@
 #include "supernormal/impact/mesh_time_of_impact.hpp"
 #include "supernormal/impact/motion.hpp"
 #include "supernormal/impact/time_of_impact.hpp"
+#include "supernormal/proximity/batch.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/pose.hpp"

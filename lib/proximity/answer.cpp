@@ -36,6 +36,14 @@ Proximity answer(const GapFunction& gap, const StoppingRule& rule, const GapJet&
   return out;
 }
 
+Proximity in_world(Proximity out, const Pose& pose1) {
+  out.normal = (pose1.rotation * out.normal).normalized();
+  out.point1 = pose1.rotation * out.point1 + pose1.position;
+  out.point2 = pose1.rotation * out.point2 + pose1.position;
+  out.contact = pose1.rotation * out.contact + pose1.position;
+  return out;
+}
+
 void place_contact(GapFunction& gap, const StoppingRule& rule, const GapJet& jet, Proximity& out,
                    std::span<const WitnessPair> beside) {
   if (out.status == Status::InvalidInput) return;

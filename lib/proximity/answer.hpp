@@ -23,4 +23,7 @@ Proximity answer(const GapFunction& gap, const StoppingRule& rule, const GapJet&
 void place_contact(GapFunction& gap, const StoppingRule& rule, const GapJet& jet, Proximity& out,
                    std::span<const WitnessPair> beside = {});
 
+/// An answer in body 1's frame, in the world's.
+Proximity in_world(Proximity out, const Pose& pose1);
+
 }  // namespace supernormal

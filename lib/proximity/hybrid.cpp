@@ -29,7 +29,11 @@ class Hybrid {
 
   Proximity solve(const Vector3& start);
 
+  /// Goes on where the lanes ended (lanes/certified_newton_lanes.hpp).
+  Proximity resume(const GapJet& best, std::span<const Vector3> cuts);
+
  private:
+  void add_centre();
   bool is_tracked() const { return wanted_ == WantedMaximum::Tracked; }
   Proximity after_newton(const CertifiedNewton& newton, CertifiedNewton::End end);
   template <typename Start>
@@ -47,9 +51,21 @@ class Hybrid {
   Status status_ = Status::Converged;
 };
 
-Proximity Hybrid::solve(const Vector3& start) {
-  // Lemma 1: the cut of the centre costs no evaluation.
+// Lemma 1: the cut of the centre costs no evaluation.
+void Hybrid::add_centre() {
   if (gap_.traits1().is_symmetric && gap_.traits2().is_symmetric) cuts_.set_centre(gap_.offset());
+}
+
+Proximity Hybrid::resume(const GapJet& best, std::span<const Vector3> cuts) {
+  add_centre();
+  for (const Vector3& cut : cuts) cuts_.add(cut);
+  CertifiedNewton newton(gap_, cuts_, rule_);
+  const CertifiedNewton::End end = newton.resume(best);
+  return after_newton(newton, end);
+}
+
+Proximity Hybrid::solve(const Vector3& start) {
+  add_centre();
 
   // Lemma 2 with Newton's steps answers nearly every query of a simulation ("Fast path").
   if (!CertifiedNewton::is_for(gap_)) return climb(start);
@@ -157,6 +173,11 @@ void Hybrid::meet(Proximity& out) {
 
 Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, WantedMaximum wanted) {
   return Hybrid(gap, settings, wanted).solve(start);
+}
+
+Proximity resume_hybrid(GapFunction& gap, const Settings& settings, const GapJet& best, std::span<const Vector3> cuts,
+                        WantedMaximum wanted) {
+  return Hybrid(gap, settings, wanted).resume(best, cuts);
 }
 
 }  // namespace supernormal

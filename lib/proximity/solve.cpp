@@ -1,7 +1,12 @@
 #include "supernormal/proximity/solve.hpp"
 
+#include <array>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
+#include "proximity/answer.hpp"
+#include "proximity/lanes/lane_query.hpp"
 #include "proximity/local/first_guess.hpp"
 #include "proximity/solvers.hpp"
 #include "proximity/usable_pose.hpp"
@@ -49,28 +54,68 @@ Proximity find_with_bodies_swapped(const Shape& shape1, const Pose& pose1, const
   return out;
 }
 
+/// The answer where neither the poses nor the shapes are at fault, or InvalidInput.
+Proximity find_alone(const ProximityQuery& pair, const Settings& settings, bool is_warm) {
+  GapFunction gap(*pair.shape1, *pair.pose1, *pair.shape2, *pair.pose2);
+  if (!gap.is_finite()) return {};
+  const Proximity out = is_warm ? solve(gap, settings, pair.first_normal->normalized(), WantedMaximum::Tracked)
+                                : solve(gap, settings, first_guess(gap), WantedMaximum::Highest);
+  if (out.status == Status::InvalidInput || !std::isfinite(out.gap) || !all_finite(out.normal) || !out.point1.allFinite() ||
+      !out.point2.allFinite())
+    return {};
+  return in_world(out, *pair.pose1);
+}
+
 }  // namespace
 
 Proximity find_proximity(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Settings& settings,
                          const Vector3* first_normal) {
   check(settings);
   if (!is_usable(pose1) || !is_usable(pose2)) return {};
+  const bool is_warm = first_normal != nullptr && is_usable(*first_normal);
+  const ProximityQuery pair = {&shape1, &pose1, &shape2, &pose2, is_warm ? first_normal : nullptr};
+  if (is_for_lanes(shape1, shape2, settings)) return find_in_one_lane(pair, settings);
   if (shape1.traits().has_nonsmooth_points && !shape2.traits().has_nonsmooth_points) {
     return find_with_bodies_swapped(shape1, pose1, shape2, pose2, settings, first_normal);
   }
-  GapFunction gap(shape1, pose1, shape2, pose2);
-  if (!gap.is_finite()) return {};
-  const bool is_warm = first_normal != nullptr && is_usable(*first_normal);
-  Proximity out = is_warm ? solve(gap, settings, first_normal->normalized(), WantedMaximum::Tracked)
-                          : solve(gap, settings, first_guess(gap), WantedMaximum::Highest);
-  if (out.status == Status::InvalidInput || !std::isfinite(out.gap) || !all_finite(out.normal) || !out.point1.allFinite() ||
-      !out.point2.allFinite())
-    return {};
-  out.normal = (pose1.rotation * out.normal).normalized();
-  out.point1 = pose1.rotation * out.point1 + pose1.position;
-  out.point2 = pose1.rotation * out.point2 + pose1.position;
-  out.contact = pose1.rotation * out.contact + pose1.position;
-  return out;
+  return find_alone(pair, settings, is_warm);
+}
+
+Proximity find_proximity(const ProximityQuery& query, const Settings& settings) {
+  return find_proximity(*query.shape1, *query.pose1, *query.shape2, *query.pose2, settings, query.first_normal);
+}
+
+void find_proximities(std::span<const ProximityQuery> queries, const Settings& settings, std::span<Proximity> results) {
+  check(settings);
+  if (results.size() != queries.size()) {
+    throw std::invalid_argument("results has " + std::to_string(results.size()) + " elements, and there are " +
+                                std::to_string(queries.size()) + " queries");
+  }
+  const LaneKernels& kernels = lane_kernels();
+  const LaneKernel& widest = *kernels.kernels[kernels.count - 1];
+  constexpr std::size_t kAtOnce = 64;
+  std::array<ProximityQuery, kAtOnce> in_lanes;
+  std::array<Proximity, kAtOnce> answers;
+  std::array<std::size_t, kAtOnce> which;
+  std::size_t count = 0;
+  const auto run = [&] {
+    find_in_lanes({in_lanes.data(), count}, settings, widest, {answers.data(), count});
+    for (std::size_t k = 0; k < count; ++k) results[which[k]] = answers[k];
+    count = 0;
+  };
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    const auto& [shape1, pose1, shape2, pose2, first_normal] = queries[k];
+    const bool is_for = is_for_lanes(*shape1, *shape2, settings) && is_usable(*pose1) && is_usable(*pose2);
+    if (!is_for) {
+      results[k] = find_proximity(*shape1, *pose1, *shape2, *pose2, settings, first_normal);
+      continue;
+    }
+    which[count] = k;
+    in_lanes[count] = queries[k];
+    if (first_normal != nullptr && !is_usable(*first_normal)) in_lanes[count].first_normal = nullptr;
+    if (++count == kAtOnce) run();
+  }
+  if (count > 0) run();
 }
 
 }  // namespace supernormal

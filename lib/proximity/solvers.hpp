@@ -1,6 +1,8 @@
 // The three solvers of a gap function.
 #pragma once
 
+#include <span>
+
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/proximity.hpp"
 
@@ -16,5 +18,9 @@ enum class WantedMaximum {
 Proximity solve_newton(GapFunction& gap, const Settings& settings, const Vector3& start);  // both shapes need a Hessian
 Proximity solve_fixed_point(GapFunction& gap, const Settings& settings, const Vector3& start);
 Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, WantedMaximum wanted);
+
+/// The hybrid after a search in lanes that ended open. `best` is its best evaluation, and `cuts` are its other cuts.
+Proximity resume_hybrid(GapFunction& gap, const Settings& settings, const GapJet& best, std::span<const Vector3> cuts,
+                        WantedMaximum wanted);
 
 }  // namespace supernormal

@@ -1,11 +1,12 @@
 #include "supernormal/shapes/ellipsoid.hpp"
 
+#include "shapes/lanes/lane_body_of.hpp"
 #include "shapes/validation.hpp"
 
 namespace supernormal {
 
 Ellipsoid::Ellipsoid(const Vector3& half_axes)
-    : half_axes_(require_half_axes(half_axes)), squares_(half_axes.cwiseProduct(half_axes)) {}
+    : half_axes_(require_half_axes(half_axes)), squares_(half_axes.cwiseProduct(half_axes)), numbers_(make_lane_body(*this, half_axes, 2, 2)) {}
 
 double Ellipsoid::rolling_radius() const {
   const double smallest = half_axes_.minCoeff();

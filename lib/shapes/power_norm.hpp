@@ -63,7 +63,7 @@ class PowerNorm {
   void curvature(double x, double y, PowerNormJet& jet) const;
 
   /// Answers one, two or four requests up to `order`. Two requests together take two thirds of the time of two in sequence: the
-  /// power, logarithm and exponential of one norm wait for each other, but not for the other norm.
+  /// logarithms and exponentials of one norm wait for each other, but not for the other norm.
   template <std::size_t kCount>
   static void evaluate_requests(std::array<PowerNormRequest, kCount>& requests, Order order);
 
@@ -82,12 +82,12 @@ class PowerNorm {
   /// value = larger * root; the derivative with respect to the larger number is root / sum.
   struct Ratio {
     bool x_is_larger;
-    double larger, k, power, sum, root;  // k = smaller/larger, k^p, 1 + k^p, sum^(1/p)
+    double larger, k, power_1, sum, root;  // k = smaller/larger, k^(p-1), 1 + k^p, sum^(1/p)
   };
   void differentiate(const Ratio& f, PowerNormJet& jet) const;
   void differentiate_twice(const Ratio& f, PowerNormJet& jet) const;
 
-  double p_, p_minus_1_, inverse_p_;
+  double p_minus_1_, inverse_p_;
   bool is_euclidean_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapes/lanes/lane_body_of.hpp"
 #include "shapes/nested_norms.hpp"
 #include "shapes/sharp_section.hpp"
 #include "shapes/superellipsoid_batch.hpp"
@@ -138,7 +139,8 @@ Superellipsoid::Superellipsoid(const Vector3& half_axes, double delta, double ep
       norms_(std::make_shared<const NestedNorms>(delta, epsilon)),
       traits_(traits_of(delta, epsilon)),
       rolling_radius_(rolling_radius_of(half_axes_, delta, epsilon)),
-      bounding_radius_(largest_radius(largest_radius(half_axes_.x(), half_axes_.y(), delta), half_axes_.z(), epsilon)) {}
+      bounding_radius_(largest_radius(largest_radius(half_axes_.x(), half_axes_.y(), delta), half_axes_.z(), epsilon)),
+      numbers_(make_lane_body(*this, half_axes, delta, epsilon)) {}
 
 template <std::size_t kCount>
 void SuperellipsoidBatch::evaluate_by_one_norm(const std::array<Request, kCount>& requests, Order order) {

@@ -35,7 +35,8 @@ class SUPERNORMAL_API GapFunction {
   /// H1 + H2, the negative Hessian of s, m. `jet` must have been evaluated with Order::Hessian.
   Matrix3 curvature(const GapJet& jet) const { return jet.jet1.H + rotation_ * jet.jet2.H * rotation_.transpose(); }
 
-  int evaluations() const { return evaluations_; }         ///< how often evaluate() was called
+  int evaluations() const { return evaluations_; }  ///< how often evaluate() was called, and what was counted before
+  void count_earlier(int evaluations) { evaluations_ += evaluations; }  ///< counts evaluations that were made elsewhere
   const Shape& shape1() const { return *shape1_; }         ///< body 1
   const Shape& shape2() const { return *shape2_; }         ///< body 2
   const ShapeTraits& traits1() const { return traits1_; }  ///< of body 1

@@ -33,6 +33,8 @@ struct Settings {
   bool stop_when_apart = false;    ///< end with Status::Apart at the first normal that proves separation
   /// Continue the search until the depth of overlapping bodies is proved the smallest: Proximity::is_global.
   bool certify_depth = false;
+
+  bool operator==(const Settings&) const = default;  ///< whether both ask for the same
 };
 
 /// The common normal of two bodies. Points and the normal are in the frame of the query.

@@ -1,6 +1,7 @@
 // Ellipsoid: its support function is a Euclidean norm and needs no powers.
 #pragma once
 
+#include "supernormal/shapes/lane_body.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {
@@ -24,8 +25,11 @@ class SUPERNORMAL_API Ellipsoid final : public Shape {
   const Vector3& half_axes() const { return half_axes_; }  ///< m; along the axes of its frame
 
  private:
+  friend class LaneBodies;
+
   Vector3 half_axes_;
   Vector3 squares_;  // m^2; half_axes_ squared
+  LaneBody numbers_;
 };
 
 }  // namespace supernormal

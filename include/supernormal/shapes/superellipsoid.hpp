@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "supernormal/shapes/lane_body.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {
@@ -43,12 +44,14 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
 
  private:
   friend class SuperellipsoidBatch;
+  friend class LaneBodies;
 
   Vector3 half_axes_;
   double delta_, epsilon_;
   std::shared_ptr<const NestedNorms> norms_;
   ShapeTraits traits_;
   double rolling_radius_, bounding_radius_;  // m
+  LaneBody numbers_;
 };
 
 }  // namespace supernormal

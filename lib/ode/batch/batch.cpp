@@ -1,17 +1,20 @@
 #include "ode/batch/batch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <new>
 
 #include "ode/colliders/contact.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/runtime/statistics.hpp"
+#include "supernormal/proximity/batch.hpp"
 
 namespace supernormal::ode {
 namespace {
 
-constexpr std::size_t kJobsAtOnce = 16;  // some 20 µs: the wait for a lock is short beside it, and no thread ends much later
-constexpr std::size_t kPrefetch = 8;     // pairs between the prefetch of an entry and its use
+// Vector lanes are full, the wait for a lock is short beside some 20 µs, and no thread ends much later.
+constexpr std::size_t kJobsAtOnce = 32;
+constexpr std::size_t kPrefetch = 8;  // pairs between the prefetch of an entry and its use
 
 bool is_solid_pair(dGeomID g1, dGeomID g2) {
   const dBodyID body = dGeomGetBody(g1);
@@ -97,7 +100,7 @@ void Batch::solve_some(void* self, int chunk) {
   const std::size_t first = static_cast<std::size_t>(chunk) * kJobsAtOnce;
   const std::size_t end = std::min(first + kJobsAtOnce, batch.jobs_.size());
   const snStatistics of_thread = exchange_statistics({});
-  for (std::size_t index = first; index < end; ++index) batch.solve_job(index);
+  batch.solve_range(first, end);
   const snStatistics of_jobs = exchange_statistics(of_thread);
   const std::lock_guard lock(batch.statistics_mutex_);
   const snStatistics mine = exchange_statistics(batch.statistics_);
@@ -105,14 +108,45 @@ void Batch::solve_some(void* self, int chunk) {
   batch.statistics_ = exchange_statistics(mine);
 }
 
-void Batch::solve_job(std::size_t index) {
-  Job& job = jobs_[index];
+// The pairs with the settings of the first, which are nearly always all, are solved together.
+void Batch::solve_range(std::size_t first, std::size_t end) {
+  std::array<PreparedPair, kJobsAtOnce> prepared;
+  std::array<ProximityQuery, kJobsAtOnce> queries{};
+  std::array<Proximity, kJobsAtOnce> found;
+  std::array<std::size_t, kJobsAtOnce> together{};
+  std::size_t count = 0;
+  for (std::size_t index = first; index < end; ++index) {
+    Job& job = jobs_[index];
+    prepared[count] = job.pair.prepare(job.cached, kind(), job.last);
+    queries[count] = job.pair.query_of(prepared[count]);
+    if (prepared[count].settings == prepared[0].settings) {
+      together[count++] = index;
+    } else {
+      finish_job(job, [&] { return job.pair.solve(job.cached, kind(), job.last); });
+    }
+  }
+  bool is_answered = true;
+  try {
+    find_proximities({queries.data(), count}, prepared[0].settings, {found.data(), count});
+  } catch (...) {
+    is_answered = false;  // a user shape threw: alone, each pair tells whether it was its own
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    Job& job = jobs_[together[k]];
+    finish_job(job, [&] {
+      return job.pair.finish(prepared[k], is_answered ? found[k] : find_proximity(queries[k], prepared[k].settings), kind(),
+                             job.last);
+    });
+  }
+}
+
+template <typename Solve>
+void Batch::finish_job(Job& job, const Solve& solve) {
   const auto [g1, g2] = job.pair.geoms();
+  const auto index = static_cast<std::size_t>(&job - jobs_.data());
   dContactGeom* const first = &job_contacts_[index * static_cast<std::size_t>(max_contacts_of_job_)];
   try {
-    const ContactManifold manifold =
-        job.pair.solve(job.cached, max_contacts_ > 1 ? QueryKind::Contacts : QueryKind::OneContact, job.last);
-    job.count = write_contacts(manifold, {g1, g2, max_contacts_of_job_, first, sizeof(dContactGeom)});
+    job.count = write_contacts(solve(), {g1, g2, max_contacts_of_job_, first, sizeof(dContactGeom)});
   } catch (...) {
     job.is_refused = true;  // a user shape threw: collide the pair again where the error can be reported
   }

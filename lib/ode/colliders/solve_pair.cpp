@@ -23,27 +23,24 @@ BodyAhead moving(const PosedShape& posed) {
   return {posed.shape, posed.pose, motion_ahead_of(posed.geom, posed.pose.position, posed.shape.bounding_radius())};
 }
 
-/// Solves two shapes. `last.pose` must be set. The cached normal is in a frame with the orientation `frame`. `size` goes to
-/// find_cached_normal(). Contacts are predicted `time` (s) ahead.
-ContactManifold solve(const PosedShape& one, const PosedShape& other, const Settings& settings, QueryKind kind, double time,
-                      const Matrix3& frame, double size, const CachedNormal& cached, LastNormal& last) {
-  Vector3 first_normal;
-  const bool is_warm = find_cached_normal(cached, last.pose, size, first_normal);
-  // The solver expects the normal in the frame of the first shape.
-  if (is_warm && &frame != &one.pose.rotation) first_normal = one.pose.rotation.transpose() * (frame * first_normal);
-  const bool looks_ahead = time > 0 && is_for_contacts(kind);
-  const Settings asked = settings_for(settings, looks_ahead ? QueryKind::Distance : kind);
-  const Proximity result = find_proximity(one.shape, one.pose, other.shape, other.pose, asked, is_warm ? &first_normal : nullptr);
-  last.is_known = result.status != Status::InvalidInput;
-  last.normal.noalias() = frame.transpose() * result.normal;
-  if (looks_ahead) {
-    ContactManifold ahead = find_contacts_ahead(moving(one), moving(other), time, asked, result);
+/// The settings of a query that predicts contacts `time` (s) ahead.
+Settings settings_for(const Settings& settings, QueryKind kind, double time) {
+  return settings_for(settings, time > 0 && is_for_contacts(kind) ? QueryKind::Distance : kind);
+}
+
+/// Contacts from the answer to a query. Sets the normal of `last`, which is in a frame with the orientation `frame`.
+ContactManifold finish(const PosedShape& one, const PosedShape& other, const Settings& asked, QueryKind kind, double time,
+                       bool is_warm, const Matrix3& frame, const Proximity& found, LastNormal& last) {
+  last.is_known = found.status != Status::InvalidInput;
+  last.normal.noalias() = frame.transpose() * found.normal;
+  if (time > 0 && is_for_contacts(kind)) {
+    ContactManifold ahead = find_contacts_ahead(moving(one), moving(other), time, asked, found);
     count_query(ahead.deepest, is_warm);
     return ahead;
   }
-  count_query(result, is_warm);
-  return kind == QueryKind::Contacts ? find_contact_manifold(one.shape, one.pose, other.shape, other.pose, result)
-                                     : ContactManifold(result);
+  count_query(found, is_warm);
+  return kind == QueryKind::Contacts ? find_contact_manifold(one.shape, one.pose, other.shape, other.pose, found)
+                                     : ContactManifold(found);
 }
 
 }  // namespace
@@ -61,20 +58,36 @@ BodyPair::BodyPair(dGeomID g1, dGeomID g2)
 
 PairKey BodyPair::key() const { return PairKey::of_bodies(body1_->serial(), body2_->serial()); }
 
-ContactManifold BodyPair::solve(const CachedNormal& cached, QueryKind kind, LastNormal& last) const {
-  const Pose pose1 = pose_of(geom1_);
-  const Pose pose2 = pose_of(geom2_);
-  last.pose = RelativePose::of(pose1, pose2);
-  const double time = std::max(body1_->look_ahead(), body2_->look_ahead());
-  const PosedShape one{geom1_, body1_->shape(), pose1};
-  const PosedShape other{geom2_, body2_->shape(), pose2};
-  ContactManifold manifold = ode::solve(one, other, combined(body1_->settings(), body2_->settings()), kind, time, pose1.rotation,
-                                        std::min(body1_->size(), body2_->size()), cached, last);
+double BodyPair::look_ahead() const { return std::max(body1_->look_ahead(), body2_->look_ahead()); }
+
+PreparedPair BodyPair::prepare(const CachedNormal& cached, QueryKind kind, LastNormal& last) const {
+  PreparedPair query{pose_of(geom1_), pose_of(geom2_),
+                     settings_for(combined(body1_->settings(), body2_->settings()), kind, look_ahead())};
+  last.pose = RelativePose::of(query.pose1, query.pose2);
+  query.is_warm = find_cached_normal(cached, last.pose, std::min(body1_->size(), body2_->size()), query.first_normal);
+  return query;
+}
+
+ProximityQuery BodyPair::query_of(const PreparedPair& prepared) const {
+  return {&body1_->shape(), &prepared.pose1, &body2_->shape(), &prepared.pose2,
+          prepared.is_warm ? &prepared.first_normal : nullptr};
+}
+
+ContactManifold BodyPair::finish(const PreparedPair& prepared, const Proximity& found, QueryKind kind, LastNormal& last) const {
+  const PosedShape one{geom1_, body1_->shape(), prepared.pose1};
+  const PosedShape other{geom2_, body2_->shape(), prepared.pose2};
+  ContactManifold manifold =
+      ode::finish(one, other, prepared.settings, kind, look_ahead(), prepared.is_warm, prepared.pose1.rotation, found, last);
   if (is_swapped_) {
     manifold.deepest.normal = -manifold.deepest.normal;
     manifold.deepest.point1.swap(manifold.deepest.point2);
   }
   return manifold;
+}
+
+ContactManifold BodyPair::solve(const CachedNormal& cached, QueryKind kind, LastNormal& last) const {
+  const PreparedPair prepared = prepare(cached, kind, last);
+  return finish(prepared, find_proximity(query_of(prepared), prepared.settings), kind, last);
 }
 
 ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, QueryKind kind) {
@@ -86,8 +99,14 @@ ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, QueryKin
   const double time = body.look_ahead();
   const PosedShape one{ours, body.shape(), pose};
   const PosedShape other{collider.geom, collider.shape, collider.pose};
-  ContactManifold manifold =
-      solve(one, other, body.settings(), kind, time, collider.pose.rotation, body.size(), reserve_entry(key), last);
+  const Matrix3& frame = collider.pose.rotation;
+  Vector3 first_normal;
+  const bool is_warm = find_cached_normal(reserve_entry(key), last.pose, body.size(), first_normal);
+  // The solver expects the normal in the frame of the first shape.
+  if (is_warm) first_normal = pose.rotation.transpose() * (frame * first_normal);
+  const Settings asked = settings_for(body.settings(), kind, time);
+  const Proximity found = find_proximity(one.shape, one.pose, other.shape, other.pose, asked, is_warm ? &first_normal : nullptr);
+  ContactManifold manifold = finish(one, other, asked, kind, time, is_warm, frame, found, last);
   last.store(key);
   return manifold;
 }

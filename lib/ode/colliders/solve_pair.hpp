@@ -10,6 +10,7 @@
 #include "ode/colliders/collider.hpp"
 #include "ode/runtime/warm_start.hpp"
 #include "supernormal/contact/contact_manifold.hpp"
+#include "supernormal/proximity/batch.hpp"
 #include "supernormal/proximity/pose.hpp"
 #include "supernormal/shapes/shape.hpp"
 
@@ -28,6 +29,14 @@ struct LastNormal {
   }
 };
 
+/// A query of a pair of our bodies, between BodyPair::prepare() and BodyPair::finish().
+struct PreparedPair {
+  Pose pose1, pose2;
+  Settings settings;
+  Vector3 first_normal = Vector3::UnitX();  ///< in the frame of body 1
+  bool is_warm = false;                     ///< whether first_normal is known
+};
+
 /// A pair of our bodies. Body 1 of the query is the older body, in either order of the arguments. Spaces pass a pair in either
 /// order, and both orders give the same digits.
 class BodyPair {
@@ -42,11 +51,18 @@ class BodyPair {
   /// parallel while no geom moves.
   ContactManifold solve(const CachedNormal& cached, QueryKind kind, LastNormal& last) const;
 
+  /// The two halves of solve(), for many pairs at once: finish() takes the answer to query_of(prepared).
+  PreparedPair prepare(const CachedNormal& cached, QueryKind kind, LastNormal& last) const;
+  ProximityQuery query_of(const PreparedPair& prepared) const;
+  ContactManifold finish(const PreparedPair& prepared, const Proximity& found, QueryKind kind, LastNormal& last) const;
+
  private:
   dGeomID geom1_, geom2_;
   const Body* body1_;
   const Body* body2_;
   bool is_swapped_;
+
+  double look_ahead() const;  // s
 };
 
 /// A geom of ODE as a shape of the core.

@@ -1,8 +1,11 @@
 // Queries of N pairs and N rays on all cores.
+#include "supernormal/proximity/batch.hpp"
+
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -168,11 +171,29 @@ std::unique_ptr<Proximities> proximities(const py::object& shapes1, const py::ob
   std::optional<VectorsArgument> first;
   if (first_normals) first.emplace("first_normals", *first_normals, count);
   auto out = std::make_unique<Proximities>(count.value());
-  parallel_for(count.value(), threads, [&](std::ptrdiff_t i) {
-    const Vector3 normal = first ? require_direction(first->name(i), (*first)[i]) : Vector3::UnitX();
-    const Proximity result = find_proximity(bodies1[i], places1[i], bodies2[i], places2[i], settings, first ? &normal : nullptr);
-    if (result.status == Status::InvalidInput) throw std::invalid_argument(kNotFinite);
-    out->set(i, result);
+  parallel_for_ranges(count.value(), threads, [&](std::ptrdiff_t& i, std::ptrdiff_t end) {
+    constexpr std::ptrdiff_t kAtOnce = 64;  // vector lanes are full, and the stack takes 40 kB
+    std::array<Vector3, kAtOnce> normals;
+    std::array<Pose, kAtOnce> posed1, posed2;
+    std::array<ProximityQuery, kAtOnce> queries{};
+    std::array<Proximity, kAtOnce> results;
+    while (i < end) {
+      const std::ptrdiff_t begin = i, size = std::min(kAtOnce, end - begin);
+      for (; i < begin + size; ++i) {
+        const auto k = static_cast<std::size_t>(i - begin);
+        if (first) normals[k] = require_direction(first->name(i), (*first)[i]);
+        posed1[k] = places1[i];
+        posed2[k] = places2[i];
+        queries[k] = {&bodies1[i], &posed1[k], &bodies2[i], &posed2[k], first ? &normals[k] : nullptr};
+      }
+      find_proximities({queries.data(), static_cast<std::size_t>(size)}, settings,
+                       {results.data(), static_cast<std::size_t>(size)});
+      for (i = begin; i < begin + size; ++i) {
+        const Proximity& result = results[static_cast<std::size_t>(i - begin)];
+        if (result.status == Status::InvalidInput) throw std::invalid_argument(kNotFinite);
+        out->set(i, result);
+      }
+    }
   });
   return out;
 }

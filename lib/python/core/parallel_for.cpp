@@ -24,9 +24,11 @@ constexpr int kMostThreads = 256;
 constexpr std::ptrdiff_t kLongestChunk = 256;
 constexpr std::chrono::milliseconds kBetweenSignals{50};
 
+using Body = std::function<void(std::ptrdiff_t& i, std::ptrdiff_t end)>;
+
 class Loop {
  public:
-  Loop(std::ptrdiff_t count, int threads, const std::function<void(std::ptrdiff_t)>& body)
+  Loop(std::ptrdiff_t count, int threads, const Body& body)
       : count_(count), chunk_(std::clamp<std::ptrdiff_t>(count / (8 * threads), 1, kLongestChunk)), body_(body) {}
 
   /// Chunks are taken in order, and each is finished or ends with an exception. So all iterations before the smallest i that throws
@@ -38,7 +40,7 @@ class Loop {
       std::ptrdiff_t i = begin;
       try {
         if (between_chunks) between_chunks();
-        for (; i < std::min(begin + chunk_, count_); ++i) body_(i);
+        body_(i, std::min(begin + chunk_, count_));
       } catch (...) {
         fail(i, std::current_exception());
       }
@@ -65,7 +67,7 @@ class Loop {
   }
 
   const std::ptrdiff_t count_, chunk_;
-  const std::function<void(std::ptrdiff_t)>& body_;
+  const Body& body_;
   std::atomic<std::ptrdiff_t> next_{0};
   std::mutex mutex_;
   std::ptrdiff_t failed_ = std::numeric_limits<std::ptrdiff_t>::max();
@@ -98,6 +100,12 @@ class SignalWatch {
 }  // namespace
 
 void parallel_for(std::ptrdiff_t count, int threads, const std::function<void(std::ptrdiff_t)>& body) {
+  parallel_for_ranges(count, threads, [&body](std::ptrdiff_t& i, std::ptrdiff_t end) {
+    for (; i < end; ++i) body(i);
+  });
+}
+
+void parallel_for_ranges(std::ptrdiff_t count, int threads, const Body& body) {
   const int used = number_of_threads(count, threads);
   const WithoutTheLock unlocked;
   Loop loop(count, used, body);

@@ -16,4 +16,8 @@ inline constexpr const char* kNotFinite = "what a shape delivers is not finite, 
 /// exception from the library. Throws std::invalid_argument when `threads` is out of range.
 void parallel_for(std::ptrdiff_t count, int threads, const std::function<void(std::ptrdiff_t)>& body);
 
+/// The same for whole ranges: calls body(i, end) for ranges that cover [0, count), where body advances i to `end`. When it throws,
+/// i is at fault.
+void parallel_for_ranges(std::ptrdiff_t count, int threads, const std::function<void(std::ptrdiff_t& i, std::ptrdiff_t end)>& body);
+
 }  // namespace supernormal::python

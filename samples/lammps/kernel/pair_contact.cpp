@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "supernormal/contact/contact_curvature.hpp"
-#include "supernormal/proximity/solve.hpp"
 
 namespace granular {
 namespace {
@@ -19,9 +18,13 @@ NormalForce elastic_force(const ContactMaterial& material, const Body& body1, co
 
 PairContact find_pair_contact(const Body& body1, const Body& body2, const ContactMaterial& material,
                               const supernormal::Settings& settings, double step, ContactHistory& history) {
-  const Vector3 start = body1.pose.rotation.transpose() * history.normal;
-  const supernormal::Proximity found = supernormal::find_proximity(*body1.shape, body1.pose, *body2.shape, body2.pose, settings,
-                                                                   history.has_normal() ? &start : nullptr);
+  PairQuery query;
+  query.set(body1, body2, history);
+  return contact_of(supernormal::find_proximity(query.query, settings), body1, body2, material, step, history);
+}
+
+PairContact contact_of(const supernormal::Proximity& found, const Body& body1, const Body& body2, const ContactMaterial& material,
+                       double step, ContactHistory& history) {
   PairContact pair;
   pair.evaluations = found.evaluations;
   if (found.status == supernormal::Status::InvalidInput) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernel/contact_law.hpp"
-#include "supernormal/proximity/proximity.hpp"
+#include "supernormal/proximity/batch.hpp"
 
 namespace granular {
 
@@ -24,6 +24,26 @@ struct PairContact {
   Vector3 torque1() const { return contact.arm1.cross(force.force) + force.rolling_torque; }
   Vector3 torque2() const { return -contact.arm2.cross(force.force) - force.rolling_torque; }
 };
+
+/// A query of a pair, from its history. It refers to the bodies and to itself.
+struct PairQuery {
+  Vector3 first_normal;  ///< in the frame of body 1
+  supernormal::ProximityQuery query;
+
+  PairQuery() = default;
+  PairQuery(const PairQuery&) = delete;
+  PairQuery& operator=(const PairQuery&) = delete;
+
+  void set(const Body& body1, const Body& body2, const ContactHistory& history) {
+    first_normal = body1.pose.rotation.transpose() * history.normal;
+    query = {body1.shape, &body1.pose, body2.shape, &body2.pose, history.has_normal() ? &first_normal : nullptr};
+  }
+};
+
+/// The contact from the answer to a query. `history` is advanced by `step` (s). With a step of 0 it is only read. The function
+/// neither allocates nor throws.
+PairContact contact_of(const supernormal::Proximity& found, const Body& body1, const Body& body2, const ContactMaterial& material,
+                       double step, ContactHistory& history);
 
 /// The contact of two bodies. Set stop_when_apart in `settings`, so that a query ends at the first proof of separation. `history`
 /// gives the query its first normal and is advanced by `step` (s). With a step of 0 it is only read. The function neither allocates

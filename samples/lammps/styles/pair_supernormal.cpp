@@ -150,10 +150,12 @@ void PairSupernormal::compute(int eflag, int vflag) {
   bodies_->read_motion();
   // In the setup of a run, the springs are already up to date.
   const double step = update->setupflag != 0 ? 0 : update->dt;
-  for (int k = 0; k < list->inum; ++k) compute_neighbors(list->ilist[k], step);
+  for (int k = 0; k < list->inum; ++k) list_neighbors(list->ilist[k], step);
+  solve_pending(step);
 }
 
-void PairSupernormal::compute_neighbors(int i, double step) {
+// The pairs are solved many at once, in the order of the list: their forces are added in this order, too.
+void PairSupernormal::list_neighbors(int i, double step) {
   const int* neighbors = list->firstneigh[i];
   int* known = history_->firstflag[i];
   double* values = history_->firstvalue[i];
@@ -169,28 +171,62 @@ void PairSupernormal::compute_neighbors(int i, double step) {
       }
       continue;
     }
-    ContactHistory history = ContactHistory::load(pair_values);
-    const PairContact pair = solve(i, j, step, history);
-    if (step > 0) {
-      known[k] = 1;
-      history.store(pair_values);
-    }
-    // With newton off, two ranks count each pair of an owned particle and a ghost.
-    const double share = force->newton_pair != 0 || j < atom->nlocal ? 1 : 0.5;
-    sums_[Queries] += share;
-    sums_[Evaluations] += share * pair.evaluations;
-    if (pair.state == PairState::Apart) continue;
-    sums_[Contacts] += share;
-    sums_[Slipping] += pair.force.slips ? share : 0;
-    apply(i, j, pair);
+    Pending& pending = pending_[pending_count_++];
+    pending.i = i;
+    pending.j = j;
+    pending.known = known + k;
+    pending.values = pair_values;
+    pending.history = ContactHistory::load(pair_values);
+    const auto [first, second] = by_tag(i, j);
+    pending.query.set(bodies_->body(first), bodies_->body(second), pending.history);
+    if (pending_count_ == pending_.size()) solve_pending(step);
   }
 }
 
+void PairSupernormal::solve_pending(double step) {
+  std::array<supernormal::ProximityQuery, std::tuple_size_v<decltype(pending_)>> queries{};
+  std::array<supernormal::Proximity, std::tuple_size_v<decltype(pending_)>> found;
+  for (std::size_t k = 0; k < pending_count_; ++k) queries[k] = pending_[k].query.query;
+  supernormal::find_proximities({queries.data(), pending_count_}, query_settings_, {found.data(), pending_count_});
+  for (std::size_t k = 0; k < pending_count_; ++k) {
+    Pending& pending = pending_[k];
+    const auto [first, second] = by_tag(pending.i, pending.j);
+    const PairContact pair =
+        require_finite(contact_of(found[k], bodies_->body(first), bodies_->body(second),
+                                  material(atom->type[pending.i], atom->type[pending.j]), step, pending.history),
+                       first, second);
+    if (step > 0) {
+      *pending.known = 1;
+      pending.history.store(pending.values);
+    }
+    count_and_apply(pending.i, pending.j, pair);
+  }
+  pending_count_ = 0;
+}
+
+void PairSupernormal::count_and_apply(int i, int j, const PairContact& pair) {
+  // With newton off, two ranks count each pair of an owned particle and a ghost.
+  const double share = force->newton_pair != 0 || j < atom->nlocal ? 1 : 0.5;
+  sums_[Queries] += share;
+  sums_[Evaluations] += share * pair.evaluations;
+  if (pair.state == PairState::Apart) return;
+  sums_[Contacts] += share;
+  sums_[Slipping] += pair.force.slips ? share : 0;
+  apply(i, j, pair);
+}
+
+std::pair<int, int> PairSupernormal::by_tag(int i, int j) const {
+  return atom->tag[i] < atom->tag[j] ? std::pair(i, j) : std::pair(j, i);
+}
+
 PairContact PairSupernormal::solve(int i, int j, double step, ContactHistory& history) const {
-  const bool ordered = atom->tag[i] < atom->tag[j];
-  const int first = ordered ? i : j, second = ordered ? j : i;
-  const PairContact pair = find_pair_contact(bodies_->body(first), bodies_->body(second), material(atom->type[i], atom->type[j]),
-                                             query_settings_, step, history);
+  const auto [first, second] = by_tag(i, j);
+  return require_finite(find_pair_contact(bodies_->body(first), bodies_->body(second), material(atom->type[i], atom->type[j]),
+                                          query_settings_, step, history),
+                        first, second);
+}
+
+PairContact PairSupernormal::require_finite(const PairContact& pair, int first, int second) const {
   if (pair.state == PairState::Failed) {
     error->one(FLERR, "supernormal: the positions of atoms " + std::to_string(atom->tag[first]) + " and " +
                           std::to_string(atom->tag[second]) + " are not finite; a smaller timestep may help");

@@ -48,9 +48,22 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   void allocate();
   void report_volumes() const;
   std::size_t index(int i, int j) const;
+  /// A pair whose bounding spheres overlap, between its query and its forces.
+  struct Pending {
+    int i, j;
+    int* known;
+    double* values;
+    ContactHistory history;
+    PairQuery query;
+  };
+
   PairContact solve(int i, int j, double step, ContactHistory& history) const;
+  PairContact require_finite(const PairContact& pair, int first, int second) const;
+  std::pair<int, int> by_tag(int i, int j) const;
   void apply(int i, int j, const PairContact& pair);
-  void compute_neighbors(int i, double step);
+  void list_neighbors(int i, double step);
+  void solve_pending(double step);
+  void count_and_apply(int i, int j, const PairContact& pair);
   void set_material(int low, int high, int low2, int high2, const ContactMaterial& material);
   void exchange_coefficients(FILE* file, bool write);
   const double* find_history(int i, int j) const;
@@ -60,6 +73,8 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   std::vector<ContactMaterial> materials_;  // per pair of types
   supernormal::Settings query_settings_;
   LAMMPS_NS::FixNeighHistory* history_ = nullptr;
+  std::array<Pending, 64> pending_;  // as many as fill vector lanes, and stay in the cache
+  std::size_t pending_count_ = 0;
   std::array<double, SumCount> sums_{};
   std::array<double, kSingles> singles_{};
 };

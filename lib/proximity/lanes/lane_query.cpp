@@ -1,0 +1,135 @@
+#include "proximity/lanes/lane_query.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "proximity/answer.hpp"
+#include "proximity/solvers.hpp"
+#include "proximity/tuning.hpp"
+#include "shapes/lanes/lane_body_of.hpp"
+
+namespace supernormal {
+namespace {
+
+LanePair lane_pair(const ProximityQuery& pair) {
+  return {LaneBodies::of(*pair.shape1),
+          LaneBodies::of(*pair.shape2),
+          pair.pose1->position.data(),
+          pair.pose1->rotation.data(),
+          pair.pose2->position.data(),
+          pair.pose2->rotation.data(),
+          pair.first_normal != nullptr ? pair.first_normal->data() : nullptr};
+}
+
+bool is_of_ellipsoids(const LanePair& pair) {
+  return pair.body1 != nullptr && pair.body1->is_ellipsoid && pair.body2 != nullptr && pair.body2->is_ellipsoid;
+}
+
+LaneSettings lane_settings(const Settings& settings) {
+  return {settings.tolerance, std::min({kMostLaneEvaluations, kTuning.newton_evaluations, settings.max_evaluations}),
+          settings.stop_when_apart, settings.certify_depth ? 0 : kTuning.unsearched_depth};
+}
+
+Vector3 vector_of(const double* numbers) { return {numbers[0], numbers[1], numbers[2]}; }
+
+/// Proved, followed or apart: what answer() says of it.
+Proximity complete_answer(const LaneAnswer& lane) {
+  Proximity out;
+  out.gap = lane.gap;
+  out.error = (lane.is_followed ? std::min(lane.error, lane.tolerance) : lane.error) + lane.rounding;
+  out.normal = vector_of(lane.normal);
+  out.point1 = vector_of(lane.point1);
+  out.point2 = vector_of(lane.point2);
+  out.contact = vector_of(lane.contact);
+  out.evaluations = lane.evaluations;
+  out.status = lane.outcome == LaneOutcome::Apart ? Status::Apart : Status::Converged;
+  out.is_global = !lane.is_followed || 2 * lane.gap >= -lane.tolerance;
+  out.global_error = out.is_global ? std::max(out.error, lane.tolerance + lane.rounding) : lane.error + lane.rounding;
+  return out;
+}
+
+Matrix3 matrix_of(const double* numbers) {
+  Matrix3 out;
+  out << numbers[0], numbers[3], numbers[4], numbers[3], numbers[1], numbers[5], numbers[4], numbers[5], numbers[2];
+  return out;
+}
+
+/// The evaluation at which the lanes ended.
+GapJet last_jet(GapFunction& gap, const LaneAnswer& lane) {
+  GapJet jet;
+  if (!lane.has_jet) {
+    gap.evaluate(vector_of(lane.normal), Order::Hessian, jet);
+    return jet;
+  }
+  const double* const found = lane.jet;
+  jet.n = vector_of(found + kFoundNormal);
+  jet.s = found[kFoundS];
+  jet.d = vector_of(found + kFoundD);
+  jet.m = -(gap.rotation().transpose() * jet.n);
+  jet.jet1 = {found[kFoundH], vector_of(found + kFoundR), matrix_of(found + kFoundHessian1)};
+  jet.jet2 = {found[kFoundH2], vector_of(found + kFoundR2), matrix_of(found + kFoundHessian2)};
+  return jet;
+}
+
+/// What the lanes leave: the search, or the contact.
+Proximity finish_alone(const ProximityQuery& pair, const Settings& settings, const LaneAnswer& lane) {
+  GapFunction gap(*pair.shape1, *pair.pose1, *pair.shape2, *pair.pose2);
+  // Where the jet is evaluated anew, this counts, unless the limit leaves no evaluation.
+  gap.count_earlier(lane.has_jet ? lane.evaluations : std::min(lane.evaluations, settings.max_evaluations - 1));
+  const GapJet jet = last_jet(gap, lane);
+  if (lane.outcome == LaneOutcome::Open) {
+    std::array<Vector3, kMostLaneEvaluations> cuts;
+    const auto count = static_cast<std::size_t>(lane.evaluations - 1);
+    for (std::size_t k = 0; k < count; ++k) cuts[k] = vector_of(lane.cuts[k]);
+    return resume_hybrid(gap, settings, jet, {cuts.data(), count},
+                         pair.first_normal != nullptr ? WantedMaximum::Tracked : WantedMaximum::Highest);
+  }
+  const StoppingRule rule(gap, settings);
+  Proximity out = answer(gap, rule, jet, lane.error, Status::Converged);
+  place_contact(gap, rule, jet, out);
+  return out;
+}
+
+Proximity answer_of(const ProximityQuery& pair, const Settings& settings, const LaneAnswer& lane) {
+  if (lane.outcome == LaneOutcome::Proved || lane.outcome == LaneOutcome::Apart) return complete_answer(lane);
+  return in_world(finish_alone(pair, settings, lane), *pair.pose1);
+}
+
+}  // namespace
+
+bool is_for_lanes(const Shape& shape1, const Shape& shape2, const Settings& settings) {
+  return settings.solver == Solver::Hybrid && LaneBodies::of(shape1) != nullptr && LaneBodies::of(shape2) != nullptr;
+}
+
+Proximity find_in_one_lane(const ProximityQuery& pair, const Settings& settings) {
+  const LanePair input = lane_pair(pair);
+  LaneAnswer lane;
+  kOneLane.query(&input, 1, is_of_ellipsoids(input), lane_settings(settings), &lane);
+  return answer_of(pair, settings, lane);
+}
+
+void find_in_lanes(std::span<const ProximityQuery> pairs, const Settings& settings, const LaneKernel& kernel,
+                   std::span<Proximity> results) {
+  constexpr std::size_t kAtOnce = 64;
+  std::array<LanePair, kAtOnce> inputs;
+  std::array<LaneAnswer, kAtOnce> lanes;
+  std::array<std::size_t, kAtOnce> which;
+  for (const bool of_ellipsoids : {true, false}) {
+    std::size_t count = 0;
+    const auto run = [&] {
+      kernel.query(inputs.data(), static_cast<int>(count), of_ellipsoids, lane_settings(settings), lanes.data());
+      for (std::size_t k = 0; k < count; ++k) results[which[k]] = answer_of(pairs[which[k]], settings, lanes[k]);
+      count = 0;
+    };
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const LanePair input = lane_pair(pairs[k]);
+      if (is_of_ellipsoids(input) != of_ellipsoids) continue;
+      which[count] = k;
+      inputs[count++] = input;
+      if (count == kAtOnce) run();
+    }
+    if (count > 0) run();
+  }
+}
+
+}  // namespace supernormal

@@ -1,0 +1,160 @@
+// What a pair costs alone and among many, by width of the lanes, as a Markdown table.
+//
+//     many_pairs [--pairs 2048] [--rounds 7] [--seed 7]
+//
+// Pairs are drawn at a random normal, at which their witness points have the gap. The rounds of all ways of asking are interleaved,
+// and the least processor time of each counts.
+#include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "proximity/lanes/lane_query.hpp"
+#include "supernormal/proximity/batch.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+
+namespace {
+
+using namespace supernormal;
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+struct Kind {
+  const char* name;
+  double least_exponent, largest_exponent;
+  double gap;  // in units of the smallest half-axis
+  bool is_warm;
+  bool is_early;  // ends at the first proof of separation
+};
+
+constexpr Kind kKinds[] = {
+    {"ellipsoids, apart, cold", 2, 2, 0.01, false, false},       {"ellipsoids, apart, warm", 2, 2, 0.01, true, false},
+    {"ellipsoids, proved apart, warm", 2, 2, 0.1, true, true},   {"1.3 to 5, apart, cold", 1.3, 5, 0.01, false, false},
+    {"1.3 to 5, proved apart, warm", 1.3, 5, 0.1, true, true},   {"1.3 to 5, overlap 1 %, cold", 1.3, 5, -0.01, false, false},
+    {"1.3 to 5, overlap 1 %, warm", 1.3, 5, -0.01, true, false}, {"6 to 20, apart, cold", 6, 20, 0.01, false, false},
+    {"6 to 20, overlap 1 %, cold", 6, 20, -0.01, false, false},  {"6 to 20, overlap 1 %, warm", 6, 20, -0.01, true, false},
+    {"6 to 20, overlap 10 %, cold", 6, 20, -0.1, false, false},  {"1.05 to 100, apart, cold", 1.05, 100, 0.01, false, false}};
+
+class Pairs {
+ public:
+  Pairs(const Kind& kind, std::size_t count, unsigned seed) : kind_(kind), engine_(seed) {
+    pairs_.resize(count);
+    for (Pair& pair : pairs_) draw(pair);
+    for (const Pair& pair : pairs_) {
+      queries_.push_back({pair.shape1.get(), &pair.pose1, pair.shape2.get(), &pair.pose2, kind.is_warm ? &pair.normal : nullptr});
+    }
+  }
+
+  const std::vector<ProximityQuery>& queries() const { return queries_; }
+
+ private:
+  struct Pair {
+    std::unique_ptr<Shape> shape1, shape2;
+    Pose pose1, pose2;
+    Vector3 normal;
+  };
+
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  Vector3 direction() { return Vector3{gauss_(engine_), gauss_(engine_), gauss_(engine_)}.normalized(); }
+  Matrix3 rotation() {
+    return Eigen::Quaterniond(Eigen::Vector4d{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)})
+        .normalized()
+        .toRotationMatrix();
+  }
+
+  std::unique_ptr<Shape> shape() {
+    const Vector3 half = Vector3{uniform(0.5, 1.5), uniform(0.5, 1.5), uniform(0.5, 1.5)};
+    if (kind_.least_exponent == kind_.largest_exponent) return std::make_unique<Ellipsoid>(half);
+    const double delta = uniform(kind_.least_exponent, kind_.largest_exponent);
+    return std::make_unique<Superellipsoid>(half, delta, uniform(kind_.least_exponent, kind_.largest_exponent));
+  }
+
+  void draw(Pair& pair) {
+    pair.shape1 = shape();
+    pair.shape2 = shape();
+    pair.pose1 = {Vector3{uniform(-10, 10), uniform(-10, 10), uniform(-10, 10)}, rotation()};
+    pair.pose2.rotation = rotation();
+    const Vector3 n = direction();
+    const double unit = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
+    pair.pose2.position = pair.pose1.position + pair.pose1.rotation * pair.shape1->point(pair.pose1.rotation.transpose() * n) -
+                          pair.pose2.rotation * pair.shape2->point(-(pair.pose2.rotation.transpose() * n)) + kind_.gap * unit * n;
+    // The normal of a pose a step before: 1 mm and 1 mrad away.
+    Pose earlier = pair.pose2;
+    earlier.position += 1e-3 * direction();
+    earlier.rotation = Eigen::AngleAxisd(1e-3, direction()).toRotationMatrix() * earlier.rotation;
+    pair.normal = pair.pose1.rotation.transpose() * find_proximity(*pair.shape1, pair.pose1, *pair.shape2, earlier).normal;
+  }
+
+  Kind kind_;
+  std::mt19937_64 engine_;
+  std::normal_distribution<double> gauss_;
+  std::vector<Pair> pairs_;
+  std::vector<ProximityQuery> queries_;
+};
+
+void print_row(const Kind& kind, std::size_t count, int rounds, unsigned seed) {
+  const Pairs pairs(kind, count, seed);
+  Settings settings;
+  settings.stop_when_apart = kind.is_early;
+  std::vector<Proximity> answers(count);
+  std::vector<std::function<void()>> ways = {[&] {
+    for (std::size_t k = 0; k < count; ++k) answers[k] = find_proximity(pairs.queries()[k], settings);
+  }};
+  const LaneKernels& kernels = lane_kernels();
+  for (int k = 1; k < kernels.count; ++k) {
+    ways.emplace_back([&, kernel = kernels.kernels[k]] { find_in_lanes(pairs.queries(), settings, *kernel, answers); });
+  }
+  std::vector<double> least(ways.size(), std::numeric_limits<double>::infinity());
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      const double start = processor_seconds();
+      ways[k]();
+      least[k] = std::min(least[k], processor_seconds() - start);
+    }
+  }
+  double evaluations = 0;
+  for (const Proximity& answer : answers) evaluations += answer.evaluations;
+  std::printf("| %s | %.2f | %.0f |", kind.name, evaluations / static_cast<double>(count),
+              1e9 * least[0] / static_cast<double>(count));
+  for (std::size_t k = 1; k < ways.size(); ++k) std::printf(" %.1f |", least[0] / least[k]);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  CLI::App app("What a pair costs alone and among many.");
+  std::size_t count = 2048;
+  int rounds = 7;
+  unsigned seed = 7;
+  app.option_defaults()->always_capture_default();
+  app.add_option("--pairs", count, "pairs of a row")->check(CLI::Range(1, 1000000));
+  app.add_option("--rounds", rounds, "how often each way of asking is timed")->check(CLI::Range(1, 1000));
+  app.add_option("--seed", seed, "another seed: other pairs");
+  CLI11_PARSE(app, argc, argv);
+  std::printf("| pairs | evaluations | alone, ns |");
+  for (int k = 1; k < lane_kernels().count; ++k) std::printf(" %s |", lane_kernels().kernels[k]->name);
+  std::printf("\n|---|--:|--:|");
+  for (int k = 1; k < lane_kernels().count; ++k) std::printf("--:|");
+  std::printf("\n");
+  for (const Kind& kind : kKinds) print_row(kind, count, rounds, seed);
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "many_pairs: %s\n", error.what());
+  return 1;
+}
