@@ -22,8 +22,8 @@ class BodyRotation {
   double fastest() const { return speed_ * axis_distance_; }
 
   /// Upper bound of n.q'' + 2 n'.q', m/s^2, for every point q of the body, relative to its centre. The unit normal rotates from n
-  /// by at most `angle` (rad), with an angular velocity of at most `normal_rate` (rad/s). In a body of revolution the points do not
-  /// spin about its axis: they form the same body at every time.
+  /// by at most `angle` (rad). Its rate is at most `normal_rate` (rad/s). In a body of revolution the points do not spin about its
+  /// axis: they form the same body at every time.
   double bound(const Vector3& n, double angle, double normal_rate) const;
 
  private:

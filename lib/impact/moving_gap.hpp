@@ -17,8 +17,8 @@ class MovingGap {
   MovingGap& operator=(MovingGap&&) = delete;
   virtual ~MovingGap() = default;
 
-  /// The proximity at time t, to `tolerance` (m), in at most `most_evaluations`. The search starts at `first_normal` (world frame)
-  /// unless it is null.
+  /// The proximity at time t, to `tolerance` (m). Takes at most `most_evaluations`. The search starts at `first_normal` (world
+  /// frame) unless it is null.
   virtual Proximity find(double t, const Vector3* first_normal, double tolerance, int most_evaluations) = 0;
 
   /// The proximity with the normal n at time t; n need not be a common normal. Its gap is s(n).
@@ -47,8 +47,7 @@ class MovingGap {
 
   bool is_rotating() const { return rotation1_.is_rotating() || rotation2_.is_rotating(); }
 
-  /// The bound K of README.md, m/s^2, for a normal that rotates from n by `angle` (rad) with the angular velocity `normal_rate`
-  /// (rad/s).
+  /// The bound K of README.md, m/s^2. The normal rotates from n by `angle` (rad) with the rate `normal_rate` (rad/s).
   double bound(const Vector3& n, double angle, double normal_rate) const {
     return 2 * normal_rate * velocity_.norm() + rotation1_.bound(n, angle, normal_rate) + rotation2_.bound(n, angle, normal_rate);
   }

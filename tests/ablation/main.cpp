@@ -1,4 +1,4 @@
-// Changes one constant of the solver at a time (lib/proximity/tuning.hpp) and prints the cost over fixed sets of pairs.
+// Changes one constant of the solver at a time (lib/proximity/tuning.hpp). Prints the cost over fixed sets of pairs.
 //
 //     ablation [--pairs 3000] [--samples 20000] [--only name] [--list]
 #include <CLI/CLI.hpp>

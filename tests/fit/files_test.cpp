@@ -393,7 +393,7 @@ TEST_CASE("a union is printed as one grain, with the relative poses of its parts
                                     fitted_of(placed_body(Family::Superovoid, 2, 2, -0.3))};
   fitted[0].body.position = {5000, 0, 0};  // far from the origin of a scanner
   fitted[1].body.position = {5000.02, 0.01, 0};
-  fitted[1].body.attitude = Eigen::Quaterniond(-0.7, 0.3, 0.2, 0.5).normalized();
+  fitted[1].body.orientation = Eigen::Quaterniond(-0.7, 0.3, 0.2, 0.5).normalized();
   const auto grains = falling_particles::load_catalogue(folder.write("grains.toml", toml_lines(fitted, "tooth", 1200, "a scan")));
   REQUIRE(grains.size() == 1);
   REQUIRE(grains[0].components.size() == 2);
@@ -403,7 +403,7 @@ TEST_CASE("a union is printed as one grain, with the relative poses of its parts
     return Eigen::Quaterniond(part.quaternion[0], part.quaternion[1], part.quaternion[2], part.quaternion[3]);
   };
   CHECK(((at(parts[1]) - at(parts[0])) - Vector3(0.02, 0.01, 0)).norm() < 1e-6);
-  for (std::size_t k = 0; k < 2; ++k) CHECK(turn(parts[k]).angularDistance(fitted[k].body.attitude) < 1e-7);
+  for (std::size_t k = 0; k < 2; ++k) CHECK(turn(parts[k]).angularDistance(fitted[k].body.orientation) < 1e-7);
 }
 
 TEST_CASE("the printed lines of C compile and create the bodies") {

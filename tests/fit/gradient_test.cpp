@@ -16,7 +16,7 @@ Body varied(const Body& body, int parameter, double step) {
   if (parameter < kRotation) {
     result.position[parameter] += step;
   } else if (parameter < kLogAxes) {
-    result.attitude = body.attitude * Eigen::Quaterniond(Eigen::AngleAxisd(step, Vector3::Unit(parameter - kRotation)));
+    result.orientation = body.orientation * Eigen::Quaterniond(Eigen::AngleAxisd(step, Vector3::Unit(parameter - kRotation)));
   } else if (parameter < kLogDelta) {
     result.half_axes[parameter - kLogAxes] *= std::exp(step);
   } else if (parameter == kLogDelta) {
@@ -32,12 +32,12 @@ Body varied(const Body& body, int parameter, double step) {
 }  // namespace
 
 TEST_CASE("the gradient of the distance agrees with finite differences") {
-  const Eigen::Quaterniond attitude = Eigen::Quaterniond(0.7, 0.3, -0.2, 0.5).normalized();
+  const Eigen::Quaterniond orientation = Eigen::Quaterniond(0.7, 0.3, -0.2, 0.5).normalized();
   for (const auto& [family, delta, epsilon, taper] : {std::tuple{Family::Superellipsoid, 2.5, 4.0, 0.0},
                                                       {Family::Superellipsoid, 1.4, 1.8, 0.0},
                                                       {Family::Superovoid, 3.0, 2.2, -0.3},
                                                       {Family::Superovoid, 1.7, 5.0, 0.2}}) {
-    const Body body{family, {0.3, -0.2, 0.5}, attitude, {1.5, 1.1, 0.8}, delta, epsilon, taper};
+    const Body body{family, {0.3, -0.2, 0.5}, orientation, {1.5, 1.1, 0.8}, delta, epsilon, taper};
     const DistanceFunction function(body);
     for (int k = 0; k < 20; ++k) {
       // Around the body, inside and outside.

@@ -70,7 +70,7 @@ TEST_CASE("a motion or a change of units of the data transforms the answer and c
   const FittedBody second = fit_body(other, {.family = truth.family});
   Body expected = first.body;
   expected.position = scale * (turn * expected.position) + shift;
-  expected.attitude = turn * expected.attitude;
+  expected.orientation = turn * expected.orientation;
   expected.half_axes *= scale;
   Eigen::Matrix3d axes;
   const Body found = aligned(second.body, expected, axes);

@@ -50,8 +50,8 @@ std::unique_ptr<supernormal::Shape> make_shape(const Body& body) {
 
 Body with_axes(const Body& body, const Matrix3& axes) {
   Body turned = body;
-  turned.attitude = Eigen::Quaterniond(body.rotation() * axes);
-  turned.attitude.normalize();
+  turned.orientation = Eigen::Quaterniond(body.rotation() * axes);
+  turned.orientation.normalize();
   turned.half_axes = axes.transpose().cwiseAbs() * body.half_axes;
   return turned;
 }

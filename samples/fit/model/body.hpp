@@ -27,12 +27,12 @@ int parameter_count(Family family);
 struct Body {
   Family family = Family::Ellipsoid;
   Vector3 position = Vector3::Zero();  ///< of the centre
-  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   Vector3 half_axes = Vector3::Ones();
   double delta = 2, epsilon = 2;
   double taper = 0;  ///< taper_x = taper_y of snCreateSuperovoid
 
-  Matrix3 rotation() const { return attitude.toRotationMatrix(); }
+  Matrix3 rotation() const { return orientation.toRotationMatrix(); }
   supernormal::Pose pose() const { return {position, rotation()}; }
 };
 

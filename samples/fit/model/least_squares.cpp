@@ -38,7 +38,7 @@ struct Unknowns {
       position[static_cast<std::size_t>(i)] = body.position[i];
       log_axes[static_cast<std::size_t>(i)] = std::log(std::max(body.half_axes[i], kLeastHalfAxis));
     }
-    Eigen::Map<Eigen::Vector4d>(orientation.data()) = body.attitude.coeffs();
+    Eigen::Map<Eigen::Vector4d>(orientation.data()) = body.orientation.coeffs();
     log_exponents = {std::clamp(std::log(body.delta - 1), kLeastLogExponent, kLargestLogExponent),
                      std::clamp(std::log(body.epsilon - 1), kLeastLogExponent, kLargestLogExponent)};
     artanh_taper = {std::clamp(std::atanh(body.taper / taper_limit(body.epsilon)), -kLargestArtanh, kLargestArtanh)};
@@ -53,7 +53,7 @@ Body body_of(Family family, const double* const* blocks) {
   Body body;
   body.family = family;
   body.position = Eigen::Map<const Vector3>(blocks[kPositionBlock]);
-  body.attitude = Eigen::Map<const Eigen::Quaterniond>(blocks[kOrientationBlock]).normalized();
+  body.orientation = Eigen::Map<const Eigen::Quaterniond>(blocks[kOrientationBlock]).normalized();
   body.half_axes = Eigen::Map<const Vector3>(blocks[kAxesBlock]).array().exp();
   if (family == Family::Ellipsoid) return body;
   const auto exponent = [&](int i) {

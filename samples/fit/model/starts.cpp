@@ -142,7 +142,7 @@ std::vector<Body> make_starts(const Cloud& cloud, Family family, bool is_whole) 
   for (const Matrix3& turn : make_rotations(principal.eigenvalues())) {
     Body body;
     body.family = family;
-    body.attitude = Eigen::Quaterniond(axes * turn).normalized();
+    body.orientation = Eigen::Quaterniond(axes * turn).normalized();
     const Body boxed = boxed_by(cloud, body);
     const std::vector<Body> places = is_whole ? std::vector{boxed} : make_places(boxed, sphere);
     const std::size_t exponents = family == Family::Ellipsoid ? 1 : kExponents.size();

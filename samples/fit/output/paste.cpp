@@ -80,7 +80,7 @@ std::string shape_keys(const Body& body, const std::string& separator) {
 /// The catalogue keys of the pose in a compound.
 std::string place_keys(const Body& body, const Vector3& origin) {
   const Vector3 at = body.position - origin;
-  const Eigen::AngleAxisd turn(body.attitude);
+  const Eigen::AngleAxisd turn(body.orientation);
   const Vector3& axis = turn.axis();
   return "position = [" + list({at.x(), at.y(), at.z()}) + "], axis = [" + list({axis.x(), axis.y(), axis.z()}) +
          "], angle = " + literal(turn.angle() * 180 / std::numbers::pi);
@@ -130,13 +130,13 @@ std::string c_lines(std::span<const FittedBody> bodies, const std::string& name,
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i].body;
     const std::string part = name_of_part(name, bodies.size(), i);
-    const Eigen::Quaterniond& q = body.attitude;
-    const std::string attitude = part + "_attitude";
+    const Eigen::Quaterniond& q = body.orientation;
+    const std::string orientation = part + "_orientation";
     const std::string place = list_of_place(body);
-    text.append("const dQuaternion ").append(attitude).append(" = {").append(list({q.w(), q.x(), q.y(), q.z()})).append("};\n");
+    text.append("const dQuaternion ").append(orientation).append(" = {").append(list({q.w(), q.x(), q.y(), q.z()})).append("};\n");
     text.append("dGeomID ").append(part).append(" = ").append(create_call(body)).append(";\n");
     text.append("dGeomSetPosition(").append(part).append(", ").append(place).append(");\n");
-    text.append("dGeomSetQuaternion(").append(part).append(", ").append(attitude).append(");\n");
+    text.append("dGeomSetQuaternion(").append(part).append(", ").append(orientation).append(");\n");
   }
   return text;
 }

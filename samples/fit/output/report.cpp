@@ -35,15 +35,15 @@ std::string row(const char* name, double value, const FittedBody& fitted, int pa
   return format("  %-22s %14.*g ± %.2g\n", name, digits, value, uncertainty.standard_error[parameter]);
 }
 
-std::string attitude_rows(const FittedBody& fitted) {
-  const Eigen::Quaterniond& q = fitted.body.attitude;
-  std::string text = format("  attitude (w, x, y, z)  %.7g %.7g %.7g %.7g\n", q.w(), q.x(), q.y(), q.z());
+std::string orientation_rows(const FittedBody& fitted) {
+  const Eigen::Quaterniond& q = fitted.body.orientation;
+  std::string text = format("  orientation (w, x, y, z)  %.7g %.7g %.7g %.7g\n", q.w(), q.x(), q.y(), q.z());
   for (int i = kRotation; i < kRotation + 3; ++i) {
     const char axis = "xyz"[i - kRotation];
     const double error = fitted.uncertainty.standard_error[i] * 180 / std::numbers::pi;
     const bool is_determined = fitted.uncertainty.is_determined[static_cast<std::size_t>(i)];
-    text += is_determined ? format("    turn about its %c-axis ± %.2g degrees\n", axis, error)
-                          : format("    turn about its %c-axis not determined by the data\n", axis);
+    text += is_determined ? format("    rotation about its %c-axis ± %.2g degrees\n", axis, error)
+                          : format("    rotation about its %c-axis not determined by the data\n", axis);
   }
   return text;
 }
@@ -86,7 +86,7 @@ std::string describe(const FittedBody& fitted) {
   }
   if (body.family == Family::Superovoid) text += row("taper_x = taper_y", body.taper, fitted, kTaper);
   for (int i = 0; i < 3; ++i) text += row(("centre " + std::string(1, "xyz"[i])).c_str(), body.position[i], fitted, kPosition + i);
-  text += attitude_rows(fitted);
+  text += orientation_rows(fitted);
   text += format("  %zu points, standard deviation of their distances %.4g; %zu outliers left out\n", fitted.inliers,
                  fitted.uncertainty.sigma, fitted.outliers.size());
   return text + remarks(fitted);

@@ -22,7 +22,7 @@ struct Kind {
   int first, count;
 };
 constexpr std::array<Kind, 5> kKinds = {{{"centre", kPosition, 3},
-                                         {"attitude", kRotation, 3},
+                                         {"orientation", kRotation, 3},
                                          {"half-axes", kLogAxes, 3},
                                          {"exponents", kLogDelta, 2},
                                          {"taper", kTaper, 1}}};

@@ -18,7 +18,7 @@ Body random_superellipsoid(std::mt19937_64& random) {
   body.delta = exponent();
   body.epsilon = exponent();
   const double w = uniform(random) - 0.5, x = uniform(random) - 0.5, y = uniform(random) - 0.5, z = uniform(random) - 0.5;
-  body.attitude = Eigen::Quaterniond(w, x, y, z).normalized();
+  body.orientation = Eigen::Quaterniond(w, x, y, z).normalized();
   return body;
 }
 

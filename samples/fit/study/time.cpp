@@ -42,7 +42,7 @@ void print_time() {
     truth.epsilon = chosen.epsilon;
     truth.taper = chosen.taper;
     truth.position = {3, -2, 5};
-    truth.attitude = Eigen::Quaterniond(0.7, 0.3, -0.2, 0.5).normalized();
+    truth.orientation = Eigen::Quaterniond(0.7, 0.3, -0.2, 0.5).normalized();
     for (const double noise : {0.0, 0.01, 0.05}) {
       const Cloud cloud = scatter(truth, {.points = 100000, .noise = noise, .is_half_missing = chosen.is_half_missing});
       FitSettings settings;

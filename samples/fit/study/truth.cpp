@@ -65,7 +65,7 @@ Body aligned(const Body& fitted, const Body& truth, Eigen::Matrix3d& axes) {
     }
   }
   Body result = fitted;
-  result.attitude = Eigen::Quaterniond(fitted.rotation() * axes).normalized();
+  result.orientation = Eigen::Quaterniond(fitted.rotation() * axes).normalized();
   result.half_axes = axes.cwiseAbs().transpose() * fitted.half_axes;
   if (axes(2, 2) < 0) result.taper = -fitted.taper;
   return result;

@@ -79,10 +79,10 @@ void fill_grains(Scene& scene) {
   const auto uniform = [&engine] { return static_cast<double>(engine() >> 11U) * 0x1p-52 - 1; };  // in [-1, 1)
   for (int i = 0; i < 40; ++i) {
     const double exponent = std::array<double, 4>{2, 2, 3, kBoxy}[static_cast<std::size_t>(i % 4)];
-    const std::array<double, 4> attitude = {uniform(), uniform(), uniform(), uniform()};
+    const std::array<double, 4> orientation = {uniform(), uniform(), uniform(), uniform()};
     const int layer = i / 9;
     const int row = i / 3 % 3 - 1;
-    scene.add(exponent, kDensity, {5.0 * (i % 3 - 1), 5.0 * row, 3 + 5.0 * layer}, attitude);
+    scene.add(exponent, kDensity, {5.0 * (i % 3 - 1), 5.0 * row, 3 + 5.0 * layer}, orientation);
   }
 }
 

@@ -80,7 +80,7 @@ class Floor {
 
 }  // namespace
 
-Rest drop(const Row& row, const Attitudes& attitudes, int number) {
+Rest drop(const Row& row, const Orientations& orientations, int number) {
   Floor floor;  // must outlive the geom that refers to it
   World world(dSimpleSpaceCreate(nullptr), row.step, row.room, row.looks_ahead);
   floor.lay(row.floor, world.space(), kFloorSize * row.half_height);
@@ -90,16 +90,16 @@ Rest drop(const Row& row, const Attitudes& attitudes, int number) {
                                         : create_counterpart(world.space(), row.kind, row.half_height, mass);
   const dBodyID body = world.add(geom, mass);
   dBodySetPosition(body, 0, 0, static_cast<dReal>(3 * row.half_height));
-  const double direction = kGoldenAngle * (number + kDrops * attitudes.draw);
-  const double tilt = kLeastTilt + (attitudes.largest_tilt - kLeastTilt) * number / (kDrops - 1);
+  const double direction = kGoldenAngle * (number + kDrops * orientations.draw);
+  const double tilt = kLeastTilt + (orientations.largest_tilt - kLeastTilt) * number / (kDrops - 1);
   dQuaternion tilted;
   dQuaternion on_its_side;
-  dQuaternion attitude;
+  dQuaternion orientation;
   dQFromAxisAndAngle(tilted, static_cast<dReal>(std::cos(direction)), static_cast<dReal>(std::sin(direction)), 0,
                      static_cast<dReal>(tilt * M_PI / 180));
   dQFromAxisAndAngle(on_its_side, 0, 1, 0, lies_on_its_side(row.kind) ? static_cast<dReal>(M_PI_2) : 0);
-  dQMultiply0(attitude, tilted, on_its_side);
-  dBodySetQuaternion(body, attitude);
+  dQMultiply0(orientation, tilted, on_its_side);
+  dBodySetQuaternion(body, orientation);
   int step = 0;
   while (step * row.step < kLongest && dBodyIsEnabled(body) != 0) world.step(++step);
   return {dBodyIsEnabled(body) == 0, step * row.step, double{dBodyGetPosition(body)[2]} / row.half_height,

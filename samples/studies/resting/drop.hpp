@@ -25,7 +25,7 @@ struct Row {
 };
 
 /// The orientations of the drops.
-struct Attitudes {
+struct Orientations {
   int draw = 0;             ///< another number gives other axes
   double largest_tilt = 6;  ///< degrees; the drops of a row are tilted by 1 degree to this
 };
@@ -41,6 +41,6 @@ struct Rest {
 inline constexpr int kDrops = 24;  ///< they start in different orientations
 
 /// Drops the body, number 0 to kDrops - 1, from three half-heights onto a floor of Coulomb friction 0.5.
-Rest drop(const Row& row, const Attitudes& attitudes, int number);
+Rest drop(const Row& row, const Orientations& orientations, int number);
 
 }  // namespace resting

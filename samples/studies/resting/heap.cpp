@@ -78,9 +78,9 @@ class Scene {
 
   void add(const Place& place, double slenderness, double size) {
     const dBodyID body = world_.add(row_.exponent, {slenderness * size, size, size});
-    dMatrix3 attitude;
-    dRFromEulerAngles(attitude, 0, static_cast<dReal>(place.pitch), static_cast<dReal>(place.yaw));
-    dBodySetRotation(body, attitude);
+    dMatrix3 orientation;
+    dRFromEulerAngles(orientation, 0, static_cast<dReal>(place.pitch), static_cast<dReal>(place.yaw));
+    dBodySetRotation(body, orientation);
     dBodySetPosition(body, static_cast<dReal>(place.x), static_cast<dReal>(place.y), static_cast<dReal>(place.z));
     bodies_.push_back(body);
   }

@@ -43,7 +43,7 @@ struct Options {
   std::vector<double> steps = {0.002, 0.005, 0.01, 0.0167, 0.02, 0.05};
   std::vector<int> rooms = {3, 4, 8};
   std::vector<double> correcting_velocities = {0, 0.1};
-  Attitudes attitudes;
+  Orientations orientations;
   bool looks_ahead = false;
   bool prints_all = false;
 };
@@ -56,12 +56,12 @@ struct Summary {
   double lowest = 0;   ///< height of the lowest point of all bodies at the end, half-heights
 };
 
-Summary summarise(const Row& row, const Attitudes& attitudes) {
+Summary summarise(const Row& row, const Orientations& orientations) {
   Summary summary;
   summary.lowest = HUGE_VAL;
   std::vector<double> times;
   for (int number = 0; number < kDrops; ++number) {
-    const Rest rest = drop(row, attitudes, number);
+    const Rest rest = drop(row, orientations, number);
     summary.asleep += rest.is_asleep ? 1 : 0;
     if (rest.is_asleep) summary.highest = std::max(summary.highest, rest.height);
     summary.lowest = std::min(summary.lowest, rest.lowest);
@@ -141,11 +141,11 @@ class Matrix {
   }
 
   void compare(const NamedKind& named, const std::string& floor, Row row) {
-    const Summary box = summarise(row, options_.attitudes);
+    const Summary box = summarise(row, options_.orientations);
     const std::vector<double> none = {HUGE_VAL};
     for (const double exponent : has_exponent(named.kind) ? options_.exponents : none) {
       row.exponent = exponent;
-      const Summary ours = summarise(row, options_.attitudes);
+      const Summary ours = summarise(row, options_.orientations);
       const bool is_good = is_as_good(ours, box, lies_on_its_side(named.kind));
       ++rows_;
       ours_.add(ours);
@@ -192,8 +192,8 @@ int main(int argc, char** argv) {
     app.add_option("--steps", options.steps, "s")->delimiter(',');
     app.add_option("--rooms", options.rooms, "contacts a pair, 1 to 8")->check(CLI::Range(1, 8))->delimiter(',');
     app.add_option("--correcting-velocities", options.correcting_velocities, "m/s; 0: without limit")->delimiter(',');
-    app.add_option("--draw", options.attitudes.draw, "another number drops them in other attitudes");
-    app.add_option("--largest-tilt", options.attitudes.largest_tilt, "degrees, 1 to 90")->check(CLI::Range(1, 90));
+    app.add_option("--draw", options.orientations.draw, "another number drops them in other orientations");
+    app.add_option("--largest-tilt", options.orientations.largest_tilt, "degrees, 1 to 90")->check(CLI::Range(1, 90));
     app.add_flag("--look-ahead", options.looks_ahead, "give our bodies contacts before they overlap, and the counterparts none");
     app.add_flag("--all", options.prints_all, "print the other rows, too");
     CLI11_PARSE(app, argc, argv);

@@ -28,11 +28,11 @@ dBodyID create_body(dWorldID world, dSpaceID space) {
 void tilt(dBodyID body) {
   dMatrix3 about_x;
   dMatrix3 about_y;
-  dMatrix3 attitude;
+  dMatrix3 orientation;
   dRFromAxisAndAngle(about_x, 1, 0, 0, dReal(0.5 * kDegree));
   dRFromAxisAndAngle(about_y, 0, 1, 0, dReal(0.5 * kDegree));
-  dMultiply0_333(attitude, about_x, about_y);
-  dBodySetRotation(body, attitude);
+  dMultiply0_333(orientation, about_x, about_y);
+  dBodySetRotation(body, orientation);
 }
 
 /// The lowest point of a body at the origin.

@@ -396,8 +396,7 @@ TEST_CASE("there are at most max_contacts contacts ahead, the nearest first, and
   REQUIRE(snGeomSetLookAhead(geom, dReal(0.02)) == 1);
   for (int room = 1; room < 8; ++room) {
     const std::vector<dContactGeom> contacts = collide(geom, box, room);
-    CHECK(static_cast<int>(contacts.size()) ==
-          (room < 3 ? 1 : std::min(room, 4)));  // two support only a line
+    CHECK(static_cast<int>(contacts.size()) == (room < 3 ? 1 : std::min(room, 4)));  // two support only a line
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       CHECK(contacts[k].depth < 0);
       CHECK(contacts[k].depth <= contacts[0].depth);
