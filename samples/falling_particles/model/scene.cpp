@@ -22,6 +22,8 @@ bool Scene::looks_ahead() const {
   });
 }
 
+std::span<const Wall> Scene::parts() const { return {std::ranges::find_if(walls, &Wall::is_part), walls.end()}; }
+
 double GrainCount::smallest_scale() const {
   if (!size) return 1;
   return is_fed ? size->smallest() : std::ranges::min(scales);

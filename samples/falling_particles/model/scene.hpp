@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <supernormal/effects.hpp>
 #include <vector>
@@ -70,7 +71,7 @@ struct Scene {
   std::optional<Compression> compression = {};        ///< of the grains in a periodic container
   std::vector<std::string> pictures = {};             ///< formats that a run writes besides its tables (picture_names.hpp)
   bool forces = false;                                ///< whether pictures show the forces of the contacts
-  std::vector<Wall> walls = {};         ///< the container's walls (model/container_walls.hpp), then the walls of [[part]]
+  std::vector<Wall> walls = {};         ///< of the container (container_walls.hpp), then of [[part]]
   std::optional<Query> query = {};      ///< of two smooth bodies; the library's defaults if empty
   std::optional<Axis> sweep_axis = {};  ///< of the broad phase; if empty, chosen by the positions of the grains
   std::vector<MeasurementRequest> measurements = {};  ///< the measurements that the scene names, and no others
@@ -85,6 +86,9 @@ struct Scene {
 
   /// Whether the scene names speculative contacts, for which grains look ahead.
   bool looks_ahead() const;
+
+  /// The walls of Scene::walls that messages call parts: all but the sides of a box, a hopper or a terrain, which come first.
+  std::span<const Wall> parts() const;
 
   int grains_at_start() const;                       ///< at the start
   std::size_t kind_of(const GrainKind& kind) const;  ///< index into kinds; the argument must be an element of it

@@ -37,8 +37,7 @@ Neighbourhood::Neighbourhood(const World& world, const Region& region) {
     if (dGeomIsEnabled(geom) != 0 && meet(aabb_of(geom), box)) geoms_.push_back(geom);
   };
   world.sweep().for_each_geom(add_if_near);
-  std::ranges::for_each(world.container_geoms().geoms(), add_if_near);
-  if (world.walls() != nullptr) std::ranges::for_each(world.walls()->geoms(), add_if_near);
+  std::ranges::for_each(world.walls().geoms(), add_if_near);
 }
 
 dGeomID Neighbourhood::find_overlap(dGeomID geom) const {

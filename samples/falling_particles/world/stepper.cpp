@@ -31,7 +31,7 @@ Stepper::~Stepper() { snBatchDestroy(batch_); }
 
 void Stepper::step(bool measures) {
   contacts_.clear();
-  if (WallBodies* walls = world_.walls()) walls->before_step();
+  world_.walls().before_step();
   if (PeriodicCell* cell = world_.cell()) cell->place_images();
   world_.sweep().before_step();
   {
@@ -51,7 +51,7 @@ void Stepper::step(bool measures) {
   const Stopwatch::Lap lap(costs_.solver);
   dWorldQuickStep(world_.id(), step_);
   if (PeriodicCell* cell = world_.cell()) cell->gather();
-  if (WallBodies* walls = world_.walls()) walls->after_step();
+  world_.walls().after_step();
 }
 
 void Stepper::collide_grains() {
@@ -95,8 +95,7 @@ int Stepper::name_pair(void* self, dGeomID g1, dGeomID g2) {
     return 0;
   }
   if (stepper.may_sleep_ && !is_awake(g1) && !is_awake(g2)) {
-    const WallBodies* walls = stepper.world_.walls();
-    if (walls == nullptr || !walls->is_moving(g2)) return 0;
+    if (grain_of(g2) != nullptr || !stepper.world_.walls().is_moving(g2)) return 0;
   }
   ++stepper.costs_.pairs_tested;
   return 1;

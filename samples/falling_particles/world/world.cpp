@@ -135,8 +135,7 @@ World::World(const Scene& scene) : scene_(scene), query_defaults_(scene.query) {
   set_parameters(scene);
   // The walls are in no space. ODE pairs geoms of infinite height with all others, whatever their bounding boxes. Instead each wall
   // is tested against the grains, at the cost of comparing bounding boxes.
-  container_geoms_.emplace(nullptr, scene.container, kWallBit, kGrainBit, scene.periodic);
-  if (!scene.walls.empty()) walls_ = std::make_unique<WallBodies>(world_, scene.walls, scene.time.step, kWallBit, kGrainBit);
+  walls_ = std::make_unique<WallBodies>(world_, scene.walls, scene.time.step, kWallBit, kGrainBit);
 }
 
 World::World(const Scene& scene, const std::vector<Placement>& placements) : World(scene) {
@@ -150,8 +149,8 @@ World::World(const Scene& scene, GoOn /*how*/, const WorldState& state) : World(
   for (const SavedGrain& saved : state.grains) restore(saved);
   add_cell();
   if (cell_ != nullptr) cell_->set_lengths(state.periods);
-  if (walls_ != nullptr) walls_->restore(state.walls);
-  if (container_geoms_->has_lid() && !state.has_lid) container_geoms_->open_outlet();
+  walls_->restore(state.walls);
+  if (!state.has_lid) walls_->remove_lid();
   dRandSetSeed(static_cast<unsigned long>(state.seed));
 }
 
@@ -164,7 +163,6 @@ void World::add_cell() {
 World::~World() {
   cell_.reset();
   walls_.reset();
-  container_geoms_.reset();
   sweep_.reset();
   dWorldDestroy(world_);
   snClose();
@@ -172,12 +170,8 @@ World::~World() {
 }
 
 void World::name_wall_pairs(void* data, dNearCallback* callback) const {
-  for (dGeomID wall : container_geoms_->geoms()) {
-    // A space is a geom to ODE.
-    dSpaceCollide2(reinterpret_cast<dGeomID>(sweep_->id()), wall, data, callback);
-  }
-  if (walls_ == nullptr) return;
-  for (dGeomID wall : walls_->geoms()) dSpaceCollide2(reinterpret_cast<dGeomID>(sweep_->id()), wall, data, callback);
+  const auto grains = reinterpret_cast<dGeomID>(sweep_->id());  // a space is a geom to ODE
+  for (dGeomID wall : walls_->geoms()) dSpaceCollide2(grains, wall, data, callback);
 }
 
 void World::name_pairs(void* data, dNearCallback* callback) const {
@@ -229,9 +223,9 @@ void World::add_grain(const Placement& placement) {
 WorldState World::save() const {
   WorldState state;
   state.seed = dRandGetSeed();
-  state.has_lid = container_geoms_->has_lid();
+  state.has_lid = walls_->has_lid();
   if (cell_ != nullptr) state.periods = cell_->lengths();
-  if (walls_ != nullptr) state.walls = walls_->save();
+  state.walls = walls_->save();
   state.grains.reserve(grains_.size());
   for (const Grain& grain : grains_) {
     SavedGrain& saved = state.grains.emplace_back();

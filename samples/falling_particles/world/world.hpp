@@ -10,7 +10,6 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
-#include "container_geoms.hpp"
 #include "model/material.hpp"
 #include "model/scene.hpp"
 #include "periodic_cell.hpp"
@@ -80,10 +79,6 @@ inline const Grain* grain_of(dGeomID geom) {
   return dGeomGetClass(geom) == dTriMeshClass ? nullptr : static_cast<const Grain*>(dGeomGetData(geom));
 }
 
-inline supernormal::effects::Material material_of(dGeomID geom) {
-  return grain_of(geom) != nullptr ? kGrainMaterial : kWallMaterial;
-}
-
 /// Creates a geom of the library for a convex body with its lengths times `scale`. Throws std::runtime_error when the library
 /// refuses it.
 dGeomID create_geom(dSpaceID space, const ConvexBody& body, double scale = 1);
@@ -138,13 +133,12 @@ class World {
   std::size_t index_of(const Grain& grain) const { return static_cast<std::size_t>(&grain - grains_.data()); }
   /// The effects that the scene names, compiled.
   supernormal::effects::Effects& effects() const { return *effects_; }
-  const ContainerGeoms& container_geoms() const { return *container_geoms_; }
   /// Calls back for every pair of a grain and a wall whose bounding boxes meet.
   void name_wall_pairs(void* data, dNearCallback* callback) const;
   /// Calls back for every pair of grains, or of a grain and a wall, whose bounding boxes meet.
   void name_pairs(void* data, dNearCallback* callback) const;
   PeriodicCell* cell() const { return cell_.get(); }  ///< null for a scene without periodic axes
-  WallBodies* walls() const { return walls_.get(); }  ///< null if Scene::walls is empty
+  WallBodies& walls() const { return *walls_; }       ///< of Scene::walls
 
   /// Inserts a grain and returns its index, the next one. Not during a step.
   std::size_t insert(const Placement& placement, const Point& velocity);
@@ -155,8 +149,8 @@ class World {
   /// warm-start normals.
   WorldState save() const;
 
-  /// Removes the lid of a hopper's outlet. Call it once.
-  void open_outlet() { container_geoms_->open_outlet(); }
+  /// Removes the lid of a hopper's outlet.
+  void open_outlet() { walls_->remove_lid(); }
 
  private:
   explicit World(const Scene& scene);
@@ -172,7 +166,6 @@ class World {
   std::unique_ptr<supernormal::effects::Effects> effects_;
   std::vector<Grain> grains_;
   std::vector<std::size_t> present_;  // indices of the present grains, in order
-  std::optional<ContainerGeoms> container_geoms_;
   std::unique_ptr<PeriodicCell> cell_;
   std::unique_ptr<WallBodies> walls_;
 };

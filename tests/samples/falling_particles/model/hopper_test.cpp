@@ -102,7 +102,7 @@ TEST_CASE("ODE hits the mesh where the hopper ends, from inside") {
   const Scene scene = scene_of(kHopper, {{soybean(), 1}});
   const World world(scene, {{0, {0, 0, 0.2}, {1, 0, 0, 0}}});
   dGeomID mesh = nullptr;
-  for (dGeomID geom : world.container_geoms().geoms()) {
+  for (dGeomID geom : world.walls().geoms()) {
     if (dGeomGetClass(geom) == dTriMeshClass) mesh = geom;
   }
   REQUIRE(mesh != nullptr);
@@ -177,12 +177,12 @@ TEST_CASE("what passes the outlet is counted once, what comes down beside it is 
   Discharge discharge(world, kHopper, random);
   const double grain_mass = world.grains()[0].mass.mass;
   const auto drop = [&](std::size_t i, double x) { dBodySetPosition(world.grains()[i].body, x, 0, 0.0599); };
-  const std::size_t walls = world.container_geoms().geoms().size();
+  const std::size_t walls = world.walls().geoms().size();
   drop(0, 0);
   discharge.after_step(0.2);
   CHECK_FALSE(discharge.charge());
   CHECK(discharge.count() == 0);
-  CHECK(world.container_geoms().geoms().size() == walls);
+  CHECK(world.walls().geoms().size() == walls);
   dBodySetPosition(world.grains()[0].body, 0, 0, 0.07);
   discharge.after_step(0.3);
   REQUIRE(discharge.charge());
@@ -190,7 +190,7 @@ TEST_CASE("what passes the outlet is counted once, what comes down beside it is 
   CHECK(discharge.charge()->mass == supernormal::test::relative(5 * grain_mass));
   CHECK(discharge.charge()->grain_diameter ==
         supernormal::test::relative(2 * std::cbrt(3.36e-3 * 3.36e-3 * 1.29e-3)).epsilon(1e-9));
-  CHECK(world.container_geoms().geoms().size() == walls - 1);
+  CHECK(world.walls().geoms().size() == walls - 1);
   drop(0, 0);
   drop(1, 0.03);  // beside the outlet
   discharge.after_step(0.4);

@@ -101,7 +101,7 @@ TEST_CASE("ODE's ground is the terrain: the same triangles in the same places") 
   const Scene scene = scene_of(terrain, {{lentil(), 1}});
   const World world(scene, {{0, {0.05, 0.05, 0.1}, {1, 0, 0, 0}}});
   dGeomID ground = nullptr;
-  for (dGeomID geom : world.container_geoms().geoms()) {
+  for (dGeomID geom : world.walls().geoms()) {
     if (dGeomGetClass(geom) == dHeightfieldClass) ground = geom;
   }
   REQUIRE(ground != nullptr);

@@ -40,7 +40,7 @@ bool boxes_meet(dGeomID g1, dGeomID g2) {
 }
 
 Pairs all_pairs(const World& world) {
-  std::vector<dGeomID> geoms = world.container_geoms().geoms();
+  std::vector<dGeomID> geoms = world.walls().geoms();
   const std::size_t walls = geoms.size();
   for (const Grain& grain : world.grains()) geoms.push_back(grain.geom);
   Pairs pairs;

@@ -42,8 +42,9 @@ TEST_CASE("a grain goes through a periodic boundary with its velocity, and meets
   scene.effects.clear();
   scene.solver.iterations = 200;
   scene.periodic[0] = Period{0, 0.06};
+  open_container(scene.periodic, 0.02, scene.walls.size(), scene.walls);
   const World world(scene, {{0, {0.05, 0.025, 0.02}, {1, 0, 0, 0}}, {0, {0.02, 0.025, 0.02}, {1, 0, 0, 0}}});
-  CHECK(world.container_geoms().geoms().size() == 3);  // the floor and the walls across y
+  CHECK(world.walls().geoms().size() == 3);  // the floor and the walls across y
   const Grain& moving = world.grains()[0];
   const Grain& resting = world.grains()[1];
   dBodySetLinearVel(moving.body, 0.5, 0, 0);
@@ -77,7 +78,7 @@ TEST_CASE("the stress of a periodic bed is that of its weight, and its floor bea
   const Scene scene = scene_with("kind = \"stress\"\nlower = [0, 0, 0]\nupper = [0.05, 0.06, 0.2]\n", text);
   Random random(1);
   const World world(scene, place(scene, random));
-  REQUIRE(world.container_geoms().geoms().size() == 1);
+  REQUIRE(world.walls().geoms().size() == 1);
   Stepper stepper(world, scene);
   LeakWatch leaks(world, scene);
   constexpr int kSettling = 1600, kSamples = 100;
@@ -108,6 +109,7 @@ TEST_CASE("grains on a face, an edge and a corner of a periodic scene have one, 
   Scene scene = scene_of(Box{{0.06, 0.05}}, {{ball(), 3}});
   scene.effects.clear();
   scene.periodic = {Period{0, 0.06}, Period{0, 0.05}, std::nullopt};
+  open_container(scene.periodic, 0.02, scene.walls.size(), scene.walls);
   const World world(
       scene,
       {{0, {0.059, 0.025, 0.02}, {1, 0, 0, 0}}, {0, {0.03, 0.049, 0.02}, {1, 0, 0, 0}}, {0, {0.059, 0.049, 0.2}, {1, 0, 0, 0}}});

@@ -194,8 +194,9 @@ TEST_CASE("a feeder whose region is full catches up, or says what is wrong") {
   // A tube that is closed below the region until a plate moves away. A sink empties it.
   scene.container = Box{{0.02, 0.02}};
   scene.sinks = {{"floor", Region{{0, 0, 0}, {0.02, 0.02, 0.02}}}};
-  scene.walls = {{"plate", BoxShape{{0.1, 0.1, 0.004}}, {{0.01, 0.01, 0.057}, Eigen::Quaterniond::Identity()}}};
-  scene.walls[0].motions = {{Translation{{1, 0, 0}}, 0.3}};
+  scene.walls = walls_in(scene.container);
+  scene.walls.push_back({"plate", BoxShape{{0.1, 0.1, 0.004}}, {{0.01, 0.01, 0.057}, Eigen::Quaterniond::Identity()}});
+  scene.walls.back().motions = {{Translation{{1, 0, 0}}, 0.3}};
   scene.feeders[0].patience = 1;
   {
     Plant plant(scene);

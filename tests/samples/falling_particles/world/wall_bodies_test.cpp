@@ -111,7 +111,7 @@ TEST_CASE("a brick on a conveyor has its speed after v / (mu g), and the conveyo
     CHECK(time == relative(kSpeed / (mu * kGravity)).epsilon(0.01));
     for (int i = 0; i < 500; ++i) stepper.step();
     CHECK(speed(world, 0) == relative(kSpeed).epsilon(1e-3));
-    CHECK(world.walls()->state(0).pose.position == belt.start.position);
+    CHECK(world.walls().state(0).pose.position == belt.start.position);
   }
 }
 
@@ -126,7 +126,7 @@ TEST_CASE("friction of its own is that of the part alone") {
   REQUIRE(found.size() == 2);
   CHECK(found[1].coefficient == 0.1);
   const World world(scene, {});
-  const auto material = [&](std::size_t wall) { return world.walls()->side_of(world.walls()->geoms()[wall], 0).material; };
+  const auto material = [&](std::size_t wall) { return world.walls().side_of(world.walls().geoms()[wall]).material; };
   CHECK(found[1].on == fx::MaterialSelector::between(0, material(0)));
   CHECK(material(0) != material(1));
 }
@@ -143,10 +143,10 @@ TEST_CASE("a part is where the function of time says, whatever the step") {
     Stepper stepper(world, scene);
     const auto steps = std::lround(0.5 / step);
     for (int i = 0; i < steps; ++i) stepper.step();
-    const WallPose pose = world.walls()->state(0).pose;
+    const WallPose pose = world.walls().state(0).pose;
     CHECK((pose.position - wanted.position).norm() < 1e-14);
     CHECK(pose.rotation.angularDistance(wanted.rotation) < 1e-7);  // its arccosine
-    const dReal* p = dGeomGetPosition(world.walls()->geoms()[0]);
+    const dReal* p = dGeomGetPosition(world.walls().geoms()[0]);
     CHECK((Vector3(p[0], p[1], p[2]) - wanted.position).norm() < 1e-14);
   }
 }
@@ -284,9 +284,9 @@ TEST_CASE("the floor below a piston carries the weights and the force") {
   Stepper stepper(world, scene);
   for (int i = 0; i < 2000; ++i) stepper.step();
   const double grain = world.grains()[0].mass.mass * kGravity;
-  CHECK(load_on(world, stepper, world.walls()->geoms()[0], 200) == relative(grain + 3 + 0.25 * kGravity).epsilon(1e-3));
-  CHECK(load_on(world, stepper, world.walls()->geoms()[1], 200) == relative(-3 - 0.25 * kGravity).epsilon(1e-3));
-  const WallState state = world.walls()->state(1);
+  CHECK(load_on(world, stepper, world.walls().geoms()[0], 200) == relative(grain + 3 + 0.25 * kGravity).epsilon(1e-3));
+  CHECK(load_on(world, stepper, world.walls().geoms()[1], 200) == relative(-3 - 0.25 * kGravity).epsilon(1e-3));
+  const WallState state = world.walls().state(1);
   CHECK(state.pose.position.head<2>().norm() < 1e-15);
   CHECK(state.pose.rotation.angularDistance(Eigen::Quaterniond::Identity()) == 0);
   CHECK(std::abs(state.pose.position.z() - 0.02) < 5e-5);  // two surface layers of 1e-5, and what the solver leaves
@@ -302,7 +302,7 @@ TEST_CASE("a piston is held until its time, falls with its damping, and stops wh
   Stepper stepper(world, scene);
   const auto run = [&](double seconds) {
     for (int i = 0; i < std::lround(seconds / kStep); ++i) stepper.step();
-    return world.walls()->state(1);
+    return world.walls().state(1);
   };
   CHECK(run(0.1).pose.position.z() == 0.5);
   // v = F / c (1 - exp(-c t / m)), with the weight in F.
@@ -318,7 +318,7 @@ TEST_CASE("a piston that tips a grain off its centre neither tilts nor leaves it
   const World world(scene, {{0, {0.03, 0.02, 4e-3}, {1, 0, 0, 0}}});
   Stepper stepper(world, scene);
   for (int i = 0; i < 2500; ++i) stepper.step();
-  const WallState state = world.walls()->state(1);
+  const WallState state = world.walls().state(1);
   CHECK(state.pose.position.head<2>().norm() < 1e-15);
   CHECK((state.pose.rotation * Vector3::UnitX() - Vector3::UnitY()).norm() < 1e-13);
   CHECK(state.pose.position.z() == relative(0.018).epsilon(0.01));
