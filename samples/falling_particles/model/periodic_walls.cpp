@@ -110,7 +110,8 @@ bool is_prism(const Wall& wall, const MeshShape& mesh, std::size_t axis) {
 std::optional<std::string> find_end_of_shape(const Wall& wall, std::size_t axis) {
   const Eigen::Matrix3d turn = wall.start.rotation.toRotationMatrix();
   if (const auto* plane = std::get_if<PlaneShape>(&wall.shape)) {
-    return is_across(normal_of(wall, *plane), axis) ? std::nullopt : std::optional<std::string>("the plane is not parallel to the axis");
+    return is_across(normal_of(wall, *plane), axis) ? std::nullopt
+                                                    : std::optional<std::string>("the plane is not parallel to the axis");
   }
   if (std::holds_alternative<BoxShape>(wall.shape)) {
     return own_axis(wall, axis) ? std::nullopt : std::optional<std::string>("no edge of the box is along the axis");

@@ -14,7 +14,7 @@ std::vector<std::string> surface_names(const Scene& scene) {
 std::vector<NamedSurface> surfaces_of(const World& world) {
   std::vector<NamedSurface> surfaces;
   for (const dGeomID geom : world.walls().geoms()) {
-    surfaces.push_back({world.scene().walls[*world.walls().index_of(geom)].name, geom});
+    surfaces.push_back({world.walls().wall_of(geom)->name, geom});
   }
   return surfaces;
 }

@@ -241,8 +241,8 @@ void refuse_overlapping_start(const Scene& scene) {
     static_cast<std::vector<std::pair<dGeomID, dGeomID>>*>(data)->emplace_back(g1, g2);
   });
   for (const auto& [geom, wall] : pairs) {
-    const Wall& part = world.walls().wall(world.walls().index_of(wall).value());
-    if (!part.is_part()) continue;
+    const Wall* part = world.walls().wall_of(wall);
+    if (part == nullptr || !part->is_part()) continue;
     snProximity proximity;
     if (snGeomProximity(geom, wall, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
     const Grain& grain = *grain_of(geom);
@@ -251,8 +251,7 @@ void refuse_overlapping_start(const Scene& scene) {
     const auto [x, y, z] = grain.position();
     throw InputError(scene.files.front().string() + ": grain " + std::to_string(world.index_of(grain)) + " (" + grain.kind->name +
                      ") starts at [" + shortest(x) + ", " + shortest(y) + ", " + shortest(z) + "] m, " + rounded(-proximity.gap) +
-                     " m deep in part \"" + part.name +
-                     "\"; allowed: parts that leave the start of the grains free");
+                     " m deep in part \"" + part->name + "\"; allowed: parts that leave the start of the grains free");
   }
 }
 

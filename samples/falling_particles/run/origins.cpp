@@ -11,7 +11,6 @@
 #include <variant>
 
 #include "sight.hpp"
-#include "world/candidate.hpp"
 #include "world/free_places.hpp"
 #include "world/placement.hpp"
 #include "world/world.hpp"
@@ -138,9 +137,8 @@ void add_unreached(const World& world, std::vector<std::string>& doubts) {
 }
 
 std::string name_of(dGeomID solid, const World& world) {
-  const std::optional<std::size_t> index = world.walls().index_of(solid);
-  if (!index || !world.walls().wall(*index).is_part()) return "the container";
-  return "part \"" + world.walls().wall(*index).name + '"';
+  const Wall* wall = world.walls().wall_of(solid);
+  return wall != nullptr && wall->is_part() ? "part \"" + wall->name + '"' : "the container";
 }
 
 /// The names of the solids that obstruct a grain at many random places; none if one place is free.

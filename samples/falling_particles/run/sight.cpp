@@ -24,7 +24,8 @@ dGeomID geom_of(const HalfSpace& below) {
 
 }  // namespace
 
-Sight::Sight(const World& world) : world_(world), solids_(world.walls().geoms()), ray_(dCreateRay(nullptr, kLargestLength), dGeomDestroy) {
+Sight::Sight(const World& world)
+    : world_(world), solids_(world.walls().geoms()), ray_(dCreateRay(nullptr, kLargestLength), dGeomDestroy) {
   dGeomRaySetClosestHit(ray_.get(), 0);
   for (const Sink& sink : world.scene().sinks) {
     sinks_.emplace_back(std::visit([](const auto& region) { return geom_of(region); }, sink.region), dGeomDestroy);

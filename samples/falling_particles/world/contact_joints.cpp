@@ -14,8 +14,8 @@ bool is_moving_wall(dGeomID geom, const supernormal::effects::Side& side) {
   return grain_of(geom) == nullptr && side.body != nullptr;
 }
 
-/// Makes the joint enforce this velocity (m/s) of the first body relative to the second, along the friction directions of the
-/// effects or, without them, of ODE.
+/// Makes the joint enforce this velocity (m/s) of the first body relative to the second. Its directions are the friction directions
+/// of the effects or, without them, of ODE.
 void set_relative_velocity(dContact& contact, const Vector3& velocity) {
   dVector3 first, second;
   if ((contact.surface.mode & dContactFDir1) == 0) {
@@ -85,7 +85,7 @@ void ContactJoints::follow_chords(std::span<dContact> contacts, const Side& side
   if ((is_wall_first ? side1 : side2).body == nullptr || (!is_wall_first && grain_of(geom.g2) != nullptr)) return;
   const dBodyID grain = (is_wall_first ? side2 : side1).body;
   const Vector3 excess = world_.walls().chord_excess(is_wall_first ? geom.g1 : geom.g2, to_vector(dBodyGetPosition(grain)),
-                                             to_vector(dBodyGetLinearVel(grain)));
+                                                     to_vector(dBodyGetLinearVel(grain)));
   if (excess.isZero(0)) return;
   for (dContact& contact : contacts) set_relative_velocity(contact, is_wall_first ? Vector3(-excess) : excess);
 }

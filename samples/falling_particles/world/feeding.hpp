@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/random.hpp"
-#include "candidate.hpp"
+#include "free_places.hpp"
 #include "model/feeder.hpp"
 #include "world.hpp"
 

@@ -27,6 +27,18 @@ bool meet(const Aabb& a, const Aabb& b) {
 
 }  // namespace
 
+Candidate::Candidate(const GrainKind& kind, double scale)
+    : world_(dWorldCreate()), grain_{dBodyCreate(world_), nullptr, &kind, {}, scale} {
+  grain_.geom = attach_geoms(nullptr, kind, scale, grain_.body, nullptr);
+  grain_.mass = mass_of(grain_);
+  geoms_ = grain_.geoms();
+}
+
+Candidate::~Candidate() {
+  std::ranges::for_each(geoms_, dGeomDestroy);
+  dWorldDestroy(world_);
+}
+
 Neighbourhood::Neighbourhood(const World& world, const Region& region) {
   Aabb box;
   for (std::size_t i = 0; i < 3; ++i) {

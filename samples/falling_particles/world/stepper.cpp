@@ -61,7 +61,7 @@ void Stepper::collide_grains() {
   }
 }
 
-// Walls collide one after the other, because ODE's meshes and heightfields are not thread-safe.
+// Pairs with walls collide on one thread, since ODE's meshes and heightfields are not thread-safe.
 void Stepper::collide_with_walls() {
   wall_pairs_.clear();
   {
@@ -77,14 +77,13 @@ void Stepper::collide_with_walls() {
   }
 }
 
-// Sorts contacts by their bodies. The sweep names pairs in the order of their positions along its axis. The first iterations of
-// quickstep take the contacts in the order of their joints. Without sorting they would carry forces along the axis better than
-// against it.
+// Sorts contacts by their bodies. The sweep names pairs in their order along its axis. The first iterations of quickstep take
+// contacts in the order of their joints. Unsorted, they carry forces along the axis better than against it.
 void Stepper::sort_contacts() {
   const auto bodies = [](const dContactGeom& contact) -> std::pair<const Grain*, const Grain*> {
     return std::minmax(grain_of(contact.g1), grain_of(contact.g2));
   };
-  // A stable sort keeps the contacts of a pair together, also when images of the same two bodies meet.
+  // Images of two bodies may meet, too. A stable sort keeps the contacts of each pair of geoms together.
   std::ranges::stable_sort(contacts_, [&bodies](const dContactGeom& a, const dContactGeom& b) { return bodies(a) < bodies(b); });
 }
 

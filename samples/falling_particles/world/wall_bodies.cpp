@@ -9,7 +9,6 @@
 #include <string>
 
 #include "model/material.hpp"
-#include "model/wall_material.hpp"
 #include "to_vector.hpp"
 
 namespace falling_particles {
@@ -98,29 +97,31 @@ WallBodies::~WallBodies() {
     if (entry.slider != nullptr) dJointDestroy(entry.slider);
     if (entry.driven != nullptr) dBodyDestroy(entry.driven);
     if (entry.carrier != nullptr) dBodyDestroy(entry.carrier);
-    if (entry.geom != nullptr) dGeomDestroy(entry.geom);
+    dGeomDestroy(entry.geom);
   }
   for (const dTriMeshDataID data : mesh_data_) dGeomTriMeshDataDestroy(data);
   for (const dHeightfieldDataID data : ground_data_) dGeomHeightfieldDataDestroy(data);
 }
 
-std::optional<std::size_t> WallBodies::index_of(dGeomID geom) const {
+const WallBodies::Entry* WallBodies::find(dGeomID geom) const {
   const auto found = index_of_.find(geom);
-  return found == index_of_.end() ? std::nullopt : std::optional(found->second);
+  return found == index_of_.end() ? nullptr : &entries_[found->second];
+}
+
+const Wall* WallBodies::wall_of(dGeomID geom) const {
+  const Entry* entry = find(geom);
+  return entry == nullptr ? nullptr : entry->wall;
 }
 
 bool WallBodies::has_lid() const {
-  return std::ranges::any_of(entries_,
-                             [](const Entry& entry) { return entry.wall->role == WallRole::Lid && entry.geom != nullptr; });
+  return std::ranges::any_of(entries_, [](const Entry& entry) { return entry.wall->role == WallRole::Lid && entry.is_present; });
 }
 
 void WallBodies::remove_lid() {
   for (Entry& entry : entries_) {
-    if (entry.wall->role != WallRole::Lid || entry.geom == nullptr) continue;
+    if (entry.wall->role != WallRole::Lid) continue;
     std::erase(geoms_, entry.geom);
-    index_of_.erase(entry.geom);
-    dGeomDestroy(entry.geom);
-    entry.geom = nullptr;
+    entry.is_present = false;
   }
 }
 
@@ -166,8 +167,8 @@ dGeomID WallBodies::create_geom(const MeshShape& mesh) {
 
 void WallBodies::add_drive(Entry& entry, const Drive& drive) {
   entry.driven = create_body(world_);
-  // The joint prevents all rotation. A body with a large inertia hardly rotates by itself, and leaves less work to the solver: in
-  // shear_cell.toml the final overlap of grains is 5.7 % of the smallest half-axis, and 7.0 % with an inertia of m r^2.
+  // The joint prevents all rotation. A body with a large inertia hardly rotates by itself, and leaves less work to the solver. In
+  // shear_cell.toml the final overlap of grains is 5.7 % of the smallest half-axis. With an inertia of m r^2 it is 7.0 %.
   constexpr double kHeavy = 1e3;
   const double radius = bounding_radius(entry.wall->shape);
   const double inertia = kHeavy * drive.mass * (std::isfinite(radius) ? radius * radius : 1);
@@ -257,23 +258,21 @@ void WallBodies::place(const Entry& entry) {
 }
 
 bool WallBodies::is_moving(dGeomID geom) const {
-  const auto index = index_of(geom);
-  return index && entries_[*index].is_moving;
+  const Entry* entry = find(geom);
+  return entry != nullptr && entry->is_moving;
 }
 
 supernormal::effects::Side WallBodies::side_of(dGeomID geom) const {
-  const auto index = index_of(geom);
-  if (!index) return {kWallMaterial, dGeomGetBody(geom)};
-  const Entry& entry = entries_[*index];
-  const dBodyID body = entry.driven != nullptr && !entry.is_held ? entry.driven : entry.carrier;
-  return {entry.material, entry.is_moving ? body : nullptr};
+  const Entry* entry = find(geom);
+  if (entry == nullptr) return {kWallMaterial, dGeomGetBody(geom)};
+  const dBodyID body = entry->driven != nullptr && !entry->is_held ? entry->driven : entry->carrier;
+  return {entry->material, entry->is_moving ? body : nullptr};
 }
 
 Vector3 WallBodies::chord_excess(dGeomID geom, const Vector3& centre, const Vector3& velocity) const {
-  const auto index = index_of(geom);
-  if (!index || !entries_[*index].excess) return Vector3::Zero();
-  const Entry& entry = entries_[*index];
-  return entry.excess->at(centre - entry.pose.position, velocity);
+  const Entry* entry = find(geom);
+  if (entry == nullptr || !entry->excess) return Vector3::Zero();
+  return entry->excess->at(centre - entry->pose.position, velocity);
 }
 
 WallState WallBodies::state(std::size_t index) const { return {entries_[index].wall_pose(), entries_[index].wall_velocity()}; }

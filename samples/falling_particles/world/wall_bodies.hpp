@@ -44,8 +44,9 @@ struct WallsState {
 };
 
 /// The geoms of all walls of a scene, and the bodies that give contacts their velocities. The geoms have no bodies, since ODE's
-/// planes can have none. They are in no space. A moving wall has a kinematic body beside its geom, with the mean velocity of the step. After the step the geom and
-/// this body are set to the exact pose. A driven wall has a second body with mass, on a slider joint to the kinematic body.
+/// planes can have none. They are in no space. A moving wall has a kinematic body beside its geom, with the mean velocity of the
+/// step. After the step the geom and this body are set to the exact pose. A driven wall has a second body with mass, on a slider
+/// joint to the kinematic body.
 class WallBodies {
  public:
   /// The walls and the world must outlive this object. The geoms have `category_bits` and collide with geoms that have a bit of
@@ -56,12 +57,12 @@ class WallBodies {
   WallBodies& operator=(const WallBodies&) = delete;
 
   const std::vector<dGeomID>& geoms() const { return geoms_; }  ///< of the present walls, in their order
-  /// The index of the geom's wall in the list of walls; empty if it is no geom of a present wall.
-  std::optional<std::size_t> index_of(dGeomID geom) const;
+  /// The wall with this geom, also if it was removed; null if there is none.
+  const Wall* wall_of(dGeomID geom) const;
 
   /// Whether a lid closes a hopper's outlet.
   bool has_lid() const;
-  /// Removes the lid of a hopper's outlet, if there is one.
+  /// Removes the lid of a hopper's outlet, if there is one. Its geom stays valid for the contacts of the last step.
   void remove_lid();
 
   /// Sets the velocities of the bodies. Call it before the collision of a step.
@@ -75,8 +76,8 @@ class WallBodies {
   /// its own body, and the material that walls share.
   supernormal::effects::Side side_of(dGeomID geom) const;
 
-  /// m/s; the velocity that a grain at `centre` (m) with `velocity` (m/s) needs at its contacts with the wall in this step, in
-  /// addition to the velocity of the wall's body (ChordExcess). Zero if the geom belongs to no wall.
+  /// m/s; what a grain at `centre` (m) with `velocity` (m/s) needs at its contacts in this step besides the velocity of the wall's
+  /// body (ChordExcess). Zero if the geom belongs to no wall.
   Vector3 chord_excess(dGeomID geom, const Vector3& centre, const Vector3& velocity) const;
 
   const Wall& wall(std::size_t index) const { return *entries_[index].wall; }
@@ -96,11 +97,12 @@ class WallBodies {
     double position = 0;                     // m, of the driven body along its axis
     double speed = 0;                        // m/s
     const Wall* wall = nullptr;
-    dGeomID geom = nullptr;     // null for a removed lid
+    dGeomID geom = nullptr;
     dBodyID carrier = nullptr;  // kinematic; null for a wall that stands
     dBodyID driven = nullptr;   // with mass; null for a wall that is not driven
     dJointID slider = nullptr;
     supernormal::effects::Material material = 0;
+    bool is_present = true;  // false for a removed lid
     bool is_moving = false;
     bool is_held = true;
 
@@ -108,6 +110,7 @@ class WallBodies {
     WallVelocity wall_velocity() const;  // with the speed of the driven body; mean of the last step
     Vector3 axis() const;                // of the drive, in the world's frame
   };
+  const Entry* find(dGeomID geom) const;
   dGeomID create_geom(const WallShape& shape);
   dGeomID create_geom(const MeshShape& mesh);
   dGeomID create_geom(const GroundShape& ground);

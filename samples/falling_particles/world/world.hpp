@@ -10,41 +10,14 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
-#include "model/material.hpp"
+#include "grain.hpp"
 #include "model/scene.hpp"
 #include "periodic_cell.hpp"
-#include "placement.hpp"
-#include "query_defaults.hpp"
 #include "sweep_space.hpp"
 #include "wall_bodies.hpp"
 #include "world_state.hpp"
 
 namespace falling_particles {
-
-/// A grain of a world. Its index in the world's list is never reused, also after its removal.
-struct Grain {
-  dBodyID body;  ///< null for a removed grain, which keeps only kind, scale and mass.mass
-  dGeomID geom;  ///< of a compound the first one; geoms() returns all
-  const GrainKind* kind;
-  dMass mass;
-  double scale = 1;  ///< factor on the lengths of the kind
-
-  bool is_present() const { return body != nullptr; }
-  std::vector<dGeomID> geoms() const;
-  /// m; of all geoms together: least x, most x, least y, most y, least z, most z.
-  std::array<dReal, 6> aabb() const;
-  double smallest_half_axis() const { return scale * kind->smallest_half_axis(); }  ///< m
-  double bounding_radius() const { return scale * kind->bounding_radius(); }        ///< m
-  double volume() const { return mass.mass / kind->density; }                       ///< m^3
-  Point position() const {                                                          ///< m, of the centre
-    const dReal* p = dBodyGetPosition(body);
-    return {p[0], p[1], p[2]};
-  }
-  std::array<double, 4> quaternion() const {  ///< w, x, y, z
-    const dReal* q = dBodyGetQuaternion(body);
-    return {q[0], q[1], q[2], q[3]};
-  }
-};
 
 /// The present grains of a list, in its order. Removed grains cost no time.
 class PresentGrains {
@@ -74,25 +47,18 @@ class PresentGrains {
   std::span<const std::size_t> indices_;
 };
 
-/// The grain of a geom in a World. Null for a wall, whose mesh may have data of its own.
-inline const Grain* grain_of(dGeomID geom) {
-  return dGeomGetClass(geom) == dTriMeshClass ? nullptr : static_cast<const Grain*>(dGeomGetData(geom));
-}
+/// Sets the library's defaults for queries, which hold for the process. The end of its lifetime resets them. Without a section
+/// [query] it does nothing. Throws std::runtime_error when the library refuses the values.
+class QueryDefaults {
+ public:
+  explicit QueryDefaults(const std::optional<Query>& query);
+  ~QueryDefaults();
+  QueryDefaults(const QueryDefaults&) = delete;
+  QueryDefaults& operator=(const QueryDefaults&) = delete;
 
-/// Creates a geom of the library for a convex body with its lengths times `scale`. Throws std::runtime_error when the library
-/// refuses it.
-dGeomID create_geom(dSpaceID space, const ConvexBody& body, double scale = 1);
-
-/// Attaches the geoms of a kind of grain to `body`, each in its place, with lengths times `scale` and with `data`. Returns the
-/// first one. Throws std::runtime_error when the library refuses one.
-dGeomID attach_geoms(dSpaceID space, const GrainKind& kind, double scale, dBodyID body, void* data);
-
-/// Sets the position and orientation of a body.
-void put(dBodyID body, const Placement& place);
-
-/// The mass and inertia of a grain about its centre. The grain must have its geoms. Throws std::runtime_error when the library
-/// refuses them.
-dMass mass_of(const Grain& grain);
+ private:
+  bool are_changed_;
+};
 
 /// The ODE world of a scene, which must outlive it.
 class World {

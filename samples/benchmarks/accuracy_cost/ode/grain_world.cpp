@@ -11,8 +11,8 @@ namespace {
 using falling_particles::kContactsPerPair;
 using falling_particles::Stopwatch;
 
-constexpr unsigned long kWallBit = 1;  // as in falling_particles::World
-constexpr unsigned long kGrainBit = 2;
+using falling_particles::kGrainBit;
+using falling_particles::kWallBit;
 
 dSpaceID create_space(SpaceKind kind, const falling_particles::Scene& scene) {
   switch (kind) {

@@ -1,12 +1,11 @@
 // Tests of the section [query]: it reaches the library, and leaves nothing behind.
-#include "model/query.hpp"
-
 #include <doctest/doctest.h>
 
 #include <string>
 #include <vector>
 
 #include "complaint.hpp"
+#include "model/scene.hpp"
 #include "observe/simulation.hpp"
 #include "scenes.hpp"
 
