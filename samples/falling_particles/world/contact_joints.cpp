@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "model/material.hpp"
 #include "to_vector.hpp"
 
 namespace falling_particles {

@@ -64,7 +64,7 @@ class Feeding {
   void choose_next();
   Candidate& candidate();
   bool is_due(double now);
-  std::optional<Placement> find_place(const class Neighbourhood& neighbourhood);
+  std::optional<Placement> find_place(const Neighbourhood& neighbourhood);
   void check_timeout(double now);
 
   const Feeder& feeder_;

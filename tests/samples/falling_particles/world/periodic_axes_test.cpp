@@ -9,6 +9,7 @@
 
 #include "complaint.hpp"
 #include "model/container_walls.hpp"
+#include "model/periodic_walls.hpp"
 #include "observe/bed.hpp"
 #include "observe/container_picture.hpp"
 #include "observe/leaks.hpp"

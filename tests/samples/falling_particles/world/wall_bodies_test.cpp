@@ -126,7 +126,8 @@ TEST_CASE("friction of its own is that of the part alone") {
   REQUIRE(found.size() == 2);
   CHECK(found[1].coefficient == 0.1);
   const World world(scene, {});
-  const auto material = [&](std::size_t wall) { return world.walls().side_of(world.walls().geoms()[wall]).material; };
+  const std::size_t sides = scene.walls.size() - scene.parts().size();
+  const auto material = [&](std::size_t part) { return world.walls().side_of(world.walls().geoms()[sides + part]).material; };
   CHECK(found[1].on == fx::MaterialSelector::between(0, material(0)));
   CHECK(material(0) != material(1));
 }
