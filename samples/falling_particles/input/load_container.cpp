@@ -153,7 +153,7 @@ ConveyorBelt read_conveyor_belt(const TomlTable& table, const Time& time) {
   return belt;
 }
 
-/// The lattice needs space for at least one cell, which holds the largest grain in any orientation.
+/// The lattice needs space for one cell. A cell holds the largest grain in any orientation.
 void check_width(const TomlTable& table, const Scene& scene) {
   const Rectangle plan = plan_of(scene.container);
   const double narrowest = std::min(plan.width[0], plan.width[1]);
@@ -189,7 +189,7 @@ void check_periodic(const TomlTable& table, const Scene& scene, const Periodic& 
                          " m, so that no grain meets itself");
 }
 
-/// Among three by three cells, one lies within the circle around them; among two by two cells, none does.
+/// One of three by three cells lies within the circle around them. None of two by two cells does.
 void check_hopper(const TomlTable& table, const Scene& scene, const Hopper& hopper) {
   const double narrowest = 3 * scene.smallest_cell();
   if (hopper.diameter < narrowest) {

@@ -82,7 +82,7 @@ endsolid t
 
 }  // namespace
 
-TEST_CASE("a part is read as it is written") {
+TEST_CASE("the values of a part are read") {
   const Scene scene = scene_of(with_part());
   REQUIRE(scene.parts().size() == 1);
   const Wall& wall = scene.parts()[0];
@@ -100,7 +100,7 @@ TEST_CASE("a part is read as it is written") {
   CHECK(wall.drive->travel[1] == 0.3);
 }
 
-TEST_CASE("a mistake in a part is told with its name, its value and what is allowed") {
+TEST_CASE("the error of a part names the key, its value and the allowed values") {
   const std::vector<Mistake> mistakes = {
       {"shape = \"box\"", "shape = \"bx\"", {"part.shape is \"bx\"", "did you mean \"box\"", "superovoid"}},
       {"name = \"plate\"", "name = \"a, b\"", {"part.name is \"a, b\"", "letters, digits"}},
@@ -142,14 +142,14 @@ TEST_CASE("a superovoid that is not convex is refused") {
   CHECK(complaint(with_part(part + "taper = [0.3, 0.3]\n")).empty());
 }
 
-TEST_CASE("a pressure on a shape without a plan area needs one") {
+TEST_CASE("a pressure on a shape without a projected area needs `area`") {
   const std::string part =
       "[[part]]\nname = \"lid\"\nshape = \"plane\"\n[part.drive]\naxis = [0, 0, -1]\npressure = 100\nmass = 1\n";
   check_says(complaint(with_part(part)), {"part.drive.area is missing", "m^2"});
   CHECK(scene_of(with_part(part + "area = 0.02\n")).walls.back().drive->force == doctest::Approx(2));
 }
 
-TEST_CASE("without a container parts do the work: where grains start and where they have leaked is said") {
+TEST_CASE("a container of kind none has a start and bounds, and parts hold the grains") {
   const Scene scene = scene_of(scene_in(kNone) + kPart);
   CHECK(contains(scene.container, {0, 0, -0.05}));
   CHECK_FALSE(contains(scene.container, {0, 0, -0.2}));
@@ -161,7 +161,7 @@ TEST_CASE("without a container parts do the work: where grains start and where t
              {"the scene has 7 grains", "up to 6"});
 }
 
-TEST_CASE("a mesh is read in its unit, and what is wrong with its file is said") {
+TEST_CASE("a mesh is read in its unit, and a bad file is refused with the reason") {
   if (!can_load_meshes()) return;
   const TemporaryFolder folder;
   folder.write("grains.toml", kCatalogueText);

@@ -99,7 +99,7 @@ TEST_CASE("a box is a list of five planes") {
   for (const Wall& wall : walls) CHECK(wall.role == WallRole::Side);
 }
 
-TEST_CASE("a hopper is a list of walls, of which the lid goes") {
+TEST_CASE("a hopper is a list of walls, and its lid can be removed") {
   using Names = std::vector<std::string>;
   const Scene scene = scene_of(scene_in(std::string(kHopperText) + "\ndish = { diameter = 0.05, height = 0.01, rim = 0.002 }"));
   CHECK(names_of(scene.walls) == Names{"floor", "x_low", "x_high", "y_low", "y_high", "lid", "hopper", "dish"});
@@ -222,7 +222,7 @@ TEST_CASE("the belt and its rollers have one speed where they meet") {
   CHECK_FALSE(contains(scene.container, {0.31, 0.03, 0.05}));
 }
 
-TEST_CASE("a mistake in a container that moves is told with its name, its value and what is allowed") {
+TEST_CASE("the error of a moving container names the key, its value and the allowed values") {
   struct Wrong {
     const char* container;
     Mistake mistake;
@@ -250,7 +250,7 @@ TEST_CASE("a mistake in a container that moves is told with its name, its value 
   }
 }
 
-TEST_CASE("the scenes that show parts are valid, and their grains start") {
+TEST_CASE("the sample scenes with parts are valid, and their grains start within the container") {
   for (const char* name : {"drum", "tray", "shear_cell", "conveyor", "piston"}) {
     CAPTURE(name);
     const Scene scene = load_scene(SUPERNORMAL_SAMPLES "/scenes/" + std::string(name) + ".toml");

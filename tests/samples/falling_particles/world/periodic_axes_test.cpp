@@ -38,7 +38,7 @@ double momentum(const World& world) {
 
 }  // namespace
 
-TEST_CASE("a grain goes through a periodic boundary with its velocity, and meets a grain on the other side") {
+TEST_CASE("a grain keeps its velocity through a periodic boundary, and meets a grain on the other side") {
   Scene scene = scene_of(Box{{0.06, 0.05}}, {{ball(), 2}});
   scene.effects.clear();
   scene.solver.iterations = 200;
@@ -71,7 +71,7 @@ TEST_CASE("a grain goes through a periodic boundary with its velocity, and meets
   CHECK(momentum(world) == relative(before).epsilon(1e-6));
 }
 
-TEST_CASE("the stress of a periodic bed is that of its weight, and its floor bears it") {
+TEST_CASE("the stress of a periodic bed balances its weight, and the floor bears the weight") {
   constexpr double kGravity = 9.81;
   const std::string lines = "x = [0, 0.05]\ny = [0, 0.06]\n";
   const std::string text =
@@ -209,7 +209,7 @@ TEST_CASE("a feeder that has not started changes nothing") {
   CHECK(ends[0] == ends[1]);
 }
 
-TEST_CASE("pictures of a periodic box show the walls that it has") {
+TEST_CASE("pictures of a periodic box show the remaining walls") {
   const Box box{{0.2, 0.3}};
   PeriodicAxes axes;
   axes[1] = Period{0, 0.3};
@@ -225,7 +225,7 @@ TEST_CASE("pictures of a periodic box show the walls that it has") {
   CHECK(pictures_of(box, 0.5, axes).size() == 1);
 }
 
-TEST_CASE("a scene that repeats along an axis says what is wrong with it") {
+TEST_CASE("mistakes in a scene with periodic axes are refused with the reason") {
   const std::string text = periodic_text("x = [0, 0.05]\n");
   CHECK(complaint(text).empty());
   check_says(complaint(replaced(text, "x = [0, 0.05]", "x = [0, 0.04]")),

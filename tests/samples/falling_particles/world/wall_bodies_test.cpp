@@ -44,7 +44,7 @@ double speed(const World& world, int axis) { return dBodyGetLinearVel(world.grai
 /// A plate that vibrates with a phase such that it starts in the middle, upwards.
 Vibration shaking(double amplitude, double frequency) { return {{0, 0, amplitude}, frequency, 0}; }
 
-/// The first time when the grain is off the plate, and that when it meets it again; NaN if it never is.
+/// The times when the grain first leaves the plate and when it meets the plate again; NaN if it does not leave.
 struct Flight {
   double start = NAN, end = NAN;
 };
@@ -67,7 +67,9 @@ Flight fly(double amplitude, double frequency, double duration) {
 
 }  // namespace
 
-TEST_CASE("a grain on a vibrating plate takes off where the plate falls faster than it, and lands where the parabola meets it") {
+TEST_CASE(
+    "a grain takes off from a vibrating plate when the plate falls faster than the grain, and lands where its parabola meets the "
+    "plate") {
   constexpr double kFrequency = 20;
   const double omega = 2 * std::numbers::pi * kFrequency;
   for (const double throw_number : {1.5, 2.5}) {
@@ -115,7 +117,7 @@ TEST_CASE("a brick on a conveyor has its speed after v / (mu g), and the conveyo
   }
 }
 
-TEST_CASE("friction of its own is that of the part alone") {
+TEST_CASE("a part's own friction holds for this part only") {
   std::string text = kSceneText;
   text.append("[[part]]\nname = \"ice\"\nshape = \"plane\"\nfriction = 0.1\n[[part]]\nname = \"rock\"\nshape = \"plane\"\n");
   const Scene scene = scene_of(text);
@@ -132,7 +134,7 @@ TEST_CASE("friction of its own is that of the part alone") {
   CHECK(material(0) != material(1));
 }
 
-TEST_CASE("a part is where the function of time says, whatever the step") {
+TEST_CASE("the pose of a wall is a function of time, for any step") {
   const std::vector<WallMotion> motions = {motion(Rotation{Vector3(1, 2, 2).normalized(), {0.1, 0, 0}, 50}),
                                            motion(shaking(0.01, 7)), motion(Translation{{0.1, 0, 0}})};
   Wall wall{"paddle", BoxShape{{0.1, 0.02, 0.05}}, {{0.2, 0.3, 0.5}, Eigen::Quaterniond::Identity()}, motions};
@@ -152,7 +154,7 @@ TEST_CASE("a part is where the function of time says, whatever the step") {
   }
 }
 
-TEST_CASE("a sleeping grain is woken by a plate that begins to move, and sleeps on one that stands") {
+TEST_CASE("a plate that begins to move wakes a sleeping grain; a plate that stands does not") {
   WallMotion later = motion(Translation{{0, 0, 0.05}});
   later.from = 0.3;
   const Scene scene = scene_on({plane({later})}, light_ball(), {fx::AutoDisable{0.01, 1, 0, 10}, fx::SurfaceLayer{1e-5}});
@@ -174,7 +176,7 @@ TEST_CASE("a grain follows a plate that is slower than the threshold of sleep") 
   CHECK(speed(world, 0) == relative(0.005).epsilon(1e-3));
 }
 
-TEST_CASE("a grain on the floor of a drum that turns has the drum's velocity, also where only the surface turns") {
+TEST_CASE("a grain on the floor of a rotating drum has the drum's velocity, also if only the surface moves") {
   for (const bool surface_only : {false, true}) {
     CAPTURE(surface_only);
     const Rotation turn{Vector3::UnitY(), {0, 0, -0.5}, 12};
@@ -194,7 +196,7 @@ TEST_CASE("a grain on the floor of a drum that turns has the drum's velocity, al
 
 namespace {
 
-/// m, by how much a grain that has come to ride on a part that turns about z leaves its distance from the axis in two seconds.
+/// m, how far a grain that rides on a wall that rotates about z moves from the axis in two seconds.
 double drift(const Wall& wall, const GrainKind& kind, double step, const Vector3& axis_velocity) {
   Scene scene = scene_on({wall}, kind, {fx::Friction{1, {}}, fx::SurfaceLayer{1e-5}});
   scene.time.step = step;
@@ -214,7 +216,7 @@ double drift(const Wall& wall, const GrainKind& kind, double step, const Vector3
 
 }  // namespace
 
-TEST_CASE("a grain that rides on a part that turns stays at its distance from the axis, whatever the step") {
+TEST_CASE("a grain that rides on a rotating wall stays at its distance from the axis, for any step") {
   const Rotation turn{Vector3::UnitZ(), {0, 0, 0}, 60};
   for (const double step : {2e-3, 5e-4}) {
     CAPTURE(step);
@@ -229,7 +231,7 @@ TEST_CASE("a grain that rides on a part that turns stays at its distance from th
   }
 }
 
-TEST_CASE("a ball rests on every shape, where its surface is, and is lifted with it") {
+TEST_CASE("a ball rests on the surface of every shape, and rises with it") {
   const MeshShape square{
       {{{-0.1F, -0.1F, 0.02F}, {0.1F, -0.1F, 0.02F}, {0.1F, 0.1F, 0.02F}, {-0.1F, 0.1F, 0.02F}}, {{0, 1, 2}, {0, 2, 3}}}};
   const std::vector<std::pair<WallShape, double>> shapes = {
@@ -312,7 +314,7 @@ TEST_CASE("a piston is held until its time, falls with its damping, and stops wh
   CHECK(run(1.5).pose.position.z() == relative(0.3).epsilon(1e-3));
 }
 
-TEST_CASE("a piston that tips a grain off its centre neither tilts nor leaves its axis, and turns as it is told") {
+TEST_CASE("a piston on a grain off its axis neither tilts nor leaves the axis, and rotates as prescribed") {
   Wall wall = piston(0.025);
   wall.motions = {motion(Rotation{Vector3::UnitZ(), {0, 0, 0}, 30})};
   const Scene scene = scene_on({plane({}), wall}, brick(), {fx::Friction{0.5, {}}, fx::SurfaceLayer{1e-5}});
