@@ -13,9 +13,7 @@
 
 #include "base/input_error.hpp"
 #include "base/interrupt.hpp"
-#include "input/list_population.hpp"
 #include "input/list_sections.hpp"
-#include "input/list_walls.hpp"
 #include "input/load_effects.hpp"
 #include "model/scene.hpp"
 #include "observe/measurement.hpp"

@@ -3,8 +3,8 @@
 
 namespace falling_particles {
 
-/// Lowers the flag and installs the handlers. From then on the first Ctrl-C (SIGINT) or SIGTERM only raises the flag; a second one
-/// ends the program as usual.
+/// Lowers the flag and installs the handlers. The first Ctrl-C (SIGINT) or SIGTERM then raises the flag. A second one ends the
+/// program as usual.
 void catch_interrupts();
 
 bool interrupted();

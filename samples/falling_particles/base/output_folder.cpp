@@ -257,8 +257,8 @@ void OutputFolder::discard() {
   if (mark_ >= 0) close(mark_);
 }
 
-// Two states are possible if this is killed. Either the run is unfinished and has its checkpoint, or it is in its place and the
-// folder that it has replaced is marked as a leftover.
+// A kill leaves one of two states. The run is unfinished and has its checkpoint; or it is in its place, and the replaced folder is
+// marked as a leftover.
 void OutputFolder::commit() {
   const fs::path results = std::exchange(staging_, {});  // the run is complete and stays there if it cannot be moved
   const auto fail = [&results](const std::string& reason) {

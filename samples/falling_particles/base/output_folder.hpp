@@ -20,17 +20,17 @@ struct ResultNames {
   std::vector<InnerFolder> folders;
 };
 
-/// The folder of a run's results, all or nothing. Files are written into a folder beside it, NAME.unfinished-1 (or -2, if another
-/// run of the scene is under way, and so on). commit() renames this folder to the final name. Without commit() the folder is
-/// removed, and the results of an earlier run stay. A run that is killed leaves its unfinished folder for inspection. The next run
-/// of that name removes it, unless it resumes from its checkpoint (run/checkpoints.hpp). A folder is never removed if it holds a
-/// name that no run writes: neither a result nor a file of a checkpoint.
+/// The folder of a run's results, all or nothing. Files are written into a folder beside it, NAME.unfinished-1. If another run of
+/// the scene is under way, it is NAME.unfinished-2, and so on. commit() renames this folder to the final name. Without commit() the
+/// folder is removed, and the results of an earlier run stay. A run that is killed leaves its unfinished folder for inspection. The
+/// next run of that name removes it, unless it resumes from its checkpoint (run/checkpoints.hpp). A folder is never removed if it
+/// holds a name that no run writes: neither a result nor a file of a checkpoint.
 class OutputFolder {
  public:
-  /// Throws InputError when `parent`/`name` exists and holds anything but an earlier run's files, or when it cannot be created or
-  /// replaced. Throws std::runtime_error when the disk is full. If `resumes`, the folder of a killed run with checkpoints is taken
-  /// over, if there is one, with everything in it; it then stays in any case. In that case it throws InputError when that run has
-  /// not ended, or when this cannot be found out.
+  /// Throws InputError when `parent`/`name` holds anything but an earlier run's files, or cannot be created or replaced. Throws
+  /// std::runtime_error when the disk is full. If `resumes`, takes over the folder of a killed run with checkpoints, with
+  /// everything in it. This folder then stays in any case. Throws InputError when the killed run has not ended, or when this cannot
+  /// be found out.
   OutputFolder(const std::filesystem::path& parent, const std::string& name, const ResultNames& results, bool resumes = false);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;

@@ -7,8 +7,8 @@
 namespace falling_particles {
 namespace {
 
-/// Removes a comment or a quoted text from the start of `rest`, because its characters are no keys, brackets or commas. Returns the
-/// number of characters; 0 if there is neither.
+/// The length of a comment or a quoted text at the start of `rest`; 0 if there is neither. Its characters are no keys, brackets or
+/// commas.
 std::size_t length_of_text(std::string_view rest) {
   if (rest.front() == '#') return std::min(rest.find('\n'), rest.size());
   const char quote = rest.front();

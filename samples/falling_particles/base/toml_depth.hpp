@@ -11,8 +11,8 @@ namespace falling_particles {
 inline constexpr std::size_t kMostTomlLevels = 100;
 
 /// The first line, from 1, of a statement with more levels; empty if there is none. A parser descends a level by recursion, so a
-/// text of 50 000 dots would overflow its stack. This function looks at the characters alone. For a text that is not valid TOML,
-/// the answer holds up to the place where the parser refuses the text.
+/// text of 50 000 dots would overflow its stack. This function looks at the characters alone. In invalid TOML, the answer holds up
+/// to the place that the parser refuses.
 std::optional<unsigned> find_deep_toml(std::string_view text);
 
 }  // namespace falling_particles

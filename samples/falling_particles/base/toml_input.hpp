@@ -15,9 +15,8 @@ namespace falling_particles {
 /// The characters that a name may have without quotes.
 constexpr const char* kNameCharacters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
 
-/// A table of a TOML file whose keys are known in advance. Every reading function checks the value, so that a value that was read
-/// is valid. It throws InputError with the file and line, or with the option that set the value, and with what is allowed. A table
-/// is valid as long as its TomlFile.
+/// A table of a TOML file whose keys are known in advance. Every reading function checks its value. It throws InputError with the
+/// allowed values, and with the file and line or the option that set the value. A table is valid as long as its TomlFile.
 class TomlTable {
  public:
   std::optional<std::string> find_text(std::string_view key) const;

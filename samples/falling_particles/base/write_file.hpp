@@ -54,8 +54,8 @@ class OutputFile {
 /// Writes a whole file, or none, into an output folder. If it fails, the earlier content is lost.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
-/// Writes a file that the user has named. If it fails, the earlier content stays. A path that is no regular file, such as a pipe or
-/// a device, is written in place and never removed.
+/// Writes a file that the user has named. If it fails, the earlier content stays. A pipe or a device is written in place and never
+/// removed.
 void replace_file(const std::filesystem::path& path, std::string_view text);
 
 /// Returns when the names in a folder survive a power cut.

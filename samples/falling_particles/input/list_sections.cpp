@@ -122,4 +122,64 @@ std::string list_sections() {
 )";
 }
 
+std::string list_walls() {
+  return R"([[part]]
+  parameters  name: letters, digits, _ - and .
+              position: m, each in [-1000, 1000]; the origin without it
+              axis, angle: the orientation, a rotation by angle degrees in [-360, 360] about axis; none without them
+              friction: in (0, 100], of grains on this part; as for walls without it
+              restitution: in (0, 1], of grains on this part; as for walls without it
+  cost        its contacts; a part that moves has a body more
+[[part]] shape = "plane"
+  is          the half-space below its xy-plane
+[[part]] shape = "box"
+  parameters  size: m, three lengths in (0, 1000], around position
+[[part]] shape = "cylinder"
+  parameters  radius, length: m, in (0, 1000]; along its z-axis, around position
+[[part]] shape = "ellipsoid"
+  parameters  half_axes: m, three in (0, 1000]
+[[part]] shape = "superellipsoid"
+  parameters  half_axes; delta, epsilon: exponents of the xy-section and along z, in [1.01, 1000]
+[[part]] shape = "superovoid"
+  parameters  half_axes, delta, epsilon; taper: along x and y, in [-1, 1], as long as it is convex
+[[part]] shape = "mesh"
+  parameters  file: an STL or OBJ file, its path relative to the scene file; unit: m, cm, mm or inch
+              two_sided: true or false, whether it holds grains on both sides; false without it: what is behind a triangle is solid
+[[part.motion]] kind = "velocity"
+  parameters  velocity: m/s, each in [-1000, 1000]
+              from, until: s, of this and every other kind of motion; the whole run without them
+[[part.motion]] kind = "rotation"
+  parameters  axis; point: m; rpm: revolutions a minute, anticlockwise as seen from the tip of axis, up to a tenth of one in a step
+[[part.motion]] kind = "vibration"
+  parameters  direction; amplitude: m, in (0, 1000]; frequency: Hz, at least ten steps a period; phase: degrees, 0 without it
+[[part.motion]] kind = "conveyor"
+  parameters  velocity: m/s, or axis, point, rpm: of the surface of a part that stands
+[part.drive]
+  parameters  axis: along which it pushes, and the only way it can go
+              force: N, in [-1e9, 1e9]; or pressure: Pa, and area: m^2, that of the part's shape without it
+              mass: kg, in [1e-12, 1e6]; damping: N s/m, in [0, 1e9], 0 without it
+              from, until: s; it is held before, and only its weight is left after; travel: m, least and most way along axis
+)";
+}
+
+std::string list_population() {
+  return R"([[feeder]]
+  parameters  name: letters, digits, _ and -
+              corner, size: m, of the region in which grains come wherever they touch nothing, wider than any of them
+              grains_per_second or kg_per_second: in (0, 1e9]
+              total_grains or total_kg: in (0, 1e9], after which it ends; endless without it
+              from, until: s; the whole run without them
+              velocity: m/s, of grains that come, each in [-1000, 1000]; 0 without it
+              patience: s, in [0, 3600], for which the region may be too full for the rate before the run ends; 1 without it
+              fractions_of: number or mass, of [[feeder.grain]]; number without it
+  cost        a look at the neighbours of each grain that comes
+[[feeder.grain]]
+  parameters  name: a kind of the scene; fraction: in (0, 1], which sum to 1; without any, as the counts of the scene's grains
+[[sink]]
+  parameters  name: letters, digits, _ and -
+              corner, size: m, of a box; or point, normal: of a plane, below which it is; it takes grains whose centre is inside
+  cost        a look at each grain in a step
+)";
+}
+
 }  // namespace falling_particles

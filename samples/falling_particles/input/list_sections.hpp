@@ -1,12 +1,18 @@
-// The list of the keys of all other sections of a scene: no effects, measurements, parts, feeders and sinks.
+// The keys of a scene file, as text for users. Effects and measurements list their own.
 #pragma once
 
 #include <string>
 
 namespace falling_particles {
 
-/// The list for users, as text. Under the name of each section, or of each kind of it, there is a line for every key with its unit,
-/// range and default. A test compares it with the keys that the loader accepts.
+/// The sections besides parts, feeders and sinks. Below each section, or each kind of it, every key has a line with its unit, range
+/// and default. A test compares the keys with those that the loader accepts.
 std::string list_sections();
+
+/// The shapes, motions and drives of [[part]] with their parameters, units and ranges.
+std::string list_walls();
+
+/// The parameters of [[feeder]] and [[sink]] with units and ranges.
+std::string list_population();
 
 }  // namespace falling_particles

@@ -1,11 +1,10 @@
-#include "load_container.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "load_moving_container.hpp"
+#include "load_motion.hpp"
+#include "load_sections.hpp"
 #include "model/lattice.hpp"
 
 namespace falling_particles {
@@ -13,6 +12,11 @@ namespace {
 
 constexpr std::int64_t kMostSegments = 10'000;
 constexpr std::int64_t kMostSamples = 4096;
+
+std::array<double, 2> read_width(const TomlTable& table) {
+  const std::vector<double> width = table.numbers("width", 2, Interval::positive(kLargestLength, "m"));
+  return {width[0], width[1]};
+}
 
 Box read_box(const TomlTable& table) {
   table.refuse_unknown_keys({"kind", "width"});
@@ -65,18 +69,12 @@ Periodic read_periodic(const TomlTable& table) {
   return {table.number("side", Interval::positive(kLargestLength, "m"))};
 }
 
-Region read_region(const TomlTable& table, const char* key) {
-  const TomlTable region = table.table(key, {"corner", "size"});
-  const std::vector<double> corner = region.numbers("corner", 3, Interval::closed(-kLargestLength, kLargestLength, "m"));
-  const std::vector<double> size = region.numbers("size", 3, Interval::positive(kLargestLength, "m"));
-  return {{corner[0], corner[1], corner[2]}, {size[0], size[1], size[2]}};
-}
-
 Open read_open(const TomlTable& root, const TomlTable& table) {
   table.refuse_unknown_keys({"kind", "start", "bounds"});
   if (!root.has("part"))
     table.fail("kind", "container.kind is \"none\" in a scene without parts; allowed: with one or more [[part]]");
-  Open open{read_region(table, "start"), read_region(table, "bounds")};
+  const auto region = [&table](const char* key) { return read_region(table.table(key, {"corner", "size"})); };
+  Open open{region("start"), region("bounds")};
   for (std::size_t i = 0; i < 3; ++i) {
     const double end = open.start.corner[i] + open.start.size[i];
     if (open.start.corner[i] >= open.bounds.corner[i] && end <= open.bounds.corner[i] + open.bounds.size[i]) continue;
@@ -86,7 +84,76 @@ Open read_open(const TomlTable& root, const TomlTable& table) {
   return open;
 }
 
-/// The lattice needs space for at least one cell, which holds the largest grain in any orientation.
+double read_length(const TomlTable& table, const char* key) { return table.number(key, Interval::positive(kLargestLength, "m")); }
+
+/// Reads the start (s) of a motion; 0 if it is not given.
+double read_start(const TomlTable& table, const char* key, const Time& time) {
+  return table.has(key) ? table.number(key, {0, time.duration, true, false, "s (before time.duration)"}) : 0;
+}
+
+Drum read_drum(const TomlTable& table, const Time& time) {
+  table.refuse_unknown_keys({"kind", "diameter", "length", "segments", "rpm", "smooth", "turns_at"});
+  Drum drum{};
+  drum.diameter = read_length(table, "diameter");
+  drum.length = read_length(table, "length");
+  drum.segments = static_cast<int>(table.integer("segments", 8, 10'000));
+  drum.rpm = read_rpm(table, time);
+  drum.is_smooth = table.has("smooth") && table.boolean("smooth");
+  drum.turns_at = read_start(table, "turns_at", time);
+  return drum;
+}
+
+Tray read_tray(const TomlTable& table, const Time& time) {
+  table.refuse_unknown_keys(
+      {"kind", "width", "wall_height", "thickness", "direction", "amplitude", "frequency", "phase", "shakes_at"});
+  Tray tray{};
+  tray.width = read_width(table);
+  tray.wall_height = read_length(table, "wall_height");
+  tray.thickness = read_length(table, "thickness");
+  const Vector3 direction = read_direction(table, "direction");
+  tray.direction = {direction.x(), direction.y(), direction.z()};
+  tray.amplitude = read_length(table, "amplitude");
+  tray.frequency = read_frequency(table, time);
+  tray.phase = read_phase(table);
+  tray.shakes_at = read_start(table, "shakes_at", time);
+  return tray;
+}
+
+ShearCell read_shear_cell(const TomlTable& table, const Time& time) {
+  table.refuse_unknown_keys(
+      {"kind", "width", "height", "cut", "thickness", "speed", "pressure", "lid_mass", "lid", "presses_at", "shears_at"});
+  ShearCell cell{};
+  cell.width = read_width(table);
+  cell.height = read_length(table, "height");
+  cell.cut = table.number("cut", {0, cell.height, false, false, "m (below container.height)"});
+  cell.lid = table.number("lid", {cell.cut, cell.height, false, true, "m (from container.cut to container.height)"});
+  cell.thickness = read_length(table, "thickness");
+  cell.presses_at = read_start(table, "presses_at", time);
+  cell.shears_at = read_start(table, "shears_at", time);
+  const double most = cell.thickness / (time.duration - cell.shears_at);
+  cell.speed =
+      table.number("speed", Interval::closed(-most, most, "m/s (until time.duration the lower half moves by container.thickness)"));
+  cell.pressure = table.number("pressure", Interval::closed(0, 1e9, "Pa"));
+  cell.lid_mass = table.number("lid_mass", Interval::positive(1e6, "kg"));
+  return cell;
+}
+
+ConveyorBelt read_conveyor_belt(const TomlTable& table, const Time& time) {
+  table.refuse_unknown_keys({"kind", "length", "width", "height", "thickness", "wall_height", "speed", "drop_length", "starts_at"});
+  ConveyorBelt belt{};
+  belt.length = read_length(table, "length");
+  belt.width = read_length(table, "width");
+  belt.height = read_length(table, "height");
+  belt.thickness = table.number("thickness", Interval::positive(belt.height, "m (up to container.height)"));
+  belt.wall_height = read_length(table, "wall_height");
+  belt.drop_length = table.number("drop_length", {belt.thickness / 2, kLargestLength, false, true, "m (beyond the last roller)"});
+  const double most = kLargestTurn * std::numbers::pi * belt.thickness / time.step;
+  belt.speed = table.number("speed", Interval::positive(most, "m/s (a roller rotates by a tenth of a revolution in time.step)"));
+  belt.starts_at = read_start(table, "starts_at", time);
+  return belt;
+}
+
+/// The lattice needs space for one cell. A cell holds the largest grain in any orientation.
 void check_width(const TomlTable& table, const Scene& scene) {
   const Rectangle plan = plan_of(scene.container);
   const double narrowest = std::min(plan.width[0], plan.width[1]);
@@ -122,7 +189,7 @@ void check_periodic(const TomlTable& table, const Scene& scene, const Periodic& 
                          " m, so that no grain meets itself");
 }
 
-/// Among three by three cells, one lies within the circle around them; among two by two cells, none does.
+/// One of three by three cells lies within the circle around them. None of two by two cells does.
 void check_hopper(const TomlTable& table, const Scene& scene, const Hopper& hopper) {
   const double narrowest = 3 * scene.smallest_cell();
   if (hopper.diameter < narrowest) {
@@ -136,11 +203,6 @@ void check_hopper(const TomlTable& table, const Scene& scene, const Hopper& hopp
 }
 
 }  // namespace
-
-std::array<double, 2> read_width(const TomlTable& table) {
-  const std::vector<double> width = table.numbers("width", 2, Interval::positive(kLargestLength, "m"));
-  return {width[0], width[1]};
-}
 
 Container read_container(const TomlTable& root, const Time& time) {
   const TomlTable table = root.table("container");

@@ -1,5 +1,3 @@
-#include "load_measurements.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 #include <string>
 
 #include "base/nearest_word.hpp"
+#include "load_sections.hpp"
 #include "observe/measurement.hpp"
 
 namespace falling_particles {
@@ -36,8 +35,7 @@ std::string read_name(const TomlTable& table, const MeasurementKind& kind) {
   if (!table.has("name")) return kind.name;
   constexpr std::size_t kLongest = 64;
   std::string name = table.text("name");
-  const bool is_plain =
-      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
+  const bool is_plain = name.find_first_not_of(kNameCharacters) == std::string::npos;
   if (!is_plain || name.size() > kLongest) {
     table.fail("name", table.full_name("name") + " is \"" + name + "\"; allowed: up to 64 letters, digits, - and _");
   }

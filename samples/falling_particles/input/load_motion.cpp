@@ -66,6 +66,12 @@ Vector3 read_direction(const TomlTable& table, const char* key) {
   table.fail(key, table.full_name(key) + " is [0, 0, 0]; allowed: a direction, not 0");
 }
 
+Region read_region(const TomlTable& table) {
+  const Vector3 corner = read_vector(table, "corner", Interval::closed(-kLargestLength, kLargestLength, "m"));
+  const Vector3 size = read_vector(table, "size", Interval::positive(kLargestLength, "m"));
+  return {{corner.x(), corner.y(), corner.z()}, {size.x(), size.y(), size.z()}};
+}
+
 double read_rpm(const TomlTable& table, const Time& time) {
   const double most = 60 * kLargestTurn / time.step;
   return table.number("rpm", Interval::closed(-most, most, "revolutions a minute (a tenth of one in time.step)"));

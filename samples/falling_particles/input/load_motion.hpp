@@ -1,4 +1,4 @@
-// Reads the [[part.motion]] sections of a wall.
+// Reads vectors, regions, and the [[part.motion]] sections of a wall.
 #pragma once
 
 #include <utility>
@@ -14,6 +14,9 @@ Vector3 read_vector(const TomlTable& table, const char* key, const Interval& all
 
 /// Reads a direction of any length but 0, and returns its unit vector.
 Vector3 read_direction(const TomlTable& table, const char* key);
+
+/// Reads `corner` and `size` (m).
+Region read_region(const TomlTable& table);
 
 /// The most revolutions of a wall in a step. The mean velocity of a step assumes the smaller rotation.
 inline constexpr double kLargestTurn = 0.1;

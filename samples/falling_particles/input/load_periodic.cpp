@@ -1,11 +1,10 @@
-#include "load_periodic.hpp"
-
 #include <array>
 #include <cmath>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "load_sections.hpp"
 #include "model/container_walls.hpp"
 #include "model/periodic_walls.hpp"
 

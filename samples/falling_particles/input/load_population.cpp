@@ -1,7 +1,4 @@
-#include "load_population.hpp"
-
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 #include <string>
@@ -9,6 +6,7 @@
 #include <variant>
 
 #include "load_motion.hpp"
+#include "load_sections.hpp"
 
 namespace falling_particles {
 namespace {
@@ -19,8 +17,7 @@ constexpr double kMostGrains = 1e6;   // of all feeders and of the start togethe
 /// Reads a name, which must fit into a CSV field.
 std::string read_name(const TomlTable& table, std::set<std::string>& names) {
   const std::string name = table.text("name");
-  const auto is_allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
-  if (name.empty() || !std::ranges::all_of(name, is_allowed)) {
+  if (name.empty() || name.find_first_not_of(kNameCharacters) != std::string::npos) {
     table.fail("name", table.full_name("name") + " is \"" + name + "\"; allowed: letters, digits, _ and -");
   }
   if (!names.insert(name).second) {
@@ -30,12 +27,6 @@ std::string read_name(const TomlTable& table, std::set<std::string>& names) {
 }
 
 Point to_point(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
-
-Region read_region(const TomlTable& table) {
-  const Vector3 corner = read_vector(table, "corner", Interval::closed(-kLargestLength, kLargestLength, "m"));
-  const Vector3 size = read_vector(table, "size", Interval::positive(kLargestLength, "m"));
-  return {to_point(corner), to_point(size)};
-}
 
 /// Reads one of two keys, in grains or in kg.
 Quantity read_quantity(const TomlTable& table, const char* grains, const char* kg, const char* unit_of_grains,

@@ -10,17 +10,12 @@
 #include "base/read_file.hpp"
 #include "base/toml_input.hpp"
 #include "catalogue.hpp"
-#include "load_container.hpp"
 #include "load_effects.hpp"
-#include "load_measurements.hpp"
-#include "load_periodic.hpp"
-#include "load_population.hpp"
-#include "load_sizes.hpp"
-#include "load_walls.hpp"
+#include "load_sections.hpp"
 #include "memory.hpp"
+#include "model/material.hpp"
 #include "model/picture_names.hpp"
 #include "model/scene.hpp"
-#include "model/wall_material.hpp"
 
 namespace falling_particles {
 namespace {
@@ -192,6 +187,23 @@ std::optional<Compression> read_compression(const TomlTable& root, const Scene& 
   return compression;
 }
 
+std::optional<Query> read_query(const TomlTable& root) {
+  const auto table = root.find_table("query", {"solver", "tolerance", "max_evaluations", "warm_start"});
+  if (!table) return std::nullopt;
+  Query query;
+  if (table->has("solver")) {
+    const std::string word =
+        table->choice("solver", {name_of(SN_SOLVER_HYBRID), name_of(SN_SOLVER_NEWTON), name_of(SN_SOLVER_FIXED_POINT)});
+    for (const snSolver solver : {SN_SOLVER_NEWTON, SN_SOLVER_FIXED_POINT}) {
+      if (word == name_of(solver)) query.solver = solver;
+    }
+  }
+  if (table->has("tolerance")) query.tolerance = table->number("tolerance", Interval::closed(1e-15, 1, ""));
+  if (table->has("max_evaluations")) query.max_evaluations = static_cast<int>(table->integer("max_evaluations", 1, 1000000));
+  if (table->has("warm_start")) query.warm_start = table->boolean("warm_start");
+  return query;
+}
+
 std::optional<Axis> read_sweep_axis(const TomlTable& root) {
   const auto table = root.find_table("broad_phase", {"axis"});
   if (!table) return std::nullopt;
@@ -254,7 +266,7 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
   scene.feeders = load_feeders(root, scene);
   scene.measurements = load_measurements(root, scene);
   scene.sweep_axis = read_sweep_axis(root);
-  scene.query = load_query(root);
+  scene.query = read_query(root);
   read_output(root, scene);
   check_memory(root, most_at_once(scene));
   check_fit(root, scene);

@@ -1,7 +1,7 @@
-#include "load_sizes.hpp"
-
 #include <string>
 #include <vector>
+
+#include "load_sections.hpp"
 
 namespace falling_particles {
 namespace {

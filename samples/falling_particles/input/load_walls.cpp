@@ -1,5 +1,3 @@
-#include "load_walls.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,9 +9,10 @@
 
 #include "load_mesh.hpp"
 #include "load_motion.hpp"
+#include "load_sections.hpp"
 #include "model/container_walls.hpp"
+#include "model/material.hpp"
 #include "model/two_sided_mesh.hpp"
-#include "model/wall_material.hpp"
 #include "supernormal/shapes/superovoid.hpp"
 
 namespace falling_particles {
@@ -69,8 +68,8 @@ SmoothShape read_smooth(const TomlTable& table, const std::string& shape) {
   return body;
 }
 
-/// The number of triangles that occur in both windings. In a single-sided mesh each of them pushes grains behind it to its front,
-/// so that grains sink in from both sides up to the middle.
+/// The number of triangles that occur in both windings. In a single-sided mesh, each winding pushes grains behind it to its front.
+/// So grains sink in from both sides, up to the middle.
 std::size_t count_two_sided(const Mesh& mesh) {
   const auto from_lowest = [](std::array<unsigned int, 3> corners) {
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
@@ -145,13 +144,13 @@ std::string read_name(const TomlTable& table, const std::vector<Wall>& walls) {
   if (!std::ranges::all_of(name, is_allowed)) {
     table.fail("name", table.full_name("name") + " is \"" + name + "\"; allowed: letters, digits, _, - and .");
   }
-  if (std::ranges::find(walls, name, &Wall::name) != walls.end()) {
+  if (std::ranges::any_of(walls, [&](const Wall& other) { return other.is_part() && other.name == name; })) {
     table.fail("name", table.full_name("name") + " is \"" + name + "\", which another part has; allowed: a name of its own");
   }
   return name;
 }
 
-/// m^2, the projected area of a wall along the axis of its drive, in the wall's frame; 0 if the scene must give the area.
+/// m^2, the projected area of a wall along the axis of its drive. `axis` is in the wall's frame. 0 if the scene must give the area.
 double plan_area(const WallShape& shape, const Vector3& axis) {
   if (const auto* box = std::get_if<BoxShape>(&shape)) {
     const Vector3& s = box->size;

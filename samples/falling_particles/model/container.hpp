@@ -1,17 +1,38 @@
 // The container of a scene: a box, a hopper, a terrain, a periodic cell, a moving container, or none.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <variant>
 
-#include "box.hpp"
 #include "geometry.hpp"
 #include "hopper.hpp"
 #include "moving.hpp"
-#include "open.hpp"
 #include "periodic.hpp"
 #include "terrain.hpp"
 
 namespace falling_particles {
+
+/// A floor at z = 0 and four walls of infinite height at x = 0, x = width[0], y = 0 and y = width[1].
+struct Box {
+  std::array<double, 2> width;  ///< m
+
+  Rectangle plan() const { return {{0, 0}, width}; }
+  double lowest() const { return 0; }
+  bool contains(const Point& p) const { return plan().contains(p[0], p[1]) && p[2] > 0 && p[2] < INFINITY; }
+};
+
+/// A container without walls. Grains start in one region. Grains that leave the other region, which contains the first, have
+/// leaked.
+struct Open {
+  Region start;
+  Region bounds;
+
+  Rectangle plan() const { return {{start.corner[0], start.corner[1]}, {start.size[0], start.size[1]}}; }
+  double lowest() const { return start.corner[2]; }
+  double ceiling() const { return start.corner[2] + start.size[2]; }  ///< m; no grain starts above it
+  bool contains(const Point& p) const { return bounds.contains(p); }
+};
 
 using Container = std::variant<Box, Hopper, Terrain, Periodic, Open, Drum, Tray, ShearCell, ConveyorBelt>;
 

@@ -24,6 +24,52 @@ void add_walls(const std::string& prefix, const std::array<double, 2>& width, do
   walls.push_back(box(prefix + "_back", {-t, y, bottom}, {x + t, y + t, top}, motions));
 }
 
+Wall side(std::string name, WallShape shape, const Vector3& position = Vector3::Zero()) {
+  Wall wall{std::move(name), std::move(shape), {position, Eigen::Quaterniond::Identity()}};
+  wall.role = WallRole::Side;
+  return wall;
+}
+
+Wall plane(std::string name, const Vector3& position, const Vector3& normal) {
+  return side(std::move(name), PlaneShape{0, normal}, position);
+}
+
+Wall floor() { return plane("floor", Vector3::Zero(), Vector3::UnitZ()); }
+
+/// Four walls of infinite height around a rectangle.
+void add_sides(const Rectangle& plan, std::vector<Wall>& walls) {
+  const auto [x, y] = plan.corner;
+  walls.push_back(plane("x_low", {x, 0, 0}, Vector3::UnitX()));
+  walls.push_back(plane("x_high", {x + plan.width[0], 0, 0}, {-1, 0, 0}));
+  walls.push_back(plane("y_low", {0, y, 0}, Vector3::UnitY()));
+  walls.push_back(plane("y_high", {0, y + plan.width[1], 0}, {0, -1, 0}));
+}
+
+std::vector<Wall> walls_of(const Box& box) {
+  std::vector<Wall> walls = {floor()};
+  add_sides(box.plan(), walls);
+  return walls;
+}
+
+std::vector<Wall> walls_of(const Hopper& hopper) {
+  std::vector<Wall> walls = {floor()};
+  add_sides(hopper.tray(), walls);
+  walls.push_back(plane("lid", {0, 0, hopper.clearance}, Vector3::UnitZ()));
+  walls.back().role = WallRole::Lid;
+  walls.push_back(side("hopper", MeshShape{make_mesh(hopper)}));
+  if (hopper.dish) walls.push_back(side("dish", MeshShape{make_mesh(*hopper.dish, hopper.segments)}));
+  return walls;
+}
+
+std::vector<Wall> walls_of(const Terrain& terrain) {
+  const Rectangle plan = terrain.plan();
+  std::vector<Wall> walls;
+  add_sides(plan, walls);
+  walls.push_back(side("ground", GroundShape{terrain.samples_per_side(), terrain.spacing(), terrain.samples()},
+                       {plan.corner[0] + plan.width[0] / 2, plan.corner[1] + plan.width[1] / 2, 0}));
+  return walls;
+}
+
 /// The inner side of the drum's shell around the y-axis. It extends beyond both ends.
 MeshShape shell_of(const Drum& drum) {
   MeshShape mesh;

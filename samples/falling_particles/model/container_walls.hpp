@@ -1,4 +1,4 @@
-// Containers that are made of walls of a scene (wall.hpp).
+// The walls of containers.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace falling_particles {
 
-/// The walls of which the container is made; none for a container with geoms of its own (world/container_geoms.hpp).
+/// The walls of which the container is made. A periodic container and the container "none" have no walls.
 std::vector<Wall> walls_in(const Container& container);
 
 }  // namespace falling_particles

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "open.hpp"
+#include "geometry.hpp"
 
 namespace falling_particles {
 

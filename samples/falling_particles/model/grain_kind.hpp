@@ -24,7 +24,7 @@ struct ConvexBody {
   double smallest_half_axis() const;
   /// m, half-axes of the core, over which the centre of the rounding sphere moves.
   std::array<double, 3> core_half_axes() const;
-  /// m, radius of a sphere about the origin that contains the body; the smallest one unless the body is a superovoid.
+  /// m, radius of a sphere about the origin that contains the body. It is the smallest one, except for a superovoid.
   double bounding_radius() const;
 };
 

@@ -63,8 +63,7 @@ bool Hopper::is_within(double x, double y, double radius) const {
 }
 
 bool Hopper::is_in_tray(const Point& p) const {
-  const Rectangle tray{{-tray_width / 2, -tray_width / 2}, {tray_width, tray_width}};
-  if (!tray.contains(p[0], p[1]) || !(p[2] > 0 && p[2] < clearance)) return false;
+  if (!tray().contains(p[0], p[1]) || !(p[2] > 0 && p[2] < clearance)) return false;
   return !dish || p[2] > dish->height || !is_within(p[0], p[1], dish->outer_radius());
 }
 

@@ -40,6 +40,7 @@ struct Hopper {
   double mean_height(double level) const;                      ///< m, of the volume between outlet and z = level, above the outlet
 
   Rectangle plan() const { return {{-diameter / 2, -diameter / 2}, {diameter, diameter}}; }
+  Rectangle tray() const { return {{-tray_width / 2, -tray_width / 2}, {tray_width, tray_width}}; }
   double lowest() const { return clearance; }
   /// Whether the point is in the hopper, above it within the cylinder's continuation, or in the tray.
   bool contains(const Point& p) const;

@@ -16,11 +16,10 @@ class NoRoom : public std::runtime_error {
   NoRoom() : std::runtime_error("the container has no room for all grains at the start") {}
 };
 
-/// The cells in which the grains of a scene start, layer upon layer from the lowest possible start in the container. The largest
-/// cells hold the largest grain in any orientation, are free of walls, and tile the plan of the container. A grain that is at most
-/// a quarter as large gets a smaller cell. Cells are halved along all axes, repeatedly, until half a cell would be too small. So
-/// the height of the start follows from the volume of the grains. Grains of similar size share the cells of one size and are mixed
-/// one by one.
+/// The cells in which the grains of a scene start. The first layer is at the lowest possible start in the container. The largest
+/// cells tile the plan of the container and are free of walls. They hold the largest grain in any orientation. A grain that is at
+/// most a quarter as large gets a smaller cell. Cells are halved along all axes until half a cell would be too small. So the height
+/// of the start follows from the volume of the grains. Grains of similar size share the cells of one size and are mixed one by one.
 class Lattice {
  public:
   /// The container's plan must be at least one cell wide.

@@ -81,14 +81,14 @@ WallPose pose_at(const WallPose& start, std::span<const WallMotion> motions, dou
 /// The constant velocity that leads from one pose to the other within `duration` (s), by the smaller rotation.
 WallVelocity mean_velocity(const WallPose& from, const WallPose& to, double duration);
 
-/// The mean velocity that conveyors give the wall's surface between two times (s), in the world's frame, at the wall's position.
+/// The mean velocity of the wall's surface by conveyors between two times (s). It is at the wall's position, in the world's frame.
 /// `now` is the pose of the wall.
 WallVelocity conveyor_velocity(const WallPose& start, const WallPose& now, std::span<const WallMotion> motions, double from,
                                double until);
 
 /// The correction of a rigid velocity for the curved paths of a rotating wall. A rigid velocity gives each point of the wall the
-/// tangent of its circle at the start of a step. The point itself moves along a chord. A grain carried along tangents would move
-/// outwards by (angular velocity)^2 step / 2 times its distance from the axis, in every second.
+/// tangent of its circle at the start of a step. The point itself moves along a chord. A grain on tangents moves outwards by
+/// (angular velocity)^2 step / 2 times its distance from the axis in every second.
 class ChordExcess {
  public:
   /// Of a surface that moves with the velocity `rigid` at the wall's position. Relative to that position, it is rotated by
@@ -109,8 +109,8 @@ class ChordExcess {
   double duration_;  // s
 };
 
-/// For the step from `from` to `until` (s), in which the wall moves from `now` to `next` and conveyors move its surface. Empty if
-/// neither rotates.
+/// For the step from `from` to `until` (s). The wall moves from `now` to `next`, and conveyors move its surface. Empty if neither
+/// rotates.
 std::optional<ChordExcess> chord_excess(const WallPose& start, const WallPose& now, const WallPose& next,
                                         std::span<const WallMotion> motions, double from, double until);
 

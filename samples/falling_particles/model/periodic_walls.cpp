@@ -18,6 +18,9 @@ bool is_along(const Vector3& direction, std::size_t axis) {
 }
 bool is_across(const Vector3& direction, std::size_t axis) { return std::abs(direction[static_cast<Eigen::Index>(axis)]) < kAlong; }
 
+/// The normal of a plane at the start, in the world's frame.
+Vector3 normal_of(const Wall& wall, const PlaneShape& plane) { return wall.start.rotation * plane.normal; }
+
 /// The ends (m) of a wall along an axis at the start. A plane has none unless it is across the axis.
 struct Ends {
   double lower, upper;
@@ -29,7 +32,8 @@ Ends ends_of(const Wall& wall, std::size_t axis) {
   const auto i = static_cast<Eigen::Index>(axis);
   const double centre = wall.start.position[i];
   const Eigen::Matrix3d turn = wall.start.rotation.toRotationMatrix();
-  if (std::holds_alternative<PlaneShape>(wall.shape)) return is_along(turn.col(2), axis) ? around(centre, 0) : around(0, INFINITY);
+  if (const auto* plane = std::get_if<PlaneShape>(&wall.shape))
+    return is_along(normal_of(wall, *plane), axis) ? around(centre, 0) : around(0, INFINITY);
   if (const auto* box = std::get_if<BoxShape>(&wall.shape)) {
     return around(centre, turn.row(i).cwiseAbs().dot(box->size.transpose()) / 2);
   }
@@ -105,8 +109,9 @@ bool is_prism(const Wall& wall, const MeshShape& mesh, std::size_t axis) {
 
 std::optional<std::string> find_end_of_shape(const Wall& wall, std::size_t axis) {
   const Eigen::Matrix3d turn = wall.start.rotation.toRotationMatrix();
-  if (std::holds_alternative<PlaneShape>(wall.shape)) {
-    return is_across(turn.col(2), axis) ? std::nullopt : std::optional<std::string>("the plane is not parallel to the axis");
+  if (const auto* plane = std::get_if<PlaneShape>(&wall.shape)) {
+    return is_across(normal_of(wall, *plane), axis) ? std::nullopt
+                                                    : std::optional<std::string>("the plane is not parallel to the axis");
   }
   if (std::holds_alternative<BoxShape>(wall.shape)) {
     return own_axis(wall, axis) ? std::nullopt : std::optional<std::string>("no edge of the box is along the axis");
@@ -117,7 +122,7 @@ std::optional<std::string> find_end_of_shape(const Wall& wall, std::size_t axis)
   if (const auto* mesh = std::get_if<MeshShape>(&wall.shape)) {
     return is_prism(wall, *mesh, axis) ? std::nullopt : std::optional<std::string>("the mesh is no prism along the axis");
   }
-  return "a smooth body ends";
+  return std::holds_alternative<GroundShape>(wall.shape) ? "a ground ends" : "a smooth body ends";
 }
 
 /// Adds the displacement (m) of a vibration along the axis to `way`.

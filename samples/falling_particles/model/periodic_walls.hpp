@@ -11,12 +11,12 @@
 
 namespace falling_particles {
 
-/// Of the first `of_container` walls, the container's, removes those that close the cell along its periodic axes, such as the ends
-/// of a drum. Lengthens the others until they extend beyond the cell by `reach` (m).
+/// Opens a container along its periodic axes. The first `of_container` walls are the container's. Walls that close the cell, such
+/// as the ends of a drum, are removed. The others are lengthened until they extend beyond the cell by `reach` (m).
 void open_container(const PeriodicAxes& axes, double reach, std::size_t of_container, std::vector<Wall>& walls);
 
 /// The reason why a wall is not uniform along a periodic axis: its shape or its motion. Empty if the wall is uniform from `reach`
-/// (m) below the cell to `reach` above it, where the images of grains meet it.
+/// (m) below the cell to `reach` above it. Images of grains meet the wall there.
 std::optional<std::string> find_end(const Wall& wall, std::size_t axis, const Period& period, double reach);
 
 }  // namespace falling_particles

@@ -9,6 +9,10 @@ namespace falling_particles {
 int Time::steps() const { return static_cast<int>(std::lround(duration / step)); }
 int Time::steps_per_frame() const { return static_cast<int>(std::lround(frame / step)); }
 
+std::string name_of(snSolver solver) {
+  return solver == SN_SOLVER_HYBRID ? "hybrid" : solver == SN_SOLVER_NEWTON ? "newton" : "fixed_point";
+}
+
 const supernormal::effects::Gravity* Scene::gravity() const {
   for (const supernormal::effects::Effect& effect : effects) {
     if (const auto* gravity = std::get_if<supernormal::effects::Gravity>(&effect)) return gravity;
@@ -21,6 +25,8 @@ bool Scene::looks_ahead() const {
     return std::holds_alternative<supernormal::effects::SpeculativeContacts>(effect);
   });
 }
+
+std::span<const Wall> Scene::parts() const { return {std::ranges::find_if(walls, &Wall::is_part), walls.end()}; }
 
 double GrainCount::smallest_scale() const {
   if (!size) return 1;

@@ -1,18 +1,20 @@
 // A scene: kinds of grains, container, walls, effects and settings of a run.
 #pragma once
 
+#include <supernormal/supernormal.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <supernormal/effects.hpp>
 #include <vector>
 
-#include "axis.hpp"
 #include "container.hpp"
 #include "feeder.hpp"
+#include "geometry.hpp"
 #include "grain_kind.hpp"
-#include "query.hpp"
 #include "request.hpp"
 #include "size_distribution.hpp"
 #include "wall.hpp"
@@ -51,6 +53,17 @@ struct Solver {
   double cfm;      ///< s/kg: softness of all constraints
 };
 
+/// The settings of all queries of two smooth bodies (snSetDefaultSolver, snSetWarmStart). Without a section [query] the library's
+/// defaults hold.
+struct Query {
+  snSolver solver = SN_SOLVER_HYBRID;
+  double tolerance = 1e-9;  ///< of the gap, relative to the smallest half-extent
+  int max_evaluations = 1000;
+  bool warm_start = true;  ///< whether a query starts from the last normal of its pair
+};
+
+std::string name_of(snSolver solver);
+
 /// The compression of the grains in a periodic container until they jam (world/compression.hpp).
 struct Compression {
   double overlap;        ///< mean, relative to the distance of two touching grains; target at the start
@@ -70,9 +83,9 @@ struct Scene {
   std::optional<Compression> compression = {};        ///< of the grains in a periodic container
   std::vector<std::string> pictures = {};             ///< formats that a run writes besides its tables (picture_names.hpp)
   bool forces = false;                                ///< whether pictures show the forces of the contacts
-  std::vector<Wall> walls = {};         ///< the container's walls (model/container_walls.hpp), then the walls of [[part]]
-  std::optional<Query> query = {};      ///< of two smooth bodies; the library's defaults if empty
-  std::optional<Axis> sweep_axis = {};  ///< of the broad phase; if empty, chosen by the positions of the grains
+  std::vector<Wall> walls = {};                       ///< of the container (container_walls.hpp), then of [[part]]
+  std::optional<Query> query = {};                    ///< of two smooth bodies; the library's defaults if empty
+  std::optional<Axis> sweep_axis = {};                ///< of the broad phase; if empty, chosen by the positions of the grains
   std::vector<MeasurementRequest> measurements = {};  ///< the measurements that the scene names, and no others
   std::vector<Feeder> feeders = {};                   ///< they insert grains during the run
   std::vector<Sink> sinks = {};                       ///< they remove grains during the run
@@ -85,6 +98,9 @@ struct Scene {
 
   /// Whether the scene names speculative contacts, for which grains look ahead.
   bool looks_ahead() const;
+
+  /// The walls of Scene::walls that messages call parts: all but the sides of a box, a hopper or a terrain, which come first.
+  std::span<const Wall> parts() const;
 
   int grains_at_start() const;                       ///< at the start
   std::size_t kind_of(const GrainKind& kind) const;  ///< index into kinds; the argument must be an element of it

@@ -11,8 +11,7 @@ namespace falling_particles {
 /// A distribution of positive sizes between two bounds, represented by its quantiles. Sizes are in m, or relative to a unit.
 class SizeDistribution {
  public:
-  /// Whether fractions of the distribution are by number of grains or by mass, which is proportional to the third power of the
-  /// size.
+  /// Whether fractions of the distribution are by number of grains or by mass. Mass is proportional to the third power of the size.
   enum class By { Number, Mass };
 
   struct Bounds {
@@ -31,7 +30,7 @@ class SizeDistribution {
   static SizeDistribution sieve(const std::vector<double>& openings, const std::vector<double>& passing, By by);
 
   /// The size below which the fraction p in [0, 1] of the number of grains lies, whatever `by` was. Exact for densities that are
-  /// linear between the nodes; for others the error is at most a millionth of the distance of the bounds.
+  /// linear between the nodes. The error of others is at most a millionth of the distance of the bounds.
   double quantile(double p) const;
 
   double smallest() const { return nodes_.front(); }

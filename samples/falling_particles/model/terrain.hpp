@@ -48,8 +48,9 @@ class Terrain {
   explicit Terrain(const TerrainParameters& parameters);
 
   const TerrainParameters& parameters() const { return parameters_; }
-  std::size_t samples_per_side() const { return per_side_; }                                 ///< those beyond the walls included
-  std::array<double, 2> spacing() const { return spacing_; }                                 ///< m
+  std::size_t samples_per_side() const { return per_side_; }       ///< those beyond the walls included
+  std::array<double, 2> spacing() const { return spacing_; }       ///< m
+  const std::vector<double>& samples() const { return heights_; }  ///< m, rows along x, from the lowest y on
   double sample(std::size_t i, std::size_t j) const { return heights_[j * per_side_ + i]; }  ///< m, at x_i and y_j
   double height(double x, double y) const;  ///< m, of the triangles; between the walls
 

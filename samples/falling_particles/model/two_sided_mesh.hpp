@@ -27,10 +27,10 @@ Sheets sheets_of(const Mesh& mesh);
 
 /// A mesh that grains meet from the side of their centres.
 ///
-/// To the library's bodies the space behind a triangle of a dTriMesh is solid. So ODE gets each triangle in both windings, and
-/// callbacks of the geom accept, for each grain, the triangles that face its centre. The nearest place of the whole sheet decides
-/// which side the centre is on. The plane of a single triangle would not do: a grain beside a sharp ridge is behind the plane of
-/// the other slope.
+/// To the library's bodies the space behind a triangle of a dTriMesh is solid. So ODE gets each triangle in both windings. For each
+/// grain, callbacks of the geom accept the triangles that face its centre. The nearest place of the whole sheet decides which side
+/// the centre is on. The plane of a single triangle would not do: a grain beside a sharp ridge is behind the plane of the other
+/// slope.
 class TwoSidedMesh {
  public:
   /// The mesh must outlive this object.

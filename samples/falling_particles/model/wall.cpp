@@ -7,6 +7,7 @@ namespace falling_particles {
 namespace {
 
 double radius_of(const PlaneShape& /*plane*/) { return INFINITY; }
+double radius_of(const GroundShape& /*ground*/) { return INFINITY; }
 double radius_of(const BoxShape& box) { return box.size.norm() / 2; }
 double radius_of(const CylinderShape& cylinder) { return std::hypot(cylinder.radius, cylinder.length / 2); }
 double radius_of(const SmoothShape& body) {

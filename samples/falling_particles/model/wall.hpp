@@ -1,7 +1,8 @@
-// Walls of a scene, which stand or move: its sections [[part]], and the walls of some containers.
+// The walls of a scene, which stand or move: the walls of its container, and its sections [[part]].
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <variant>
@@ -12,10 +13,11 @@
 
 namespace falling_particles {
 
-/// The half-space below the wall's xy-plane.
+/// The half-space below a plane through the wall's position.
 struct PlaneShape {
-  double shown_radius =
-      0;  ///< m, radius of the disc around the wall's position that pictures show; 0: a square as wide as the scene
+  /// m, radius of the disc around the wall's position that pictures show; 0: a square as wide as the scene
+  double shown_radius = 0;
+  Vector3 normal = Vector3::UnitZ();  ///< unit, in the wall's frame; grains are on its side
 };
 
 /// A solid box around the wall's position.
@@ -41,7 +43,15 @@ struct MeshShape : Mesh {
   bool two_sided = false;  ///< whether grains meet it from the side of their centres, or only from the front
 };
 
-using WallShape = std::variant<PlaneShape, BoxShape, CylinderShape, SmoothShape, MeshShape>;
+/// A ground over a rectangle around the wall's position, solid below. Its triangles join heights on a grid, as ODE lays them: each
+/// cell is divided by the diagonal from its lowest x and y to its highest.
+struct GroundShape {
+  std::size_t samples;            ///< along x, and along y
+  std::array<double, 2> spacing;  ///< m, between samples along x and y
+  std::vector<double> heights;    ///< m, along the wall's z-axis; rows along x, from the lowest y on
+};
+
+using WallShape = std::variant<PlaneShape, BoxShape, CylinderShape, SmoothShape, MeshShape, GroundShape>;
 
 /// A force that drives a wall along an axis, as a piston. The wall can neither leave its axis nor tilt. It has inertia and weight.
 struct Drive {
@@ -54,6 +64,13 @@ struct Drive {
   std::array<double, 2> travel = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};  ///< m
 };
 
+/// What messages and pictures call a wall.
+enum class WallRole {
+  Part,  ///< a [[part]], or a wall of a container that moves or rotates
+  Side,  ///< of a box, a hopper or a terrain, with which pictures draw it
+  Lid,   ///< a side that World::open_outlet() removes
+};
+
 /// A wall of a scene.
 struct Wall {
   std::string name;
@@ -63,11 +80,13 @@ struct Wall {
   std::optional<Drive> drive = {};
   std::optional<double> friction = {};     ///< coefficient of grains on it; as on other walls if empty
   std::optional<double> restitution = {};  ///< of grains on it; as on other walls if empty
+  WallRole role = WallRole::Part;
 
+  bool is_part() const { return role == WallRole::Part; }
   bool moves() const { return !motions.empty() || drive.has_value(); }
 };
 
-/// m, radius of a sphere around the wall's position that contains the wall; infinite for a plane.
+/// m, radius of a sphere around the wall's position that contains the wall; infinite for a plane and a ground.
 double bounding_radius(const WallShape& shape);
 
 }  // namespace falling_particles

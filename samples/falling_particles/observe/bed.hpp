@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/random.hpp"
-#include "model/box.hpp"
+#include "model/container.hpp"
 #include "model/hopper.hpp"
 #include "world/world.hpp"
 

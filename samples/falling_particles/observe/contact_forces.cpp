@@ -51,8 +51,9 @@ MeasurementKind contact_forces_kind() {
           "feedback of ODE's contact joints",
           true,
           [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
-            return [region = SamplingRegion(table, scene, SamplingRegion::Without::Everywhere), names = surface_names(scene)](
-                       const World& world) { return std::make_unique<ContactForces>(region, surfaces_of(world, names)); };
+            return [region = SamplingRegion(table, scene, SamplingRegion::Without::Everywhere)](const World& world) {
+              return std::make_unique<ContactForces>(region, surfaces_of(world));
+            };
           }};
 }
 

@@ -71,7 +71,7 @@ WallPicture lid_of(const Hopper& hopper) {
 }
 
 std::vector<WallPicture> pictures_of(const Hopper& hopper, double /*top*/) {
-  const Rectangle tray{{-hopper.tray_width / 2, -hopper.tray_width / 2}, {hopper.tray_width, hopper.tray_width}};
+  const Rectangle tray = hopper.tray();
   std::vector<WallPicture> walls = {floor_of(tray, 0), walls_around(tray, 0, hopper.clearance), lid_of(hopper)};
   walls.push_back({"hopper", Role::Still, make_mesh(hopper), ring_edges(hopper.segments, 3)});
   if (hopper.dish) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "world/grain_energy.hpp"
+#include "world/grain.hpp"
 
 namespace falling_particles {
 Energy measure_energy(const World& world, const Scene& scene) {

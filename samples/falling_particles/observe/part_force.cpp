@@ -67,9 +67,9 @@ MeasurementKind part_force_kind() {
               const std::vector<double> v = table.numbers("about", 3, Interval::closed(-kFarthest, kFarthest, "m"));
               about = Vector3(v[0], v[1], v[2]);
             }
-            return [chosen, about, names = surface_names(scene)](const World& world) {
+            return [chosen, about](const World& world) {
               std::vector<dGeomID> geoms;
-              for (const NamedSurface& surface : surfaces_of(world, names)) {
+              for (const NamedSurface& surface : surfaces_of(world)) {
                 if (std::ranges::find(chosen, surface.name) != chosen.end()) geoms.push_back(surface.geom);
               }
               return std::make_unique<PartForce>(std::move(geoms), about);

@@ -17,12 +17,12 @@ struct NamedSurface {
   dGeomID geom;
 };
 
-/// The names of the container's surfaces ("floor", "x_low", "x_high", "y_low", "y_high" of a box or a hopper's tray, "lid",
-/// "hopper", "dish", "ground") and of the scene's walls.
+/// The names of all walls of a scene ("floor", "x_low", "x_high", "y_low", "y_high" of a box or a hopper's tray, "lid", "hopper",
+/// "dish", "ground"; names of parts).
 std::vector<std::string> surface_names(const Scene& scene);
 
-/// The surfaces of a world. `names`: surface_names() of its scene.
-std::vector<NamedSurface> surfaces_of(const World& world, std::vector<std::string> names);
+/// The walls of a world, without a lid that it has removed.
+std::vector<NamedSurface> surfaces_of(const World& world);
 
 /// The name of a geom's surface; "wall" if it has none.
 std::string surface_name(const std::vector<NamedSurface>& surfaces, dGeomID geom);

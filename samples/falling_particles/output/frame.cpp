@@ -21,7 +21,7 @@ int index_of(dGeomID geom, const World& world) {
 double scale_of(const WallPicture& wall, const World& world) {
   switch (wall.role) {
     case WallPicture::Role::Lid:
-      return world.container_geoms().has_lid() ? 1 : 0;
+      return world.walls().has_lid() ? 1 : 0;
     case WallPicture::Role::Cell:
       return world.cell()->side();
     case WallPicture::Role::Still:
@@ -93,7 +93,7 @@ Contents contents_of(const World& world, const Scene& scene, double top) {
   Contents contents{&scene, {}, {}};
   add_new_grains(contents, world);
   contents.walls = pictures_of(scene.container, top, scene.periodic);
-  for (const Wall& wall : scene.walls) contents.walls.push_back(picture_of(wall, width_of_planes(scene)));
+  for (const Wall& wall : scene.parts()) contents.walls.push_back(picture_of(wall, width_of_planes(scene)));
   return contents;
 }
 
@@ -109,10 +109,10 @@ Frame frame_of(double time, const Energy& energy, const Contents& contents, cons
   Frame frame;
   frame.time = time;
   frame.energy = energy;
-  const std::size_t of_container = contents.walls.size() - contents.scene->walls.size();
+  const std::size_t drawn = contents.walls.size(), all = contents.scene->walls.size();  // both lists end with the parts
   for (std::size_t i = 0; i < contents.walls.size(); ++i) {
     const WallPicture& wall = contents.walls[i];
-    frame.wall_places.push_back(wall.role == WallPicture::Role::Moving ? place_of(world.walls()->state(i - of_container).pose)
+    frame.wall_places.push_back(wall.role == WallPicture::Role::Moving ? place_of(world.walls().state(i + all - drawn).pose)
                                                                        : WallPlace{.scale = scale_of(wall, world)});
   }
   frame.grains.reserve(world.grains().size());

@@ -88,7 +88,7 @@ Extent extent_of(const Frame& frame, double radius);
 struct Contents {
   const Scene* scene;
   std::vector<std::size_t> kind_of_grain;   ///< index into scene->kinds, for all grains so far
-  std::vector<WallPicture> walls = {};      ///< of the container's geoms, then of Scene::walls
+  std::vector<WallPicture> walls = {};      ///< of the container, then of Scene::parts()
   std::vector<double> scale_of_grain = {};  ///< factors on the grains' lengths; empty if all are 1
 
   const GrainKind& kind(std::size_t grain) const { return scene->kinds[kind_of_grain[grain]].kind; }

@@ -171,7 +171,8 @@ std::string write_data(const Scene& scene, const std::vector<Placement>& grains,
 }
 
 void refuse_what_has_no_counterpart(const Scene& scene) {
-  if (scene.walls.size() > walls_in(scene.container).size()) refuse(scene, "[[part]]");
+  if (scene.parts().size() > static_cast<std::size_t>(std::ranges::count_if(walls_in(scene.container), &Wall::is_part)))
+    refuse(scene, "[[part]]");
   if (scene.query) refuse(scene, "[query]");
   if (scene.changes_population()) refuse(scene, "a feeder or a sink");
   if (is_any(scene.periodic)) refuse(scene, "periodic");

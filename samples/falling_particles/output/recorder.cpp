@@ -77,7 +77,7 @@ void Recorder::record(double time, const Simulation& simulation, bool has_steppe
   if (discharge_) discharge_->write(time, simulation.watches.discharge->mass(), simulation.watches.discharge->count());
   if (compression_ && has_stepped) compression_->write(time, simulation.watches.compressor->packing());
   if (grains_) grains_->write(world);
-  if (walls_) walls_->write(time, *world.walls());
+  if (walls_) walls_->write(time, world.walls());
   if (feeders_) feeders_->write(time, simulation.population);
   if (sinks_) sinks_->write(time, simulation.population, scene_);
   if (pictures_.empty()) return;

@@ -56,7 +56,8 @@ struct Mesher {
   Mesh operator()(const PlaneShape& plane) const {
     Mesh mesh;
     const std::vector<Vector3> outline = plane.shown_radius > 0 ? circle(plane.shown_radius) : rectangle(extent, extent);
-    for (const Vector3& corner : outline) mesh.vertices.push_back(vertex(corner));
+    const auto turn = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), plane.normal);
+    for (const Vector3& corner : outline) mesh.vertices.push_back(vertex(turn * corner));
     for (unsigned int i = 2; i < outline.size(); ++i) mesh.triangles.push_back({0, i - 1, i});
     return mesh;
   }
@@ -71,6 +72,21 @@ struct Mesher {
     return mesh;
   }
   Mesh operator()(const MeshShape& mesh) const { return {mesh.vertices, mesh.triangles}; }
+  Mesh operator()(const GroundShape& ground) const {
+    Mesh mesh;
+    const auto samples = static_cast<unsigned int>(ground.samples);
+    const auto place = [&](unsigned int index, std::size_t axis) { return (index - (samples - 1) / 2.0) * ground.spacing[axis]; };
+    for (unsigned int j = 0; j < samples; ++j) {
+      for (unsigned int i = 0; i < samples; ++i) {
+        mesh.vertices.push_back(vertex({place(i, 0), place(j, 1), ground.heights[std::size_t{j} * samples + i]}));
+        if (i == 0 || j == 0) continue;
+        const unsigned int highest = j * samples + i, lowest = highest - samples - 1;
+        mesh.triangles.push_back({lowest, lowest + 1, highest});
+        mesh.triangles.push_back({lowest, highest, highest - 1});
+      }
+    }
+    return mesh;
+  }
 };
 
 Vector3 normal_of(const Mesh& mesh, const std::array<unsigned int, 3>& triangle) {

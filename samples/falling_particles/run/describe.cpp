@@ -64,7 +64,7 @@ std::string describe(const Feeder& feeder) {
 }
 
 std::string shape_of(const Wall& wall) {
-  constexpr std::array kNames = {"plane", "box", "cylinder", "smooth body", "mesh"};
+  constexpr std::array kNames = {"plane", "box", "cylinder", "smooth body", "mesh", "ground"};
   return kNames[wall.shape.index()];
 }
 
@@ -103,7 +103,7 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   }
   for (const Feeder& feeder : scene.feeders) lines.add("feeders", describe(feeder));
   for (const Sink& sink : scene.sinks) lines.add("sinks", sink.name);
-  for (const Wall& wall : scene.walls) lines.add("parts", describe(wall));
+  for (const Wall& wall : scene.parts()) lines.add("parts", describe(wall));
   for (const supernormal::effects::Effect& effect : scene.effects) {
     const supernormal::effects::Description& description = supernormal::effects::descriptions()[effect.index()];
     lines.add("effects",

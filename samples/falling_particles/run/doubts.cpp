@@ -141,7 +141,7 @@ double thinnest(const WallShape& shape) {
 void add_walls(const Scene& scene, std::vector<std::string>& doubts) {
   constexpr double kThin = 1e-6;  // of the smallest half-axis: thinner than the overlap of a contact at rest
   const double size = scene.smallest_half_axis();
-  for (const Wall& wall : scene.walls) {
+  for (const Wall& wall : scene.parts()) {
     add_late(scene, wall, doubts);
     if (const double least = thinnest(wall.shape); least < kThin * size) {
       doubts.push_back("part \"" + wall.name + "\" is " + rounded(least) + " m thin, " + in_half_axes(least, scene) +
@@ -233,17 +233,16 @@ std::vector<std::string> doubts_about(const Scene& scene) {
 }
 
 void refuse_overlapping_start(const Scene& scene) {
-  if (scene.walls.empty() || scene.grains_at_start() == 0) return;
+  if (scene.parts().empty() || scene.grains_at_start() == 0) return;
   Random random(scene.seed);
   const World world(scene, place(scene, random));
   std::vector<std::pair<dGeomID, dGeomID>> pairs;
   world.name_wall_pairs(&pairs, [](void* data, dGeomID g1, dGeomID g2) {
     static_cast<std::vector<std::pair<dGeomID, dGeomID>>*>(data)->emplace_back(g1, g2);
   });
-  const std::vector<dGeomID>& walls = world.walls()->geoms();
   for (const auto& [geom, wall] : pairs) {
-    const auto found = std::ranges::find(walls, wall);
-    if (found == walls.end()) continue;
+    const Wall* part = world.walls().wall_of(wall);
+    if (part == nullptr || !part->is_part()) continue;
     snProximity proximity;
     if (snGeomProximity(geom, wall, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
     const Grain& grain = *grain_of(geom);
@@ -252,8 +251,7 @@ void refuse_overlapping_start(const Scene& scene) {
     const auto [x, y, z] = grain.position();
     throw InputError(scene.files.front().string() + ": grain " + std::to_string(world.index_of(grain)) + " (" + grain.kind->name +
                      ") starts at [" + shortest(x) + ", " + shortest(y) + ", " + shortest(z) + "] m, " + rounded(-proximity.gap) +
-                     " m deep in part \"" + scene.walls[static_cast<std::size_t>(found - walls.begin())].name +
-                     "\"; allowed: parts that leave the start of the grains free");
+                     " m deep in part \"" + part->name + "\"; allowed: parts that leave the start of the grains free");
   }
 }
 

@@ -11,7 +11,6 @@
 #include <variant>
 
 #include "sight.hpp"
-#include "world/candidate.hpp"
 #include "world/free_places.hpp"
 #include "world/placement.hpp"
 #include "world/world.hpp"
@@ -126,11 +125,11 @@ void add_sunk(const Scene& scene, const Lookout& origin, std::vector<std::string
 void add_unreached(const World& world, std::vector<std::string>& doubts) {
   const Scene& scene = world.scene();
   const auto* const box = std::get_if<Box>(&scene.container);
-  if (box == nullptr || world.walls() == nullptr || is_any(scene.periodic)) return;
+  if (box == nullptr || is_any(scene.periodic)) return;
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
-    if (scene.walls[i].moves()) continue;
+    if (!scene.walls[i].is_part() || scene.walls[i].moves()) continue;
     dReal aabb[6];
-    dGeomGetAABB(world.walls()->geoms()[i], aabb);
+    dGeomGetAABB(world.walls().geoms()[i], aabb);
     const auto& [x, y] = box->width;
     if (aabb[1] > 0 && aabb[0] < x && aabb[3] > 0 && aabb[2] < y && aabb[5] > 0) continue;
     doubts.push_back("part \"" + scene.walls[i].name + "\" stands outside the box of the container, where no grain meets it");
@@ -138,11 +137,8 @@ void add_unreached(const World& world, std::vector<std::string>& doubts) {
 }
 
 std::string name_of(dGeomID solid, const World& world) {
-  if (world.walls() == nullptr) return "the container";
-  const std::vector<dGeomID>& walls = world.walls()->geoms();
-  const auto found = std::ranges::find(walls, solid);
-  if (found == walls.end()) return "the container";
-  return "part \"" + world.walls()->wall(static_cast<std::size_t>(found - walls.begin())).name + '"';
+  const Wall* wall = world.walls().wall_of(solid);
+  return wall != nullptr && wall->is_part() ? "part \"" + wall->name + '"' : "the container";
 }
 
 /// The names of the solids that obstruct a grain at many random places; none if one place is free.

@@ -24,10 +24,9 @@ dGeomID geom_of(const HalfSpace& below) {
 
 }  // namespace
 
-Sight::Sight(const World& world) : world_(world), ray_(dCreateRay(nullptr, kLargestLength), dGeomDestroy) {
+Sight::Sight(const World& world)
+    : world_(world), solids_(world.walls().geoms()), ray_(dCreateRay(nullptr, kLargestLength), dGeomDestroy) {
   dGeomRaySetClosestHit(ray_.get(), 0);
-  if (world.walls() != nullptr) solids_ = world.walls()->geoms();
-  solids_.insert(solids_.end(), world.container_geoms().geoms().begin(), world.container_geoms().geoms().end());
   for (const Sink& sink : world.scene().sinks) {
     sinks_.emplace_back(std::visit([](const auto& region) { return geom_of(region); }, sink.region), dGeomDestroy);
     solids_.push_back(sinks_.back().get());
@@ -38,15 +37,15 @@ std::optional<Sight::Seen> Sight::look(const Point& from, const Vector3& directi
   dGeomRaySet(ray_.get(), from[0], from[1], from[2], direction.x(), direction.y(), direction.z());
   std::optional<Seen> seen;
   double nearest = INFINITY;
-  const std::size_t walls = world_.scene().walls.size();
+  const std::vector<Wall>& walls = world_.scene().walls;
   for (std::size_t i = 0; i < solids_.size(); ++i) {
     const std::optional<dContactGeom> hit = hit_of(solids_[i]);
     if (!hit || !(hit->depth < nearest)) continue;
     nearest = hit->depth;
     seen = Seen{nearest, {}, false};
-    if (i >= walls) continue;
+    if (i >= walls.size() || !walls[i].is_part()) continue;
     seen->wall = i;
-    seen->is_back = is_back_of(world_.scene().walls[i], hit->side1, direction);
+    seen->is_back = is_back_of(walls[i], hit->side1, direction);
   }
   return seen;
 }

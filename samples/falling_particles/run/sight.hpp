@@ -13,12 +13,12 @@
 
 namespace falling_particles {
 
-/// Casts rays against the container's geoms, the walls and the sinks of a world, where they start.
+/// Casts rays against the walls and the sinks of a world, where they start.
 class Sight {
  public:
   struct Seen {
     double distance = 0;              ///< m
-    std::optional<std::size_t> wall;  ///< index into Scene::walls; empty for a geom of the container or a sink
+    std::optional<std::size_t> wall;  ///< index into Scene::walls; empty for a wall that is no part, or a sink
     bool is_back = false;             ///< whether the ray hits the back of a single-sided triangle
   };
 

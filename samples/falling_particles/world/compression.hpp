@@ -32,8 +32,8 @@ struct Packing {
 
 /// Compresses the grains in a periodic cell until they jam. The solver pushes overlapping grains apart, and every step removes a
 /// fraction of the resulting velocity. The cell shrinks while the mean overlap is below its target and grows while it is above. The
-/// target decreases, so that the jamming point is approached from above. For the last fifth of the time the target is constant, and
-/// every step removes all velocity, so that the forces reach equilibrium.
+/// target decreases, so that the jamming point is approached from above. In the last fifth of the time, the target is constant and
+/// every step removes all velocity. So the forces reach equilibrium.
 ///
 /// The method of compressing and relaxing is from C. S. O'Hern, L. E. Silbert, A. J. Liu, S. R. Nagel, Jamming at zero temperature
 /// and zero applied stress: the epitome of disorder, Phys. Rev. E 68 (2003) 011306. G. W. Delaney, P. W. Cleary, The packing

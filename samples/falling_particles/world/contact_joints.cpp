@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "model/material.hpp"
 #include "to_vector.hpp"
 
 namespace falling_particles {
@@ -14,8 +15,8 @@ bool is_moving_wall(dGeomID geom, const supernormal::effects::Side& side) {
   return grain_of(geom) == nullptr && side.body != nullptr;
 }
 
-/// Makes the joint enforce this velocity (m/s) of the first body relative to the second, along the friction directions of the
-/// effects or, without them, of ODE.
+/// Makes the joint enforce this velocity (m/s) of the first body relative to the second. Its directions are the friction directions
+/// of the effects or, without them, of ODE.
 void set_relative_velocity(dContact& contact, const Vector3& velocity) {
   dVector3 first, second;
   if ((contact.surface.mode & dContactFDir1) == 0) {
@@ -74,20 +75,18 @@ void ContactJoints::attach(std::span<const dContactGeom> pair, bool measures) {
 }
 
 ContactJoints::Side ContactJoints::side_of(dGeomID geom) const {
-  const WallBodies* walls = world_.walls();
-  if (walls == nullptr || grain_of(geom) != nullptr) return {material_of(geom), dGeomGetBody(geom)};
-  return walls->side_of(geom, material_of(geom));
+  if (grain_of(geom) != nullptr) return {kGrainMaterial, dGeomGetBody(geom)};
+  return world_.walls().side_of(geom);
 }
 
 void ContactJoints::follow_chords(std::span<dContact> contacts, const Side& side1, const Side& side2) const {
-  const WallBodies* walls = world_.walls();
-  if (walls == nullptr || contacts.empty()) return;
+  if (contacts.empty()) return;
   const dContactGeom& geom = contacts.front().geom;
   const bool is_wall_first = grain_of(geom.g1) == nullptr;
   if ((is_wall_first ? side1 : side2).body == nullptr || (!is_wall_first && grain_of(geom.g2) != nullptr)) return;
   const dBodyID grain = (is_wall_first ? side2 : side1).body;
-  const Vector3 excess = walls->chord_excess(is_wall_first ? geom.g1 : geom.g2, to_vector(dBodyGetPosition(grain)),
-                                             to_vector(dBodyGetLinearVel(grain)));
+  const Vector3 excess = world_.walls().chord_excess(is_wall_first ? geom.g1 : geom.g2, to_vector(dBodyGetPosition(grain)),
+                                                     to_vector(dBodyGetLinearVel(grain)));
   if (excess.isZero(0)) return;
   for (dContact& contact : contacts) set_relative_velocity(contact, is_wall_first ? Vector3(-excess) : excess);
 }

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "base/interval.hpp"
-#include "free_places.hpp"
 
 namespace falling_particles {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/random.hpp"
-#include "candidate.hpp"
+#include "free_places.hpp"
 #include "model/feeder.hpp"
 #include "world.hpp"
 
@@ -64,7 +64,7 @@ class Feeding {
   void choose_next();
   Candidate& candidate();
   bool is_due(double now);
-  std::optional<Placement> find_place(const class Neighbourhood& neighbourhood);
+  std::optional<Placement> find_place(const Neighbourhood& neighbourhood);
   void check_timeout(double now);
 
   const Feeder& feeder_;

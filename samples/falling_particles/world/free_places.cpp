@@ -27,6 +27,18 @@ bool meet(const Aabb& a, const Aabb& b) {
 
 }  // namespace
 
+Candidate::Candidate(const GrainKind& kind, double scale)
+    : world_(dWorldCreate()), grain_{dBodyCreate(world_), nullptr, &kind, {}, scale} {
+  grain_.geom = attach_geoms(nullptr, kind, scale, grain_.body, nullptr);
+  grain_.mass = mass_of(grain_);
+  geoms_ = grain_.geoms();
+}
+
+Candidate::~Candidate() {
+  std::ranges::for_each(geoms_, dGeomDestroy);
+  dWorldDestroy(world_);
+}
+
 Neighbourhood::Neighbourhood(const World& world, const Region& region) {
   Aabb box;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -37,8 +49,7 @@ Neighbourhood::Neighbourhood(const World& world, const Region& region) {
     if (dGeomIsEnabled(geom) != 0 && meet(aabb_of(geom), box)) geoms_.push_back(geom);
   };
   world.sweep().for_each_geom(add_if_near);
-  std::ranges::for_each(world.container_geoms().geoms(), add_if_near);
-  if (world.walls() != nullptr) std::ranges::for_each(world.walls()->geoms(), add_if_near);
+  std::ranges::for_each(world.walls().geoms(), add_if_near);
 }
 
 dGeomID Neighbourhood::find_overlap(dGeomID geom) const {

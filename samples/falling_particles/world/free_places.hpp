@@ -5,10 +5,31 @@
 
 #include <vector>
 
-#include "model/open.hpp"
+#include "model/geometry.hpp"
+#include "placement.hpp"
 #include "world.hpp"
 
 namespace falling_particles {
+
+/// A grain in a world of its own, so that other grains do not collide with it.
+class Candidate {
+ public:
+  /// `scale`: factor on the lengths of the kind, which must outlive this object. Throws std::runtime_error when the library refuses
+  /// the grain.
+  Candidate(const GrainKind& kind, double scale);
+  ~Candidate();
+  Candidate(const Candidate&) = delete;
+  Candidate& operator=(const Candidate&) = delete;
+
+  const Grain& grain() const { return grain_; }
+  const std::vector<dGeomID>& geoms() const { return geoms_; }
+  void put(const Placement& place) const { falling_particles::put(grain_.body, place); }
+
+ private:
+  dWorldID world_;
+  Grain grain_;
+  std::vector<dGeomID> geoms_;
+};
 
 /// The geoms in a region of a world at one time.
 class Neighbourhood {

@@ -15,10 +15,10 @@ namespace falling_particles {
 class World;
 struct Grain;
 
-/// Periodic boundaries for ODE, which has none. A grain that extends beyond the cell gets an image, a body with its own geoms, at
-/// every place where it re-enters the cell: up to seven. The grain and its images share mass and inertia evenly. Six constraint
-/// rows without lever arms give them equal velocities and spins, so that forces on an image act on the grain in the same step. The
-/// cell may be periodic along some axes only.
+/// Periodic boundaries for ODE, which has none. A grain that extends beyond the cell re-enters it in up to seven places. In each of
+/// them it gets an image, a body with its own geoms. The grain and its images share mass and inertia evenly. Six constraint rows
+/// without lever arms give them equal velocities and spins. So forces on an image act on the grain in the same step. The cell may
+/// be periodic along some axes only.
 ///
 /// A contact point lies in the cell exactly once, whichever grains and images meet there. So only contacts in the cell count.
 class PeriodicCell {
@@ -38,9 +38,8 @@ class PeriodicCell {
   /// The image of the point in the cell.
   Point wrapped(const Point& point) const { return falling_particles::wrapped(axes_, point); }
 
-  /// Moves grains into the cell, such that the lower corners of their bounding boxes are in it, and places the images. Call it
-  /// before collision. Throws std::runtime_error when the cell is narrower than two widths of a grain, which could then meet
-  /// itself.
+  /// Moves the lower corners of the grains' bounding boxes into the cell, and places the images. Call it before collision. Throws
+  /// std::runtime_error when the cell is narrower than two widths of a grain, which could then meet itself.
   void place_images();
   /// Gives a grain and its images the sum of their displacements since place_images(). These are displacements by effects, which
   /// move bouncing grains into contact. Call it before a step.

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "grain_energy.hpp"
-
 namespace falling_particles {
 namespace {
 

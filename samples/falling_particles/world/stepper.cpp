@@ -31,7 +31,7 @@ Stepper::~Stepper() { snBatchDestroy(batch_); }
 
 void Stepper::step(bool measures) {
   contacts_.clear();
-  if (WallBodies* walls = world_.walls()) walls->before_step();
+  world_.walls().before_step();
   if (PeriodicCell* cell = world_.cell()) cell->place_images();
   world_.sweep().before_step();
   {
@@ -51,7 +51,7 @@ void Stepper::step(bool measures) {
   const Stopwatch::Lap lap(costs_.solver);
   dWorldQuickStep(world_.id(), step_);
   if (PeriodicCell* cell = world_.cell()) cell->gather();
-  if (WallBodies* walls = world_.walls()) walls->after_step();
+  world_.walls().after_step();
 }
 
 void Stepper::collide_grains() {
@@ -61,7 +61,7 @@ void Stepper::collide_grains() {
   }
 }
 
-// Walls collide one after the other, because ODE's meshes and heightfields are not thread-safe.
+// Pairs with walls collide on one thread, since ODE's meshes and heightfields are not thread-safe.
 void Stepper::collide_with_walls() {
   wall_pairs_.clear();
   {
@@ -77,14 +77,13 @@ void Stepper::collide_with_walls() {
   }
 }
 
-// Sorts contacts by their bodies. The sweep names pairs in the order of their positions along its axis. The first iterations of
-// quickstep take the contacts in the order of their joints. Without sorting they would carry forces along the axis better than
-// against it.
+// Sorts contacts by their bodies. The sweep names pairs in their order along its axis. The first iterations of quickstep take
+// contacts in the order of their joints. Unsorted, they carry forces along the axis better than against it.
 void Stepper::sort_contacts() {
   const auto bodies = [](const dContactGeom& contact) -> std::pair<const Grain*, const Grain*> {
     return std::minmax(grain_of(contact.g1), grain_of(contact.g2));
   };
-  // A stable sort keeps the contacts of a pair together, also when images of the same two bodies meet.
+  // Images of two bodies may meet, too. A stable sort keeps the contacts of each pair of geoms together.
   std::ranges::stable_sort(contacts_, [&bodies](const dContactGeom& a, const dContactGeom& b) { return bodies(a) < bodies(b); });
 }
 
@@ -95,8 +94,7 @@ int Stepper::name_pair(void* self, dGeomID g1, dGeomID g2) {
     return 0;
   }
   if (stepper.may_sleep_ && !is_awake(g1) && !is_awake(g2)) {
-    const WallBodies* walls = stepper.world_.walls();
-    if (walls == nullptr || !walls->is_moving(g2)) return 0;
+    if (grain_of(g2) != nullptr || !stepper.world_.walls().is_moving(g2)) return 0;
   }
   ++stepper.costs_.pairs_tested;
   return 1;

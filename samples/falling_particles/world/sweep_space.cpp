@@ -7,10 +7,10 @@
 namespace falling_particles {
 namespace {
 
-// Choosing an axis takes less time than a sweep, and a bed takes hundreds of steps to change its shape.
+// A choice takes less time than a sweep. A bed takes hundreds of steps to change its shape.
 constexpr int kStepsBetweenChoices = 50;
-// The variance along the other axis must be larger by this factor. A change then saves a third of the tests, and square beds keep
-// their axis.
+// The least ratio of the variances along another axis and the present one. A change then saves a third of the tests. Square beds
+// keep their axis.
 constexpr double kWorthAMove = 2;
 
 constexpr unsigned long kMarkerBit = 1UL << 31U;
@@ -67,7 +67,7 @@ std::array<double, 3> variances(dSpaceID space) {
 SweepSpace::SweepSpace(std::optional<Axis> axis) : fixed_(axis), order_{Axis::X, Axis::Y, Axis::Z} {
   if (fixed_) std::swap(order_[0], order_[index_of(*fixed_)]);
   space_ = create_space(order_);
-  // Planes that are not parallel to an axis have no bounding box. ODE names such pairs after the sweep.
+  // A plane that is not parallel to an axis has no bounding box. ODE names its pairs after the sweep.
   for (dGeomID& marker : markers_) marker = create_marker(space_);
 }
 

@@ -6,16 +6,16 @@
 #include <array>
 #include <optional>
 
-#include "model/axis.hpp"
+#include "model/geometry.hpp"
 
 namespace falling_particles {
 
 /// ODE's sweep-and-prune space along the best axis for the positions of the bodies. A sweep tests every pair of bounding boxes that
-/// overlap along its axis. For N bodies of diameter d over a length L these are about N^2 d / L, so the axis of the largest spread
-/// is the best (Ericson 2005, section 7.5.1). Grains at the start form a tower and later settle to a wide bed, so the axis is
-/// chosen again during a run, from the positions alone.
+/// overlap along its axis. N bodies of diameter d over a length L have about N^2 d / L such pairs. So the axis of the largest
+/// spread is the best (Ericson 2005, section 7.5.1). Grains start as a tower and settle to a wide bed. So the axis is chosen again
+/// during a run, from the positions alone.
 ///
-/// All bodies must have finite bounding boxes: ODE pairs others with every geom.
+/// All bodies must have finite bounding boxes. ODE pairs a geom with an infinite box with every other geom.
 class SweepSpace {
  public:
   /// Sweeps along `axis`, if it is given, in all steps.
@@ -40,7 +40,8 @@ class SweepSpace {
     }
   }
 
-  /// For the near callback of dSpaceCollide: whether the pair is no pair of bodies but has an end marker.
+  /// Whether the geom is an end marker. ODE names the pair of end markers after all pairs of bodies, in the near callback of
+  /// dSpaceCollide.
   bool is_end_marker(dGeomID geom) const { return geom == markers_[0] || geom == markers_[1]; }
 
  private:

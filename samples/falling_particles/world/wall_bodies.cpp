@@ -2,11 +2,13 @@
 
 #include <supernormal/supernormal.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
-#include "model/wall_material.hpp"
+#include "model/material.hpp"
 #include "to_vector.hpp"
 
 namespace falling_particles {
@@ -21,6 +23,23 @@ void set_pose(dBodyID body, const WallPose& pose) {
   dBodySetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());
   const dQuaternion q = {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()};
   dBodySetQuaternion(body, q);
+}
+
+static_assert(sizeof(unsigned int) == sizeof(dTriIndex));
+
+/// The rotation of a ground into the frame of ODE's heightfields, which extend along x and z with y upwards. Then z points along
+/// the -y of the wall.
+Eigen::Quaterniond upright() { return Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitX())); }
+
+/// The heights in the order of ODE, from the highest y on.
+std::vector<double> rows_along_z(const GroundShape& ground) {
+  std::vector<double> heights;
+  heights.reserve(ground.heights.size());
+  for (std::size_t row = ground.samples; row-- > 0;) {
+    const auto first = ground.heights.begin() + static_cast<std::ptrdiff_t>(row * ground.samples);
+    heights.insert(heights.end(), first, first + static_cast<std::ptrdiff_t>(ground.samples));
+  }
+  return heights;
 }
 
 /// A body without automatic sleep and without damping.
@@ -81,6 +100,29 @@ WallBodies::~WallBodies() {
     dGeomDestroy(entry.geom);
   }
   for (const dTriMeshDataID data : mesh_data_) dGeomTriMeshDataDestroy(data);
+  for (const dHeightfieldDataID data : ground_data_) dGeomHeightfieldDataDestroy(data);
+}
+
+const WallBodies::Entry* WallBodies::find(dGeomID geom) const {
+  const auto found = index_of_.find(geom);
+  return found == index_of_.end() ? nullptr : &entries_[found->second];
+}
+
+const Wall* WallBodies::wall_of(dGeomID geom) const {
+  const Entry* entry = find(geom);
+  return entry == nullptr ? nullptr : entry->wall;
+}
+
+bool WallBodies::has_lid() const {
+  return std::ranges::any_of(entries_, [](const Entry& entry) { return entry.wall->role == WallRole::Lid && entry.is_present; });
+}
+
+void WallBodies::remove_lid() {
+  for (Entry& entry : entries_) {
+    if (entry.wall->role != WallRole::Lid) continue;
+    std::erase(geoms_, entry.geom);
+    entry.is_present = false;
+  }
 }
 
 dGeomID WallBodies::create_geom(const WallShape& shape) {
@@ -95,7 +137,20 @@ dGeomID WallBodies::create_geom(const WallShape& shape) {
     if (geom == nullptr) throw std::runtime_error(snLastError());
     return geom;
   }
+  if (const auto* ground = std::get_if<GroundShape>(&shape)) return create_geom(*ground);
   return create_geom(std::get<MeshShape>(shape));
+}
+
+dGeomID WallBodies::create_geom(const GroundShape& ground) {
+  constexpr int kCopy = 1;
+  constexpr int kNoWrap = 0;
+  constexpr double kThickness = 0;  // m, below the lowest sample
+  const int samples = static_cast<int>(ground.samples);
+  const auto [dx, dy] = ground.spacing;
+  const dHeightfieldDataID data = ground_data_.emplace_back(dGeomHeightfieldDataCreate());
+  dGeomHeightfieldDataBuildDouble(data, rows_along_z(ground).data(), kCopy, (samples - 1) * dx, (samples - 1) * dy, samples,
+                                  samples, 1, 0, kThickness, kNoWrap);
+  return dCreateHeightfield(nullptr, data, 1);
 }
 
 dGeomID WallBodies::create_geom(const MeshShape& mesh) {
@@ -112,8 +167,8 @@ dGeomID WallBodies::create_geom(const MeshShape& mesh) {
 
 void WallBodies::add_drive(Entry& entry, const Drive& drive) {
   entry.driven = create_body(world_);
-  // The joint prevents all rotation. A body with a large inertia hardly rotates by itself, and leaves less work to the solver: in
-  // shear_cell.toml the final overlap of grains is 5.7 % of the smallest half-axis, and 7.0 % with an inertia of m r^2.
+  // The joint prevents all rotation. A body with a large inertia hardly rotates by itself, and leaves less work to the solver. In
+  // shear_cell.toml the final overlap of grains is 5.7 % of the smallest half-axis. With an inertia of m r^2 it is 7.0 %.
   constexpr double kHeavy = 1e3;
   const double radius = bounding_radius(entry.wall->shape);
   const double inertia = kHeavy * drive.mass * (std::isfinite(radius) ? radius * radius : 1);
@@ -190,56 +245,57 @@ void WallBodies::slide(Entry& entry) {
 }
 
 void WallBodies::place(const Entry& entry) {
-  const WallPose pose = entry.wall_pose();
-  if (dGeomGetClass(entry.geom) == dPlaneClass) {
-    const Vector3 normal = pose.rotation * Vector3::UnitZ();
+  WallPose pose = entry.wall_pose();
+  if (const auto* plane = std::get_if<PlaneShape>(&entry.wall->shape)) {
+    const Vector3 normal = pose.rotation * plane->normal;
     dGeomPlaneSetParams(entry.geom, normal.x(), normal.y(), normal.z(), normal.dot(pose.position));
     return;
   }
+  if (std::holds_alternative<GroundShape>(entry.wall->shape)) pose.rotation = pose.rotation * upright();
   dGeomSetPosition(entry.geom, pose.position.x(), pose.position.y(), pose.position.z());
   const dQuaternion q = {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()};
   dGeomSetQuaternion(entry.geom, q);
 }
 
 bool WallBodies::is_moving(dGeomID geom) const {
-  const auto found = index_of_.find(geom);
-  return found != index_of_.end() && entries_[found->second].is_moving;
+  const Entry* entry = find(geom);
+  return entry != nullptr && entry->is_moving;
 }
 
-supernormal::effects::Side WallBodies::side_of(dGeomID geom, supernormal::effects::Material otherwise) const {
-  const auto found = index_of_.find(geom);
-  if (found == index_of_.end()) return {otherwise, dGeomGetBody(geom)};
-  const Entry& entry = entries_[found->second];
-  const dBodyID body = entry.driven != nullptr && !entry.is_held ? entry.driven : entry.carrier;
-  return {entry.material, entry.is_moving ? body : nullptr};
+supernormal::effects::Side WallBodies::side_of(dGeomID geom) const {
+  const Entry* entry = find(geom);
+  if (entry == nullptr) return {kWallMaterial, dGeomGetBody(geom)};
+  const dBodyID body = entry->driven != nullptr && !entry->is_held ? entry->driven : entry->carrier;
+  return {entry->material, entry->is_moving ? body : nullptr};
 }
 
 Vector3 WallBodies::chord_excess(dGeomID geom, const Vector3& centre, const Vector3& velocity) const {
-  const auto found = index_of_.find(geom);
-  if (found == index_of_.end() || !entries_[found->second].excess) return Vector3::Zero();
-  const Entry& entry = entries_[found->second];
-  return entry.excess->at(centre - entry.pose.position, velocity);
+  const Entry* entry = find(geom);
+  if (entry == nullptr || !entry->excess) return Vector3::Zero();
+  return entry->excess->at(centre - entry->pose.position, velocity);
 }
 
 WallState WallBodies::state(std::size_t index) const { return {entries_[index].wall_pose(), entries_[index].wall_velocity()}; }
 
 WallsState WallBodies::save() const {
   WallsState state{steps_, {}};
-  state.walls.reserve(entries_.size());
-  for (const Entry& entry : entries_) state.walls.push_back({entry.pose, entry.velocity, entry.position, entry.speed});
+  for (const Entry& entry : entries_) {
+    if (entry.carrier != nullptr) state.walls.push_back({entry.pose, entry.velocity, entry.position, entry.speed});
+  }
   return state;
 }
 
 void WallBodies::restore(const WallsState& state) {
   steps_ = state.steps;
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    Entry& entry = entries_[i];
-    const WallsState::OfWall& saved = state.walls[i];
+  auto next = state.walls.begin();
+  for (Entry& entry : entries_) {
+    if (entry.carrier == nullptr) continue;
+    const WallsState::OfWall& saved = *next++;
     entry.pose = saved.pose;
     entry.velocity = saved.velocity;
     entry.position = saved.position;
     entry.speed = saved.speed;
-    if (entry.carrier != nullptr) put(entry);
+    put(entry);
   }
 }
 

@@ -21,7 +21,7 @@ struct WallState {
   WallVelocity velocity;  ///< mean of the last step, without the motion of a conveyor's surface
 };
 
-/// The state of the walls between two steps, as far as it is no function of time.
+/// The state of the moving walls between two steps, as far as it is no function of time.
 struct WallsState {
   struct OfWall {
     WallPose pose;               ///< of the carrier
@@ -35,7 +35,7 @@ struct WallsState {
     }
   };
   long steps = 0;
-  std::vector<OfWall> walls;
+  std::vector<OfWall> walls;  ///< that move, in their order
 
   template <typename Archive>
   void serialize(Archive& archive) {
@@ -43,9 +43,10 @@ struct WallsState {
   }
 };
 
-/// The geoms of the walls, and the bodies that give contacts their velocities. The geoms have no bodies, since ODE's planes can
-/// have none. A moving wall has a kinematic body beside its geom, with the mean velocity of the step. After the step the geom and
-/// this body are set to the exact pose. A driven wall has a second body with mass, on a slider joint to the kinematic body.
+/// The geoms of all walls of a scene, and the bodies that give contacts their velocities. The geoms have no bodies, since ODE's
+/// planes can have none. They are in no space. A moving wall has a kinematic body beside its geom, with the mean velocity of the
+/// step. After the step the geom and this body are set to the exact pose. A driven wall has a second body with mass, on a slider
+/// joint to the kinematic body.
 class WallBodies {
  public:
   /// The walls and the world must outlive this object. The geoms have `category_bits` and collide with geoms that have a bit of
@@ -55,7 +56,14 @@ class WallBodies {
   WallBodies(const WallBodies&) = delete;
   WallBodies& operator=(const WallBodies&) = delete;
 
-  const std::vector<dGeomID>& geoms() const { return geoms_; }  ///< in the order of the walls
+  const std::vector<dGeomID>& geoms() const { return geoms_; }  ///< of the present walls, in their order
+  /// The wall with this geom, also if it was removed; null if there is none.
+  const Wall* wall_of(dGeomID geom) const;
+
+  /// Whether a lid closes a hopper's outlet.
+  bool has_lid() const;
+  /// Removes the lid of a hopper's outlet, if there is one. Its geom stays valid for the contacts of the last step.
+  void remove_lid();
 
   /// Sets the velocities of the bodies. Call it before the collision of a step.
   void before_step();
@@ -64,12 +72,12 @@ class WallBodies {
 
   /// Whether the geom belongs to a wall that moves, or whose surface moves, in this step.
   bool is_moving(dGeomID geom) const;
-  /// The body and material of the geom's wall; the body is null while the wall does not move. For other geoms: the geom's own body
-  /// and `otherwise`.
-  supernormal::effects::Side side_of(dGeomID geom, supernormal::effects::Material otherwise) const;
+  /// The body and material of the wall with this geom. The body is null while the wall does not move. A mesh that is no wall has
+  /// its own body, and the material that walls share.
+  supernormal::effects::Side side_of(dGeomID geom) const;
 
-  /// m/s; the velocity that a grain at `centre` (m) with `velocity` (m/s) needs at its contacts with the wall in this step, in
-  /// addition to the velocity of the wall's body (ChordExcess). Zero if the geom belongs to no wall.
+  /// m/s; what a grain at `centre` (m) with `velocity` (m/s) needs at its contacts in this step besides the velocity of the wall's
+  /// body (ChordExcess). Zero if the geom belongs to no wall.
   Vector3 chord_excess(dGeomID geom, const Vector3& centre, const Vector3& velocity) const;
 
   const Wall& wall(std::size_t index) const { return *entries_[index].wall; }
@@ -94,6 +102,7 @@ class WallBodies {
     dBodyID driven = nullptr;   // with mass; null for a wall that is not driven
     dJointID slider = nullptr;
     supernormal::effects::Material material = 0;
+    bool is_present = true;  // false for a removed lid
     bool is_moving = false;
     bool is_held = true;
 
@@ -101,8 +110,10 @@ class WallBodies {
     WallVelocity wall_velocity() const;  // with the speed of the driven body; mean of the last step
     Vector3 axis() const;                // of the drive, in the world's frame
   };
+  const Entry* find(dGeomID geom) const;
   dGeomID create_geom(const WallShape& shape);
   dGeomID create_geom(const MeshShape& mesh);
+  dGeomID create_geom(const GroundShape& ground);
   void add_drive(Entry& entry, const Drive& drive);
   void push(Entry& entry, double now);
   void slide(Entry& entry);
@@ -116,6 +127,7 @@ class WallBodies {
   std::vector<dGeomID> geoms_;
   std::unordered_map<dGeomID, std::size_t> index_of_;
   std::vector<dTriMeshDataID> mesh_data_;
+  std::vector<dHeightfieldDataID> ground_data_;
   std::vector<std::unique_ptr<const TwoSidedMesh>> two_sided_;
 };
 

@@ -3,15 +3,11 @@
 #include <supernormal/supernormal.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
 namespace falling_particles {
 namespace {
-
-constexpr unsigned long kWallBit = 1;
-constexpr unsigned long kGrainBit = 2;
 
 /// The data that World::name_pairs passes through ODE.
 struct PairCallback {
@@ -27,6 +23,12 @@ std::size_t capacity(const Scene& scene, std::size_t at_start) {
   return static_cast<std::size_t>(static_cast<double>(at_start) + most_fed(scene));
 }
 
+bool set_defaults(const Query& query) {
+  if (snSetDefaultSolver(query.solver, query.tolerance, query.max_evaluations) == 0) return false;
+  snSetWarmStart(query.warm_start ? 1 : 0);
+  return true;
+}
+
 void call_for_pair(void* to, dGeomID g1, dGeomID g2) {
   const auto& [sweep, data, callback] = *static_cast<const PairCallback*>(to);
   if (!sweep.is_end_marker(g1)) callback(data, g1, g2);
@@ -34,95 +36,12 @@ void call_for_pair(void* to, dGeomID g1, dGeomID g2) {
 
 }  // namespace
 
-std::vector<dGeomID> Grain::geoms() const {
-  std::vector<dGeomID> all;
-  all.reserve(kind->components.size() + 1);
-  // ODE lists the last geom first.
-  for (dGeomID each = dBodyGetFirstGeom(body); each != nullptr; each = dBodyGetNextGeom(each)) all.push_back(each);
-  std::ranges::reverse(all);
-  return all;
+QueryDefaults::QueryDefaults(const std::optional<Query>& query) : are_changed_(query.has_value()) {
+  if (are_changed_ && !set_defaults(*query)) throw std::runtime_error(snLastError());
 }
 
-std::array<dReal, 6> Grain::aabb() const {
-  std::array<dReal, 6> box{};
-  dGeomGetAABB(geom, box.data());
-  if (kind->components.empty()) return box;
-  for (const dGeomID each : geoms()) {
-    std::array<dReal, 6> other{};
-    dGeomGetAABB(each, other.data());
-    for (std::size_t i = 0; i < 6; i += 2) {
-      box[i] = std::min(box[i], other[i]);
-      box[i + 1] = std::max(box[i + 1], other[i + 1]);
-    }
-  }
-  return box;
-}
-
-dGeomID create_geom(dSpaceID space, const ConvexBody& body, double scale) {
-  const std::array<double, 3> half_axes = body.core_half_axes();
-  const auto [a, b, c] = std::array{scale * half_axes[0], scale * half_axes[1], scale * half_axes[2]};
-  dGeomID geom = nullptr;
-  switch (body.shape) {
-    case ConvexBody::Shape::Superellipsoid:
-      geom = body.delta == 2 && body.epsilon == 2 ? snCreateEllipsoid(space, a, b, c)
-                                                  : snCreateSuperellipsoid(space, a, b, c, body.delta, body.epsilon);
-      break;
-    case ConvexBody::Shape::Superovoid:
-      geom = snCreateSuperovoid(space, a, b, c, body.delta, body.epsilon, body.taper[0], body.taper[1]);
-      break;
-    case ConvexBody::Shape::Capsule:
-      geom = snCreateCapsule(space, a, 2 * (c - a));
-      break;
-  }
-  if (geom == nullptr || (body.rounding > 0 && snGeomSetRounding(geom, scale * body.rounding) == 0)) {
-    throw std::runtime_error(std::string("a grain was refused: ") + snLastError());
-  }
-  return geom;
-}
-
-dGeomID attach_geoms(dSpaceID space, const GrainKind& kind, double scale, dBodyID body, void* data) {
-  const auto create = [&](const ConvexBody& shape) {
-    dGeomID geom = create_geom(space, shape, scale);
-    dGeomSetBody(geom, body);
-    dGeomSetData(geom, data);
-    dGeomSetCategoryBits(geom, kGrainBit);
-    dGeomSetCollideBits(geom, kGrainBit | kWallBit);
-    return geom;
-  };
-  dGeomID first = nullptr;
-  for (const Component& component : kind.all_components()) {
-    dGeomID geom = create(component.body);
-    if (first == nullptr) first = geom;
-    if (kind.components.empty()) break;  // without an offset, which costs time in every step
-    const auto [x, y, z] = component.position;
-    const auto [qw, qx, qy, qz] = component.quaternion;
-    const dQuaternion q = {qw, qx, qy, qz};
-    dGeomSetOffsetPosition(geom, scale * x, scale * y, scale * z);
-    dGeomSetOffsetQuaternion(geom, q);
-  }
-  return first;
-}
-
-void put(dBodyID body, const Placement& place) {
-  const auto [x, y, z] = place.position;
-  const auto [qw, qx, qy, qz] = place.quaternion;
-  const dQuaternion q = {qw, qx, qy, qz};
-  dBodySetPosition(body, x, y, z);
-  dBodySetQuaternion(body, q);
-}
-
-dMass mass_of(const Grain& grain) {
-  dMass mass;
-  if (const auto& compound = grain.kind->compound_mass) {
-    const double volume = std::pow(grain.scale, 3);
-    const double second_moment = std::pow(grain.scale, 5);
-    const auto& I = compound->inertia;
-    dMassSetParameters(&mass, volume * compound->mass, 0, 0, 0, second_moment * I[0][0], second_moment * I[1][1],
-                       second_moment * I[2][2], second_moment * I[0][1], second_moment * I[0][2], second_moment * I[1][2]);
-  } else if (snMassSet(&mass, grain.kind->density, grain.geom) == 0) {
-    throw std::runtime_error("mass of grain \"" + grain.kind->name + "\" was refused: " + snLastError());
-  }
-  return mass;
+QueryDefaults::~QueryDefaults() {
+  if (are_changed_) set_defaults({});  // the defaults are never refused
 }
 
 World::World(const Scene& scene) : scene_(scene), query_defaults_(scene.query) {
@@ -133,10 +52,9 @@ World::World(const Scene& scene) : scene_(scene), query_defaults_(scene.query) {
   // Quickstep shuffles its constraints with ODE's global random generator.
   dRandSetSeed(static_cast<unsigned long>(scene.seed & 0xffffffffU));
   set_parameters(scene);
-  // The walls are in no space. ODE pairs geoms of infinite height with all others, whatever their bounding boxes. Instead each wall
-  // is tested against the grains, at the cost of comparing bounding boxes.
-  container_geoms_.emplace(nullptr, scene.container, kWallBit, kGrainBit, scene.periodic);
-  if (!scene.walls.empty()) walls_ = std::make_unique<WallBodies>(world_, scene.walls, scene.time.step, kWallBit, kGrainBit);
+  // The walls are in no space, since ODE pairs geoms of infinite height with all others. Each wall is tested against the bounding
+  // boxes of the grains.
+  walls_ = std::make_unique<WallBodies>(world_, scene.walls, scene.time.step, kWallBit, kGrainBit);
 }
 
 World::World(const Scene& scene, const std::vector<Placement>& placements) : World(scene) {
@@ -150,8 +68,8 @@ World::World(const Scene& scene, GoOn /*how*/, const WorldState& state) : World(
   for (const SavedGrain& saved : state.grains) restore(saved);
   add_cell();
   if (cell_ != nullptr) cell_->set_lengths(state.periods);
-  if (walls_ != nullptr) walls_->restore(state.walls);
-  if (container_geoms_->has_lid() && !state.has_lid) container_geoms_->open_outlet();
+  walls_->restore(state.walls);
+  if (!state.has_lid) walls_->remove_lid();
   dRandSetSeed(static_cast<unsigned long>(state.seed));
 }
 
@@ -164,7 +82,6 @@ void World::add_cell() {
 World::~World() {
   cell_.reset();
   walls_.reset();
-  container_geoms_.reset();
   sweep_.reset();
   dWorldDestroy(world_);
   snClose();
@@ -172,12 +89,8 @@ World::~World() {
 }
 
 void World::name_wall_pairs(void* data, dNearCallback* callback) const {
-  for (dGeomID wall : container_geoms_->geoms()) {
-    // A space is a geom to ODE.
-    dSpaceCollide2(reinterpret_cast<dGeomID>(sweep_->id()), wall, data, callback);
-  }
-  if (walls_ == nullptr) return;
-  for (dGeomID wall : walls_->geoms()) dSpaceCollide2(reinterpret_cast<dGeomID>(sweep_->id()), wall, data, callback);
+  const auto grains = reinterpret_cast<dGeomID>(sweep_->id());  // a space is a geom to ODE
+  for (dGeomID wall : walls_->geoms()) dSpaceCollide2(grains, wall, data, callback);
 }
 
 void World::name_pairs(void* data, dNearCallback* callback) const {
@@ -229,9 +142,9 @@ void World::add_grain(const Placement& placement) {
 WorldState World::save() const {
   WorldState state;
   state.seed = dRandGetSeed();
-  state.has_lid = container_geoms_->has_lid();
+  state.has_lid = walls_->has_lid();
   if (cell_ != nullptr) state.periods = cell_->lengths();
-  if (walls_ != nullptr) state.walls = walls_->save();
+  state.walls = walls_->save();
   state.grains.reserve(grains_.size());
   for (const Grain& grain : grains_) {
     SavedGrain& saved = state.grains.emplace_back();

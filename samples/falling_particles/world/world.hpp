@@ -10,42 +10,14 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
-#include "container_geoms.hpp"
-#include "model/material.hpp"
+#include "grain.hpp"
 #include "model/scene.hpp"
 #include "periodic_cell.hpp"
-#include "placement.hpp"
-#include "query_defaults.hpp"
 #include "sweep_space.hpp"
 #include "wall_bodies.hpp"
 #include "world_state.hpp"
 
 namespace falling_particles {
-
-/// A grain of a world. Its index in the world's list is never reused, also after its removal.
-struct Grain {
-  dBodyID body;  ///< null for a removed grain, which keeps only kind, scale and mass.mass
-  dGeomID geom;  ///< of a compound the first one; geoms() returns all
-  const GrainKind* kind;
-  dMass mass;
-  double scale = 1;  ///< factor on the lengths of the kind
-
-  bool is_present() const { return body != nullptr; }
-  std::vector<dGeomID> geoms() const;
-  /// m; of all geoms together: least x, most x, least y, most y, least z, most z.
-  std::array<dReal, 6> aabb() const;
-  double smallest_half_axis() const { return scale * kind->smallest_half_axis(); }  ///< m
-  double bounding_radius() const { return scale * kind->bounding_radius(); }        ///< m
-  double volume() const { return mass.mass / kind->density; }                       ///< m^3
-  Point position() const {                                                          ///< m, of the centre
-    const dReal* p = dBodyGetPosition(body);
-    return {p[0], p[1], p[2]};
-  }
-  std::array<double, 4> quaternion() const {  ///< w, x, y, z
-    const dReal* q = dBodyGetQuaternion(body);
-    return {q[0], q[1], q[2], q[3]};
-  }
-};
 
 /// The present grains of a list, in its order. Removed grains cost no time.
 class PresentGrains {
@@ -75,29 +47,18 @@ class PresentGrains {
   std::span<const std::size_t> indices_;
 };
 
-/// The grain of a geom in a World. Null for a wall, whose mesh may have data of its own.
-inline const Grain* grain_of(dGeomID geom) {
-  return dGeomGetClass(geom) == dTriMeshClass ? nullptr : static_cast<const Grain*>(dGeomGetData(geom));
-}
+/// Sets the library's defaults for queries, which hold for the process. The end of its lifetime resets them. Without a section
+/// [query] it does nothing. Throws std::runtime_error when the library refuses the values.
+class QueryDefaults {
+ public:
+  explicit QueryDefaults(const std::optional<Query>& query);
+  ~QueryDefaults();
+  QueryDefaults(const QueryDefaults&) = delete;
+  QueryDefaults& operator=(const QueryDefaults&) = delete;
 
-inline supernormal::effects::Material material_of(dGeomID geom) {
-  return grain_of(geom) != nullptr ? kGrainMaterial : kWallMaterial;
-}
-
-/// Creates a geom of the library for a convex body with its lengths times `scale`. Throws std::runtime_error when the library
-/// refuses it.
-dGeomID create_geom(dSpaceID space, const ConvexBody& body, double scale = 1);
-
-/// Attaches the geoms of a kind of grain to `body`, each in its place, with lengths times `scale` and with `data`. Returns the
-/// first one. Throws std::runtime_error when the library refuses one.
-dGeomID attach_geoms(dSpaceID space, const GrainKind& kind, double scale, dBodyID body, void* data);
-
-/// Sets the position and orientation of a body.
-void put(dBodyID body, const Placement& place);
-
-/// The mass and inertia of a grain about its centre. The grain must have its geoms. Throws std::runtime_error when the library
-/// refuses them.
-dMass mass_of(const Grain& grain);
+ private:
+  bool are_changed_;
+};
 
 /// The ODE world of a scene, which must outlive it.
 class World {
@@ -138,13 +99,12 @@ class World {
   std::size_t index_of(const Grain& grain) const { return static_cast<std::size_t>(&grain - grains_.data()); }
   /// The effects that the scene names, compiled.
   supernormal::effects::Effects& effects() const { return *effects_; }
-  const ContainerGeoms& container_geoms() const { return *container_geoms_; }
   /// Calls back for every pair of a grain and a wall whose bounding boxes meet.
   void name_wall_pairs(void* data, dNearCallback* callback) const;
   /// Calls back for every pair of grains, or of a grain and a wall, whose bounding boxes meet.
   void name_pairs(void* data, dNearCallback* callback) const;
   PeriodicCell* cell() const { return cell_.get(); }  ///< null for a scene without periodic axes
-  WallBodies* walls() const { return walls_.get(); }  ///< null if Scene::walls is empty
+  WallBodies& walls() const { return *walls_; }       ///< of Scene::walls
 
   /// Inserts a grain and returns its index, the next one. Not during a step.
   std::size_t insert(const Placement& placement, const Point& velocity);
@@ -155,8 +115,8 @@ class World {
   /// warm-start normals.
   WorldState save() const;
 
-  /// Removes the lid of a hopper's outlet. Call it once.
-  void open_outlet() { container_geoms_->open_outlet(); }
+  /// Removes the lid of a hopper's outlet.
+  void open_outlet() { walls_->remove_lid(); }
 
  private:
   explicit World(const Scene& scene);
@@ -172,7 +132,6 @@ class World {
   std::unique_ptr<supernormal::effects::Effects> effects_;
   std::vector<Grain> grains_;
   std::vector<std::size_t> present_;  // indices of the present grains, in order
-  std::optional<ContainerGeoms> container_geoms_;
   std::unique_ptr<PeriodicCell> cell_;
   std::unique_ptr<WallBodies> walls_;
 };

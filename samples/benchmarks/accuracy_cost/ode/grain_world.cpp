@@ -11,8 +11,8 @@ namespace {
 using falling_particles::kContactsPerPair;
 using falling_particles::Stopwatch;
 
-constexpr unsigned long kWallBit = 1;
-constexpr unsigned long kGrainBit = 2;
+using falling_particles::kGrainBit;
+using falling_particles::kWallBit;
 
 dSpaceID create_space(SpaceKind kind, const falling_particles::Scene& scene) {
   switch (kind) {
@@ -61,12 +61,12 @@ GrainWorld::GrainWorld(const falling_particles::Scene& scene, const Snapshot& st
   add_geoms(form);
   set_velocities(start);
   set_space_cells(space);
-  walls_ = std::make_unique<falling_particles::ContainerGeoms>(space_, scene.container, kWallBit, kGrainBit);
+  for (const dGeomID wall : world_.walls().geoms()) dSpaceAdd(space_, wall);
 }
 
 GrainWorld::~GrainWorld() {
   snBatchDestroy(batch_);
-  walls_.reset();
+  for (const dGeomID wall : world_.walls().geoms()) dSpaceRemove(space_, wall);
   geoms_.clear();
   dSpaceDestroy(space_);
 }

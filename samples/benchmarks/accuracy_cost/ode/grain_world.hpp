@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -66,7 +65,6 @@ class GrainWorld {
   falling_particles::World world_;
   dSpaceID space_;
   std::vector<OdeGeom> geoms_;
-  std::unique_ptr<falling_particles::ContainerGeoms> walls_;
   falling_particles::ContactJoints joints_;
   snBatchID batch_;  // null: one pair after the other
   std::vector<std::pair<dGeomID, dGeomID>> pairs_;

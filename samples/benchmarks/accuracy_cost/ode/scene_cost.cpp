@@ -7,6 +7,7 @@
 
 #include "base/random.hpp"
 #include "grain_world.hpp"
+#include "model/container_walls.hpp"
 #include "observe/bed.hpp"
 #include "observe/energy.hpp"
 #include "observe/overlap.hpp"
@@ -89,6 +90,7 @@ std::vector<std::string> time_forms(const Scene& scene) {
 Scene half_of(Scene scene) {
   for (auto& entry : scene.kinds) entry.count /= 2;
   std::get<falling_particles::Box>(scene.container).width[1] /= 2;
+  scene.walls = walls_in(scene.container);
   return scene;
 }
 
@@ -117,6 +119,7 @@ std::vector<std::string> time_size(const Scene& tile, const Tiling& tiling) {
   Scene scene = tile;
   scene.container =
       falling_particles::Box{{box.width[0] * static_cast<double>(tiling.columns), box.width[1] * static_cast<double>(tiling.rows)}};
+  scene.walls = walls_in(scene.container);
   std::vector<std::string> lines;
   for (const SpaceKind space : kSpaceKinds) {
     if (space == SpaceKind::Simple && bed.placements.size() > 5000) continue;  // quadratic cost: minutes

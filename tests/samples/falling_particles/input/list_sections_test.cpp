@@ -39,7 +39,7 @@ std::map<std::string, Keys> listed() {
   return sections;
 }
 
-/// The keys that the loader takes in a section, from its message about another one; `also`: those that the list names elsewhere.
+/// The keys that the loader accepts in a section, from its error about an unknown key. `also`: keys that the list has elsewhere.
 std::set<std::string> taken(const std::vector<std::string>& overrides, const std::set<std::string>& also) {
   const std::string said = complaint(kSceneText, kCatalogueText, overrides);
   CAPTURE(said);
@@ -135,7 +135,7 @@ std::vector<std::string> with(const Section& section, const std::string& change)
 
 }  // namespace
 
-TEST_CASE("list: each section has the keys that the loader takes, and no others") {
+TEST_CASE("list: each section has exactly the keys that the loader accepts") {
   const std::map<std::string, Keys> list = listed();
   CHECK(list.size() == sections().size() + 1);  // the top of the file
   for (const Section& section : sections()) {
@@ -145,7 +145,7 @@ TEST_CASE("list: each section has the keys that the loader takes, and no others"
     for (const auto& [key, text] : list.at(section.line)) keys.insert(key);
     CHECK(keys == taken(with(section, section.path + ".no_such_key=1"), section.also));
   }
-  // Sections at the top that are in this list are in the loader's, which has those of effects and of the other lists besides.
+  // The loader has all sections of this list, and the sections of effects and of the other lists.
   std::set<std::string> others = {"part", "measurement", "feeder", "sink"};
   for (const std::string& effect : falling_particles::effect_sections()) others.insert(effect);
   std::set<std::string> top = {"seed", "catalogue"};
@@ -153,7 +153,7 @@ TEST_CASE("list: each section has the keys that the loader takes, and no others"
   CHECK(top == taken({"no_such_key=1"}, others));
 }
 
-TEST_CASE("list: each range is the one that the loader names when it refuses a value") {
+TEST_CASE("list: each range agrees with the loader's error") {
   const std::regex range(R"([\[(]-?[0-9.e+]+, [0-9.e+]+[\])]|a whole number from \d+ to \d{1,9}\b)");
   int compared = 0;
   const std::map<std::string, Keys> list = listed();

@@ -27,7 +27,7 @@ E effect(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("a scene file is read as it is written") {
+TEST_CASE("the values of a scene file are read") {
   const TemporaryFolder folder;
   folder.write("grains.toml", kCatalogueText);
   const Scene scene = load_scene(folder.write("my.scene.toml", kSceneText));
@@ -59,7 +59,7 @@ TEST_CASE("every effect of the library has a section") {
   }
 }
 
-TEST_CASE("walls have friction of their own if the scene says so") {
+TEST_CASE("walls may have their own friction") {
   const Scene scene = scene_of(replaced(kSceneText, "coefficient = 0.4", "coefficient = 0.4\nwalls = 0.1"));
   std::vector<fx::Friction> found;
   for (const fx::Effect& each : scene.effects) {
@@ -70,7 +70,7 @@ TEST_CASE("walls have friction of their own if the scene says so") {
   CHECK(found[1].on.is_pair());
 }
 
-TEST_CASE("walls have rolling resistance of their own if the scene says so") {
+TEST_CASE("walls may have their own rolling resistance") {
   const Scene scene = scene_of(std::string(kSceneText) + "[rolling_resistance]\nrolling = 1e-4\nspinning = 3e-5\nwalls = 2e-4\n");
   std::vector<fx::RollingResistance> found;
   for (const fx::Effect& each : scene.effects) {
@@ -156,7 +156,7 @@ TEST_CASE("every mistake in a scene file ends with one line: file, line, what is
   for (const Mistake& mistake : mistakes) check_says(complaint(replaced(kSceneText, mistake.from, mistake.to)), mistake.says);
 }
 
-TEST_CASE("a scene names what it leaves to look at") {
+TEST_CASE("a scene names its pictures") {
   const TemporaryFolder folder;
   folder.write("grains.toml", kCatalogueText);
   const auto pictures_of = [&](const std::string& output) {
@@ -175,7 +175,7 @@ TEST_CASE("a scene names what it leaves to look at") {
   }
 }
 
-TEST_CASE("pictures show forces where the scene asks for them") {
+TEST_CASE("pictures show forces if the scene requests them") {
   const std::string text = kSceneText;
   CHECK_FALSE(scene_of(text).forces);
   CHECK(scene_of(text + "[output]\nforces = true\n").forces);

@@ -82,10 +82,10 @@ endsolid t
 
 }  // namespace
 
-TEST_CASE("a part is read as it is written") {
+TEST_CASE("the values of a part are read") {
   const Scene scene = scene_of(with_part());
-  REQUIRE(scene.walls.size() == 1);
-  const Wall& wall = scene.walls[0];
+  REQUIRE(scene.parts().size() == 1);
+  const Wall& wall = scene.parts()[0];
   CHECK(wall.name == "plate");
   CHECK(std::get<BoxShape>(wall.shape).size == Vector3(0.1, 0.2, 0.02));
   CHECK((wall.start(Vector3::UnitX()) - Vector3(0, 1, 0.5)).norm() < 1e-15);
@@ -100,7 +100,7 @@ TEST_CASE("a part is read as it is written") {
   CHECK(wall.drive->travel[1] == 0.3);
 }
 
-TEST_CASE("a mistake in a part is told with its name, its value and what is allowed") {
+TEST_CASE("the error of a part names the key, its value and the allowed values") {
   const std::vector<Mistake> mistakes = {
       {"shape = \"box\"", "shape = \"bx\"", {"part.shape is \"bx\"", "did you mean \"box\"", "superovoid"}},
       {"name = \"plate\"", "name = \"a, b\"", {"part.name is \"a, b\"", "letters, digits"}},
@@ -142,14 +142,14 @@ TEST_CASE("a superovoid that is not convex is refused") {
   CHECK(complaint(with_part(part + "taper = [0.3, 0.3]\n")).empty());
 }
 
-TEST_CASE("a pressure on a shape without a plan area needs one") {
+TEST_CASE("a pressure on a shape without a projected area needs `area`") {
   const std::string part =
       "[[part]]\nname = \"lid\"\nshape = \"plane\"\n[part.drive]\naxis = [0, 0, -1]\npressure = 100\nmass = 1\n";
   check_says(complaint(with_part(part)), {"part.drive.area is missing", "m^2"});
-  CHECK(scene_of(with_part(part + "area = 0.02\n")).walls[0].drive->force == doctest::Approx(2));
+  CHECK(scene_of(with_part(part + "area = 0.02\n")).walls.back().drive->force == doctest::Approx(2));
 }
 
-TEST_CASE("without a container parts do the work: where grains start and where they have leaked is said") {
+TEST_CASE("a container of kind none has a start and bounds, and parts hold the grains") {
   const Scene scene = scene_of(scene_in(kNone) + kPart);
   CHECK(contains(scene.container, {0, 0, -0.05}));
   CHECK_FALSE(contains(scene.container, {0, 0, -0.2}));
@@ -161,7 +161,7 @@ TEST_CASE("without a container parts do the work: where grains start and where t
              {"the scene has 7 grains", "up to 6"});
 }
 
-TEST_CASE("a mesh is read in its unit, and what is wrong with its file is said") {
+TEST_CASE("a mesh is read in its unit, and a bad file is refused with the reason") {
   if (!can_load_meshes()) return;
   const TemporaryFolder folder;
   folder.write("grains.toml", kCatalogueText);
@@ -185,18 +185,18 @@ TEST_CASE("a mesh is read in its unit, and what is wrong with its file is said")
     }
     return "";
   };
-  const auto mesh = std::get<MeshShape>(load("t.stl", "mm").walls[0].shape);
+  const auto mesh = std::get<MeshShape>(load("t.stl", "mm").walls.back().shape);
   CHECK(mesh.vertices.size() == 4);
   CHECK(mesh.triangles.size() == 4);
   CHECK(bounding_radius(mesh) == doctest::Approx(0.01));
-  CHECK(std::get<MeshShape>(load("square.obj", "inch").walls[0].shape).triangles.size() == 2);
+  CHECK(std::get<MeshShape>(load("square.obj", "inch").walls.back().shape).triangles.size() == 2);
   // An OBJ that names a file of materials is read as without it: lines of the file would be quoted in warnings.
   folder.write("secret", "newmtl a\nmap_Kd secret\nroot:$6$hash:19000:0:99999:7:::\n");
   for (const std::string& named :
        {folder.path().string() + "/secret", std::string("secret"), std::string("../secret"), std::string("pipe.stl")}) {
     folder.write("named.obj", "mtllib " + named + "\nusemtl a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
     REQUIRE(mkfifo((folder.path() / "pipe.stl").c_str(), 0600) == 0);
-    CHECK(std::get<MeshShape>(load("named.obj", "inch").walls[0].shape).triangles.size() == 2);
+    CHECK(std::get<MeshShape>(load("named.obj", "inch").walls.back().shape).triangles.size() == 2);
     check_says(refusal("pipe.stl", "mm"), {"part.file", "pipe.stl\" is a pipe or a socket, and no file"});
     std::filesystem::remove(folder.path() / "pipe.stl");
   }
@@ -206,7 +206,7 @@ TEST_CASE("a mesh is read in its unit, and what is wrong with its file is said")
   check_says(refusal("nan.stl", "mm"), {"part.file", "nan.stl\" has a coordinate that is not finite"});
   check_says(refusal("twice.obj", "m"),
              {"part.file: \"twice.obj\" has 1 triangles with their corners in both orders", "part.two_sided = true"});
-  const auto sheet = std::get<MeshShape>(load("twice.obj", "m\"\ntwo_sided = true # ").walls[0].shape);
+  const auto sheet = std::get<MeshShape>(load("twice.obj", "m\"\ntwo_sided = true # ").walls.back().shape);
   CHECK(sheet.two_sided);
   CHECK(sheet.triangles.size() == 1);
   check_says(refusal("t.step", "mm"), {"part.file is \"t.step\"", ".stl or .obj"});

@@ -91,7 +91,7 @@ dMass assembled(const GrainKind& kind) {
 
 }  // namespace
 
-TEST_CASE("compounds: mass and inertia are those that samples/compound finds, about the centre of mass") {
+TEST_CASE("compounds: mass and inertia about the centre of mass agree with samples/compound") {
   for (const GrainKind& kind : compounds()) {
     if (kind.components.empty()) continue;
     CAPTURE(kind.name);
@@ -123,7 +123,7 @@ TEST_CASE("compounds: mass and inertia are those that samples/compound finds, ab
   }
 }
 
-TEST_CASE("compounds: what parts share counts once, with the first one's density") {
+TEST_CASE("compounds: volume that components share counts once, with the density of the first") {
   constexpr double kRadius = 3e-3, kDistance = 4e-3;
   const double sphere = 4 * std::numbers::pi / 3 * std::pow(kRadius, 3);
   const double lens = std::numbers::pi / 12 * std::pow(2 * kRadius - kDistance, 2) * (kDistance + 4 * kRadius);
@@ -131,7 +131,7 @@ TEST_CASE("compounds: what parts share counts once, with the first one's density
   CHECK(pair.compound_mass->mass == relative(1000 * (2 * sphere - lens)).epsilon(1e-5));
   CHECK(pair.density == relative(1000).epsilon(1e-12));
   CHECK(pair.components[0].position[0] == relative(-kDistance / 2).epsilon(1e-5));
-  // About the axis of the two: two spheres without a lens, whose integral of r^2 is that of its two caps.
+  // About the common axis: two spheres without their lens. The integral of r^2 over the lens is the sum over its two caps.
   const double cap = kRadius - kDistance / 2;
   const double caps = std::numbers::pi * std::pow(cap, 3) * (20 * kRadius * kRadius - 15 * kRadius * cap + 3 * cap * cap) / 15;
   const double expected = 1000 * (2 * 0.4 * sphere * kRadius * kRadius - caps);
@@ -195,7 +195,7 @@ TEST_CASE("compounds: two dumbbells that lie on one another in two places are on
   for (const dContactGeom& contact : stepper.contact_geoms()) CHECK(grain_of(contact.g1) != grain_of(contact.g2));
 }
 
-TEST_CASE("compounds: a collision across a periodic boundary is that in the middle of the cell") {
+TEST_CASE("compounds: grains collide across a periodic boundary as in the middle of the cell") {
   const auto motion_at = [](double offset) {
     constexpr double kSide = 0.08;
     Scene scene = scene_with(compounds()[0], Periodic{kSide});
@@ -219,7 +219,7 @@ TEST_CASE("compounds: a collision across a periodic boundary is that in the midd
   for (std::size_t i = 0; i < 6; ++i) CHECK(std::abs(found[i] - expected[i]) < 0.02 * (i < 3 ? 0.2 : 0.2 / 6e-3));
 }
 
-TEST_CASE("compounds: the volume of a bed is within the parts") {
+TEST_CASE("compounds: the volume of a bed is the volume of the components") {
   const Scene scene = scene_with(compounds()[0], Box{{0.03, 0.03}});
   const World world(scene, {{0, {0.015, 0.015, 14e-3}, {1, 0, 0, 0}}});
   Random random(3);
@@ -229,7 +229,7 @@ TEST_CASE("compounds: the volume of a bed is within the parts") {
   CHECK(bed.bulk_density == relative(7850 * bed.volume_fraction).epsilon(1e-9));
 }
 
-TEST_CASE("compounds: a picture's mesh and parts are where the geoms are") {
+TEST_CASE("compounds: the meshes of pictures are where the geoms are") {
   const Scene scene = scene_with(compounds()[1]);
   const World world(scene, {{0, {0.05, 0.05, 0.05}, {0.5, 0.5, 0.5, 0.5}, 1.5}});
   const Grain& grain = world.grains()[0];
@@ -282,7 +282,7 @@ TEST_CASE("capsules: mass, size and rest heights") {
   CHECK(lying == relative(9.81 * expected.mass).epsilon(1e-3));
 }
 
-TEST_CASE("capsules: the gap of two is the distance of their axes less both radii") {
+TEST_CASE("capsules: the gap of two capsules is the distance of their axes minus both radii") {
   const Scene scene = scene_with(compounds()[3]);
   const double s = std::sqrt(0.5);
   const std::array<double, 4> along_x = {s, 0, s, 0};

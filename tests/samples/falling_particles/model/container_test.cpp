@@ -27,7 +27,7 @@ TEST_CASE("a box is open at the top only") {
   CHECK_FALSE(contains(box, {0.1, 0.1, NAN}));
 }
 
-TEST_CASE("hoppers and terrains are read as they are written") {
+TEST_CASE("the values of hoppers and terrains are read") {
   const Scene with_hopper = scene_of(scene_in(kHopperText));
   CHECK(std::string(kind_of(with_hopper.container)) == "hopper");
   const auto& hopper = std::get<Hopper>(with_hopper.container);
@@ -85,7 +85,7 @@ TEST_CASE("every mistake in a container ends with one line: file, line, what is 
   }
 }
 
-TEST_CASE("a cylinder that is too low for the grains is refused, with the height that does") {
+TEST_CASE("a cylinder that is too low for the grains is refused, with the least height") {
   const std::string many = replaced(scene_in(kHopperText), "count = 5", "count = 200");
   const std::string said = complaint(many);
   check_says(said, {"scene.toml:8: container.cylinder_height is 0.1; allowed: at least "});
@@ -116,7 +116,7 @@ TEST_CASE("grains start within their container, clear of its walls") {
   }
 }
 
-TEST_CASE("a leak is noticed once, and remembered") {
+TEST_CASE("a leak is counted once") {
   Scene scene = scene_of(kSceneText);
   scene.kinds[0].count = 2;
   scene.kinds.resize(1);

@@ -1,11 +1,15 @@
-// Tests of containers that are made of parts: where their walls are and how they move, and what is said of mistakes.
+// Tests of the walls of containers: where they are, how they move, and the errors of mistakes.
 #include "model/container_walls.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "complaint.hpp"
 #include "observe/leaks.hpp"
@@ -57,6 +61,18 @@ const Wall& find(const std::vector<Wall>& walls, const std::string& name) {
   return *found;
 }
 
+std::vector<std::string> names_of(const std::vector<Wall>& walls) {
+  std::vector<std::string> names;
+  std::ranges::transform(walls, std::back_inserter(names), &Wall::name);
+  return names;
+}
+
+/// The normal of a plane, and its distance from the origin.
+std::array<double, 4> plane_of(const Wall& wall) {
+  const Vector3 normal = wall.start.rotation * std::get<PlaneShape>(wall.shape).normal;
+  return {normal.x(), normal.y(), normal.z(), normal.dot(wall.start.position)};
+}
+
 /// Velocity of the surface of a part at a point of the world, at the start.
 Vector3 surface_velocity(const Wall& wall, const Vector3& point) {
   const WallVelocity v = conveyor_velocity(wall.start, wall.start, wall.motions, 1, 1.001);
@@ -69,6 +85,58 @@ double face(const Wall& wall, int axis, int side) {
 }
 
 }  // namespace
+
+TEST_CASE("a box is a list of five planes") {
+  using Names = std::vector<std::string>;
+  using Plane = std::array<double, 4>;
+  const std::vector<Wall> walls = walls_in(Box{{0.2, 0.3}});
+  CHECK(names_of(walls) == Names{"floor", "x_low", "x_high", "y_low", "y_high"});
+  CHECK(plane_of(walls[0]) == Plane{0, 0, 1, 0});
+  CHECK(plane_of(walls[1]) == Plane{1, 0, 0, 0});
+  CHECK(plane_of(walls[2]) == Plane{-1, 0, 0, -0.2});
+  CHECK(plane_of(walls[3]) == Plane{0, 1, 0, 0});
+  CHECK(plane_of(walls[4]) == Plane{0, -1, 0, -0.3});
+  for (const Wall& wall : walls) CHECK(wall.role == WallRole::Side);
+}
+
+TEST_CASE("a hopper is a list of walls, and its lid can be removed") {
+  using Names = std::vector<std::string>;
+  const Scene scene = scene_of(scene_in(std::string(kHopperText) + "\ndish = { diameter = 0.05, height = 0.01, rim = 0.002 }"));
+  CHECK(names_of(scene.walls) == Names{"floor", "x_low", "x_high", "y_low", "y_high", "lid", "hopper", "dish"});
+  for (const Wall& wall : scene.walls) CHECK(wall.role == (wall.name == "lid" ? WallRole::Lid : WallRole::Side));
+  CHECK(plane_of(find(scene.walls, "lid")) == std::array{0.0, 0.0, 1.0, 0.05});
+  CHECK(plane_of(find(scene.walls, "x_high")) == std::array{-1.0, 0.0, 0.0, -0.075});
+  World world(scene, {});
+  const std::vector<dGeomID> before = world.walls().geoms();
+  REQUIRE(before.size() == 8);
+  CHECK(world.walls().has_lid());
+  world.open_outlet();
+  CHECK_FALSE(world.walls().has_lid());
+  REQUIRE(world.walls().geoms().size() == 7);
+  CHECK(world.walls().wall_of(before[5]) == &scene.walls[5]);  // contacts of the last step may have it
+  CHECK(grain_of(before[5]) == nullptr);
+  CHECK(world.walls().wall_of(before[6]) == &scene.walls[6]);
+  CHECK(world.walls().geoms()[5] == before[6]);
+}
+
+TEST_CASE("a terrain is a list of four planes and a ground with the terrain's samples") {
+  using Names = std::vector<std::string>;
+  const Terrain terrain({{0.2, 0.1}, 0.01, 0.08, 0.005, 5, 7});
+  const std::vector<Wall> walls = walls_in(terrain);
+  CHECK(names_of(walls) == Names{"x_low", "x_high", "y_low", "y_high", "ground"});
+  const auto& ground = std::get<GroundShape>(walls.back().shape);
+  CHECK(walls.back().start.position == Vector3(0.1, 0.05, 0));
+  REQUIRE(ground.samples == 7);
+  CHECK(ground.heights[2 * ground.samples + 3] == terrain.sample(3, 2));
+}
+
+TEST_CASE("the sides of a box come before its parts, and are none of them") {
+  const Scene scene = scene_of(std::string(kSceneText) + "[[part]]\nname = \"floor\"\nshape = \"plane\"\n");
+  REQUIRE(scene.walls.size() == 6);
+  REQUIRE(scene.parts().size() == 1);
+  CHECK(&scene.parts()[0] == &scene.walls.back());  // a part may have the name of a side
+  CHECK(scene_of(scene_in(kTray)).parts().size() == 5);
+}
 
 TEST_CASE("the shell of a drum is around its axis, at its radius, and looks inwards; the ends look at one another") {
   const Scene scene = scene_of(scene_in(kDrum));
@@ -95,7 +163,6 @@ TEST_CASE("grains in a drum that turns stay in it, and its flat sides stand wher
   for (const bool is_smooth : {false, true}) {
     CAPTURE(is_smooth);
     Scene scene = scene_of(Drum{0.08, 0.04, 32, 60, is_smooth, 0.1}, {{lentil(), 60}});
-    scene.walls = walls_in(scene.container);
     Random random(1);
     const World world(scene, place(scene, random));
     Stepper stepper(world, scene);
@@ -106,7 +173,7 @@ TEST_CASE("grains in a drum that turns stay in it, and its flat sides stand wher
     }
     CHECK(leaks.count() == 0);
     // It has turned once since 0.1 s.
-    const WallState state = world.walls()->state(0);
+    const WallState state = world.walls().state(0);
     CHECK((state.pose.rotation * Vector3::UnitX() - Vector3::UnitX()).norm() < 1e-12);
     // A positive speed moves the floor towards -x: the bed leans on that side.
     double x = 0;
@@ -155,7 +222,7 @@ TEST_CASE("the belt and its rollers have one speed where they meet") {
   CHECK_FALSE(contains(scene.container, {0.31, 0.03, 0.05}));
 }
 
-TEST_CASE("a mistake in a container that moves is told with its name, its value and what is allowed") {
+TEST_CASE("the error of a moving container names the key, its value and the allowed values") {
   struct Wrong {
     const char* container;
     Mistake mistake;
@@ -183,13 +250,13 @@ TEST_CASE("a mistake in a container that moves is told with its name, its value 
   }
 }
 
-TEST_CASE("the scenes that show parts are valid, and their grains start") {
+TEST_CASE("the sample scenes with parts are valid, and their grains start within the container") {
   for (const char* name : {"drum", "tray", "shear_cell", "conveyor", "piston"}) {
     CAPTURE(name);
     const Scene scene = load_scene(SUPERNORMAL_SAMPLES "/scenes/" + std::string(name) + ".toml");
     Random random(scene.seed);
     const World world(scene, place(scene, random));
-    CHECK(world.walls() != nullptr);
+    CHECK_FALSE(scene.parts().empty());
     Stepper stepper(world, scene);
     for (int i = 0; i < 20; ++i) stepper.step();
     for (const Grain& grain : world.grains()) CHECK(contains(scene.container, grain.position()));

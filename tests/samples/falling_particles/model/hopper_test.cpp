@@ -47,7 +47,7 @@ GrainKind soybean() { return {"soybean", {3.275e-3, 2.78e-3, 2.265e-3}, 2, 2, 0,
 
 }  // namespace
 
-TEST_CASE("the hopper's mesh is closed but for the outlet and the top, and wound the same way everywhere") {
+TEST_CASE("the hopper's mesh is open at the outlet and the top only, and wound the same way everywhere") {
   for (const int segments : {3, 8, 48}) {
     CAPTURE(segments);
     Hopper hopper = kHopper;
@@ -73,7 +73,7 @@ TEST_CASE("the hopper's mesh is closed but for the outlet and the top, and wound
   }
 }
 
-TEST_CASE("the hopper's triangles face the axis, at the angle and the distances asked for") {
+TEST_CASE("the hopper's triangles face the axis, with the scene's angle and distances") {
   const Mesh mesh = make_mesh(kHopper);
   CHECK(mesh.triangles.size() == 4 * 48);
   double area = 0;
@@ -91,8 +91,8 @@ TEST_CASE("the hopper's triangles face the axis, at the angle and the distances 
     const double slope = std::asin(twice_area[2] / length) * 180 / std::numbers::pi;
     CHECK(std::abs(slope - (in_cone ? kHopper.wall_angle : 0)) < 1e-3);
   }
-  // The sides are those of a pyramid's frustum and of a prism with the inscribed circles' radii: half the perimeter times the
-  // height of a side.
+  // The mesh is the frustum of a pyramid and a prism with the radii of the inscribed circles. The area of their sides is half the
+  // perimeter times the height of a side.
   const double per_radius = 2 * 48 * std::tan(std::numbers::pi / 48);
   const double cone = per_radius * (0.018 + 0.036) / 2 * std::hypot(0.018, kHopper.cone_height());
   CHECK(area == supernormal::test::relative(cone + per_radius * 0.036 * 0.1).epsilon(1e-6));
@@ -102,7 +102,7 @@ TEST_CASE("ODE hits the mesh where the hopper ends, from inside") {
   const Scene scene = scene_of(kHopper, {{soybean(), 1}});
   const World world(scene, {{0, {0, 0, 0.2}, {1, 0, 0, 0}}});
   dGeomID mesh = nullptr;
-  for (dGeomID geom : world.container_geoms().geoms()) {
+  for (dGeomID geom : world.walls().geoms()) {
     if (dGeomGetClass(geom) == dTriMeshClass) mesh = geom;
   }
   REQUIRE(mesh != nullptr);
@@ -127,7 +127,7 @@ TEST_CASE("ODE hits the mesh where the hopper ends, from inside") {
   dGeomDestroy(ray);
 }
 
-TEST_CASE("a hopper holds what is in it or in the tray") {
+TEST_CASE("a point in a hopper or its tray is inside") {
   const double middle = kHopper.clearance + kHopper.cone_height() / 2;  // the radius is 0.027 there
   CHECK(kHopper.contains({0.0269, 0, middle}));
   CHECK_FALSE(kHopper.contains({0.0271, 0, middle}));
@@ -166,7 +166,7 @@ TEST_CASE("Beverloo's law") {
   CHECK(beverloo_mass_flow(0.003, 0.005, 750, 9.81) == 0);
 }
 
-TEST_CASE("what passes the outlet is counted once, what comes down beside it is not") {
+TEST_CASE("a grain that passes the outlet counts once; a grain beside the outlet does not count") {
   const Scene scene = scene_of(kHopper, {{lentil(), 5}});
   World world(scene, {{0, {0, 0, 0.07}, {1, 0, 0, 0}},
                       {0, {0.01, 0, 0.07}, {1, 0, 0, 0}},
@@ -177,12 +177,12 @@ TEST_CASE("what passes the outlet is counted once, what comes down beside it is 
   Discharge discharge(world, kHopper, random);
   const double grain_mass = world.grains()[0].mass.mass;
   const auto drop = [&](std::size_t i, double x) { dBodySetPosition(world.grains()[i].body, x, 0, 0.0599); };
-  const std::size_t walls = world.container_geoms().geoms().size();
+  const std::size_t walls = world.walls().geoms().size();
   drop(0, 0);
   discharge.after_step(0.2);
   CHECK_FALSE(discharge.charge());
   CHECK(discharge.count() == 0);
-  CHECK(world.container_geoms().geoms().size() == walls);
+  CHECK(world.walls().geoms().size() == walls);
   dBodySetPosition(world.grains()[0].body, 0, 0, 0.07);
   discharge.after_step(0.3);
   REQUIRE(discharge.charge());
@@ -190,7 +190,7 @@ TEST_CASE("what passes the outlet is counted once, what comes down beside it is 
   CHECK(discharge.charge()->mass == supernormal::test::relative(5 * grain_mass));
   CHECK(discharge.charge()->grain_diameter ==
         supernormal::test::relative(2 * std::cbrt(3.36e-3 * 3.36e-3 * 1.29e-3)).epsilon(1e-9));
-  CHECK(world.container_geoms().geoms().size() == walls - 1);
+  CHECK(world.walls().geoms().size() == walls - 1);
   drop(0, 0);
   drop(1, 0.03);  // beside the outlet
   discharge.after_step(0.4);
@@ -230,7 +230,7 @@ TEST_CASE("the bed in a hopper: one lying column of known volume") {
   CHECK(bed.bulk_density == supernormal::test::relative(1000 * bed.volume_fraction).epsilon(1e-12));
 }
 
-TEST_CASE("grains rest on the closed hopper, then run out of it, and none leaks") {
+TEST_CASE("grains rest on the lid, flow out when it is removed, and none leaks") {
   const Scene scene = scene_of(kHopper, {{soybean(), 60}});
   Random random(2);
   World world(scene, place(scene, random));

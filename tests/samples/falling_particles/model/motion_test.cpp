@@ -25,7 +25,7 @@ std::vector<WallMotion> busy() {
 
 }  // namespace
 
-TEST_CASE("a drum is where it was after whole turns, however many") {
+TEST_CASE("a drum has its first pose after any number of whole revolutions") {
   const WallPose start{{0.3, 0.2, 0.1}, Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()))};
   const std::vector<WallMotion> motions = {{Rotation{Vector3::UnitY(), {0.25, 0, 0.4}, 30}}};
   for (const double turns : {1.0, 7.0, 1000.0}) CHECK(distance(pose_at(start, motions, 2 * turns), start) < 1e-15);
@@ -34,7 +34,7 @@ TEST_CASE("a drum is where it was after whole turns, however many") {
   CHECK((quarter.position - Vector3(0.25 - 0.3, 0.2, 0.4 - 0.05)).norm() < 1e-15);
 }
 
-TEST_CASE("motions are on from their start to their end, and then the part stays") {
+TEST_CASE("a motion acts from its start to its end, and then the wall stays") {
   const std::vector<WallMotion> motions = {{Translation{{1, 0, 0}}, 0.5, 0.75}};
   CHECK(pose_at(pose({0, 0, 0}), motions, 0.5).position.x() == 0);
   CHECK(pose_at(pose({0, 0, 0}), motions, 0.625).position.x() == 0.125);
@@ -51,7 +51,7 @@ TEST_CASE("a vibration starts where the part is, and has its amplitude, frequenc
   }
 }
 
-TEST_CASE("a displacement carries the axis of a rotation, and an earlier rotation that of a later one") {
+TEST_CASE("displacements and earlier rotations move the axis of a rotation") {
   // A wheel on an arm: the arm turns by a quarter about z, the wheel by a quarter about its own axis, which was x.
   const std::vector<WallMotion> motions = {
       {Rotation{Vector3::UnitZ(), {0, 0, 0}, 15}}, {Rotation{Vector3::UnitX(), {1, 0, 0}, 15}}, {Translation{{0, 0, 5}}}};
@@ -61,7 +61,8 @@ TEST_CASE("a displacement carries the axis of a rotation, and an earlier rotatio
   CHECK((end.rotation * Vector3::UnitY() - Vector3::UnitZ()).norm() < 1e-15);
 }
 
-TEST_CASE("a grain that rides on a part gets the velocity of its chord, and one that stands that of the wall where it is") {
+TEST_CASE(
+    "a grain that rides on a wall gets the velocity of its chord; a grain that stands gets the velocity of the wall at its place") {
   const WallPose start{{0.3, 0.2, 0.1}, Eigen::Quaterniond(Eigen::AngleAxisd(2.5, Vector3(1, 2, 3).normalized()))};
   const std::vector<WallMotion> motions = busy();
   for (const double step : {1e-5, 1e-3, 0.05}) {
@@ -110,7 +111,7 @@ TEST_CASE("a mean velocity keeps its digits in small steps") {
   CHECK((v.angular - 0.2 * std::numbers::pi * Vector3(1, -2, 2).normalized()).norm() < 1e-9);
 }
 
-TEST_CASE("the surface of a conveyor moves and the part stands; both turn with the part") {
+TEST_CASE("the surface of a conveyor moves while the wall stands; its velocity rotates with the wall") {
   const std::vector<WallMotion> belt = {{Conveyor{{2, 0, 0}, {Vector3::UnitZ(), {0, 0, 0}, 0}}, 0.5, 1.5}};
   const WallPose start = pose({1, 0, 0});
   CHECK(distance(pose_at(start, belt, 1), start) == 0);

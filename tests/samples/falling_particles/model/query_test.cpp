@@ -1,12 +1,11 @@
 // Tests of the section [query]: it reaches the library, and leaves nothing behind.
-#include "model/query.hpp"
-
 #include <doctest/doctest.h>
 
 #include <string>
 #include <vector>
 
 #include "complaint.hpp"
+#include "model/scene.hpp"
 #include "observe/simulation.hpp"
 #include "scenes.hpp"
 
@@ -14,7 +13,7 @@ using namespace falling_particles;
 
 namespace {
 
-/// What the queries were, and where the grains came to, after some steps of a small heap of ellipsoids.
+/// The counts of queries and the places of the grains after some steps of a small heap of ellipsoids.
 struct Outcome {
   snStatistics counts;
   std::vector<Point> places;
@@ -44,7 +43,7 @@ TEST_CASE("query: a section with the library's defaults changes no digit") {
   CHECK(with.counts.evaluations_warm == without.counts.evaluations_warm);
 }
 
-TEST_CASE("query: the settings reach the library, and the next world has the library's own again") {
+TEST_CASE("query: the settings reach the library, and the next world has the defaults again") {
   const Outcome before = outcome({});
   const Outcome cold = outcome(Query{.warm_start = false});
   CHECK(cold.counts.queries_warm == 0);
@@ -61,7 +60,7 @@ TEST_CASE("query: the settings reach the library, and the next world has the lib
   CHECK(outcome({}).places == before.places);
 }
 
-TEST_CASE("query: a section is read as it is written, and mistakes are refused") {
+TEST_CASE("query: the section is read, and mistakes are refused") {
   CHECK_FALSE(scene_of(kSceneText).query.has_value());
   const Scene scene =
       scene_of(kSceneText, {"query={solver = \"newton\", tolerance = 1e-6, max_evaluations = 50, warm_start = false}"});

@@ -25,7 +25,7 @@ GrainKind die() { return {"die", {4e-3, 4e-3, 4e-3}, 8, 8, 1e-3, 1190, "test"}; 
 
 }  // namespace
 
-TEST_CASE("a landscape without ridges is smooth, of the size and the length asked for") {
+TEST_CASE("a landscape without ridges is smooth, with the scene's amplitude and wavelength") {
   TerrainParameters parameters = kParameters;
   parameters.ridge_height = 0;
   const Landscape landscape(parameters);
@@ -49,7 +49,7 @@ TEST_CASE("a landscape without ridges is smooth, of the size and the length aske
   CHECK(lowest < -0.9 * most);
 }
 
-TEST_CASE("ridges are parallel, sharp and as far apart as asked for") {
+TEST_CASE("ridges are parallel and sharp, and a wavelength apart") {
   TerrainParameters parameters = kParameters;
   parameters.amplitude = 0;
   const Landscape landscape(parameters);
@@ -70,14 +70,14 @@ TEST_CASE("ridges are parallel, sharp and as far apart as asked for") {
   CHECK(static_cast<double>(high) / kPoints == supernormal::test::relative(0.25).epsilon(0.03));
 }
 
-TEST_CASE("the seed decides on the landscape") {
+TEST_CASE("the seed determines the landscape") {
   TerrainParameters other = kParameters;
   other.seed = 5;
   CHECK(Landscape(kParameters).height(0.03, 0.05) == Landscape(kParameters).height(0.03, 0.05));
   CHECK(Landscape(kParameters).height(0.03, 0.05) != Landscape(other).height(0.03, 0.05));
 }
 
-TEST_CASE("the samples are the landscape's, and one cell reaches beyond each wall") {
+TEST_CASE("the samples are heights of the landscape, and one cell extends beyond each wall") {
   const Terrain terrain(kParameters);
   const Landscape landscape(kParameters);
   CHECK(terrain.samples_per_side() == 43);
@@ -101,7 +101,7 @@ TEST_CASE("ODE's ground is the terrain: the same triangles in the same places") 
   const Scene scene = scene_of(terrain, {{lentil(), 1}});
   const World world(scene, {{0, {0.05, 0.05, 0.1}, {1, 0, 0, 0}}});
   dGeomID ground = nullptr;
-  for (dGeomID geom : world.container_geoms().geoms()) {
+  for (dGeomID geom : world.walls().geoms()) {
     if (dGeomGetClass(geom) == dHeightfieldClass) ground = geom;
   }
   REQUIRE(ground != nullptr);

@@ -20,7 +20,7 @@ namespace fx = supernormal::effects;
 
 namespace {
 
-/// A square of 10 cm around the origin, seen from above. Heights are those of a bowl with spikes of `roughness` (m).
+/// A square of 10 cm around the origin, seen from above. It is a bowl with spikes of `roughness` (m).
 MeshShape sheet(double roughness) {
   constexpr unsigned int kSide = 12;
   MeshShape mesh;
@@ -41,14 +41,14 @@ MeshShape sheet(double roughness) {
   return mesh;
 }
 
-/// Below the plane z = 0 what a mesh is above it, and seen from below.
+/// The mirror image of a mesh below the plane z = 0, seen from below.
 MeshShape mirrored(MeshShape mesh) {
   for (auto& vertex : mesh.vertices) vertex[2] = -vertex[2];
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   return mesh;
 }
 
-/// The same sheet from a file that does not care for sides: each triangle wound in any order, some in both.
+/// The same sheet with each triangle wound in any order, and some in both.
 MeshShape two_sided(MeshShape mesh) {
   mesh.two_sided = true;
   const std::size_t count = mesh.triangles.size();
@@ -59,7 +59,7 @@ MeshShape two_sided(MeshShape mesh) {
   return mesh;
 }
 
-/// Where twelve grains are that have fallen into a bowl for 0.4 s; upwards, into a bowl upside down.
+/// The places of twelve grains after a fall of 0.4 s into a bowl, or upwards into a bowl upside down.
 std::vector<Point> fall_on(const MeshShape& mesh, bool up) {
   const double sign = up ? -1 : 1;
   Scene scene = scene_of(Open{{{-0.1, -0.1, 0}, {0.2, 0.2, 1}}, {{-1, -1, -1}, {2, 2, 3}}}, {{ball(), 6}, {lentil(), 6}});
@@ -97,7 +97,7 @@ double largest_distance(const std::vector<Point>& a, const std::vector<Point>& b
 
 }  // namespace
 
-TEST_CASE("a two-sided sheet holds grains as one does that they see from the front, from above and from below") {
+TEST_CASE("a two-sided sheet holds grains above and below it as a single-sided sheet does in front") {
   for (const double roughness : {0.0, 4e-3, 0.02}) {  // the last one with ridges sharper than a right angle
     CAPTURE(roughness);
     const MeshShape bowl = sheet(roughness), lid = mirrored(bowl);
@@ -113,7 +113,7 @@ TEST_CASE("a two-sided sheet holds grains as one does that they see from the fro
   }
 }
 
-TEST_CASE("the sheets of a mesh have each triangle once, all of a sheet seen from one side") {
+TEST_CASE("the sheets of a mesh have each triangle once, wound alike in a sheet") {
   for (const double roughness : {0.0, 0.02}) {
     const MeshShape mesh = sheet(roughness);
     const Sheets sheets = sheets_of(two_sided(mesh));
@@ -132,7 +132,7 @@ TEST_CASE("the sheets of a mesh have each triangle once, all of a sheet seen fro
   }
 }
 
-TEST_CASE("where three triangles meet sheets end, and vertices that differ by rounding are one") {
+TEST_CASE("sheets end where three triangles meet in an edge, and vertices that differ by rounding count as one") {
   const MeshShape joint = mesh_of({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, -1}}, {{0, 2, 1}, {0, 1, 3}, {0, 1, 4}});
   CHECK(sheets_of(joint).sheet == std::vector<unsigned int>{0, 1, 2});
   const MeshShape cracked =
@@ -140,7 +140,7 @@ TEST_CASE("where three triangles meet sheets end, and vertices that differ by ro
   CHECK(sheets_of(cracked).sheet == std::vector<unsigned int>{0, 0});
 }
 
-TEST_CASE("a Möbius strip has no sides") {
+TEST_CASE("a Möbius strip is refused") {
   MeshShape strip;
   constexpr unsigned int kPieces = 12;
   for (unsigned int i = 0; i < kPieces; ++i) {

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "model/container_walls.hpp"
 #include "observe/bed.hpp"
 #include "observe/energy.hpp"
 #include "observe/overlap.hpp"
@@ -20,14 +21,15 @@ namespace {
 GrainKind ellipsoid() { return {"ellipsoid", {0.02, 0.03, 0.01}, 2, 2, 0, 1000, "typical"}; }
 
 Scene scene_of(const GrainKind& kind, int count) {
-  return {"test",
-          1,
-          Box{{0.2, 0.2}},
-          {{kind, count}},
-          {0, 0},
-          {1, 1e-3, 0.1},
-          {50, 0.2, 1e-10},
-          {fx::Gravity{{0, 0, -10}}, fx::MaxCorrectingVelocity{1}, fx::SurfaceLayer{1e-3 * kind.smallest_half_axis()}}};
+  return {.name = "test",
+          .seed = 1,
+          .container = Box{{0.2, 0.2}},
+          .kinds = {{kind, count}},
+          .drop = {0, 0},
+          .time = {1, 1e-3, 0.1},
+          .solver = {50, 0.2, 1e-10},
+          .effects = {fx::Gravity{{0, 0, -10}}, fx::MaxCorrectingVelocity{1}, fx::SurfaceLayer{1e-3 * kind.smallest_half_axis()}},
+          .walls = walls_in(Box{{0.2, 0.2}})};
 }
 
 Placement upright(double x, double y, double z) { return {0, {x, y, z}, {1, 0, 0, 0}}; }

@@ -13,8 +13,8 @@ using supernormal::test::relative;
 
 namespace {
 
-std::array<double, 4> plane_of(const World& world, const Scene& scene, const std::string& name) {
-  const std::vector<NamedSurface> surfaces = surfaces_of(world, surface_names(scene));
+std::array<double, 4> plane_of(const World& world, const std::string& name) {
+  const std::vector<NamedSurface> surfaces = surfaces_of(world);
   const auto found = std::ranges::find(surfaces, name, &NamedSurface::name);
   REQUIRE(found != surfaces.end());
   REQUIRE(dGeomGetClass(found->geom) == dPlaneClass);
@@ -29,18 +29,18 @@ TEST_CASE("measurements: the names of walls are those of their geoms") {
   using Plane = std::array<double, 4>;
   const Scene box = falling_particles::scene_of(kSceneText);
   const World in_box(box, {});
-  CHECK(plane_of(in_box, box, "floor") == Plane{0, 0, 1, 0});
-  CHECK(plane_of(in_box, box, "x_low") == Plane{1, 0, 0, 0});
-  CHECK(plane_of(in_box, box, "x_high") == Plane{-1, 0, 0, -0.05});
-  CHECK(plane_of(in_box, box, "y_low") == Plane{0, 1, 0, 0});
-  CHECK(plane_of(in_box, box, "y_high") == Plane{0, -1, 0, -0.06});
+  CHECK(plane_of(in_box, "floor") == Plane{0, 0, 1, 0});
+  CHECK(plane_of(in_box, "x_low") == Plane{1, 0, 0, 0});
+  CHECK(plane_of(in_box, "x_high") == Plane{-1, 0, 0, -0.05});
+  CHECK(plane_of(in_box, "y_low") == Plane{0, 1, 0, 0});
+  CHECK(plane_of(in_box, "y_high") == Plane{0, -1, 0, -0.06});
 
   const Scene terrain = falling_particles::scene_of(scene_in(kTerrainText));
   const World on_terrain(terrain, {});
-  const std::vector<NamedSurface> of_terrain = surfaces_of(on_terrain, surface_names(terrain));
+  const std::vector<NamedSurface> of_terrain = surfaces_of(on_terrain);
   CHECK(of_terrain.back().name == "ground");
   CHECK(dGeomGetClass(of_terrain.back().geom) == dHeightfieldClass);
-  CHECK(plane_of(on_terrain, terrain, "y_high") == Plane{0, -1, 0, -0.06});
+  CHECK(plane_of(on_terrain, "y_high") == Plane{0, -1, 0, -0.06});
   CHECK(surface_name(of_terrain, nullptr) == "wall");
 }
 

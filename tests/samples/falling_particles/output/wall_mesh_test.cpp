@@ -58,6 +58,14 @@ TEST_CASE("pictures of parts are closed, look outwards, and have the parts' volu
   }
 }
 
+TEST_CASE("the picture of a plane looks along the plane's own normal") {
+  const WallPicture picture = picture_of({"wall", PlaneShape{0, -Vector3::UnitY()}, {{0, 1, 0}}}, 0.4);
+  const auto& [a, b, c] = picture.mesh.triangles.at(0);
+  const Vector3 p = corner(picture.mesh, a);
+  CHECK(((corner(picture.mesh, b) - p).cross(corner(picture.mesh, c) - p).normalized() + Vector3::UnitY()).norm() < 1e-6);
+  for (const auto& vertex : picture.mesh.vertices) CHECK(vertex[1] == doctest::Approx(1));
+}
+
 TEST_CASE("the picture of a part that stands is where it stands, and that of a plane looks along its normal") {
   Wall wall{"wall", PlaneShape{}, {{0, 0, 2}, Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()))}};
   const WallPicture picture = picture_of(wall, 0.4);
@@ -70,6 +78,20 @@ TEST_CASE("the picture of a part that stands is where it stands, and that of a p
   for (const auto& vertex : picture.mesh.vertices) {
     CHECK(std::abs(vertex[0]) < 1e-7F);
     CHECK(std::abs(vertex[2] - 2) == doctest::Approx(0.2).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("the picture of a ground has its samples around its position, and looks upwards") {
+  const Wall ground{"ground", GroundShape{3, {0.1, 0.2}, {0, 0, 0.5, 0, 1, 0, 0, 0, 0}}, {{1, 2, 3}}};
+  const WallPicture picture = picture_of(ground, 1);
+  REQUIRE(picture.mesh.vertices.size() == 9);
+  REQUIRE(picture.mesh.triangles.size() == 8);
+  CHECK((corner(picture.mesh, 0) - Vector3(0.9, 1.8, 3)).norm() < 1e-6);
+  CHECK((corner(picture.mesh, 2) - Vector3(1.1, 1.8, 3.5)).norm() < 1e-6);
+  CHECK((corner(picture.mesh, 4) - Vector3(1, 2, 4)).norm() < 1e-6);
+  for (const auto& [a, b, c] : picture.mesh.triangles) {
+    const Vector3 p = corner(picture.mesh, a);
+    CHECK((corner(picture.mesh, b) - p).cross(corner(picture.mesh, c) - p).z() > 0);
   }
 }
 

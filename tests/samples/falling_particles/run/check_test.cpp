@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "base/input_error.hpp"
-#include "input/list_population.hpp"
-#include "input/list_walls.hpp"
+#include "input/list_sections.hpp"
 #include "observe/simulation.hpp"
 #include "run/forecast.hpp"
 #include "scene_text.hpp"

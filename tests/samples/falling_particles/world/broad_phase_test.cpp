@@ -40,7 +40,7 @@ bool boxes_meet(dGeomID g1, dGeomID g2) {
 }
 
 Pairs all_pairs(const World& world) {
-  std::vector<dGeomID> geoms = world.container_geoms().geoms();
+  std::vector<dGeomID> geoms = world.walls().geoms();
   const std::size_t walls = geoms.size();
   for (const Grain& grain : world.grains()) geoms.push_back(grain.geom);
   Pairs pairs;
@@ -87,7 +87,7 @@ TEST_CASE("the broad phase names every pair whose bounding boxes meet, whatever 
   }
 }
 
-TEST_CASE("the sweep goes along the axis of the largest spread, also when that changes") {
+TEST_CASE("the sweep is along the axis of the largest spread, also after it changes") {
   const Scene scene = scene_of_peas(200);
   const World world = make_world(scene);
   struct Bed {
@@ -105,7 +105,7 @@ TEST_CASE("the sweep goes along the axis of the largest spread, also when that c
   }
 }
 
-TEST_CASE("a scene may name the axis") {
+TEST_CASE("a scene may fix the axis of the sweep") {
   CHECK(scene_of(std::string(kSceneText) + "[broad_phase]\naxis = \"y\"\n").sweep_axis == Axis::Y);
   CHECK_FALSE(scene_of(kSceneText).sweep_axis);
   check_says(complaint(std::string(kSceneText) + "[broad_phase]\naxis = \"w\"\n"),
@@ -114,7 +114,7 @@ TEST_CASE("a scene may name the axis") {
              {"scene.toml:32: unknown key \"space\" in [broad_phase]", "allowed: axis"});
 }
 
-TEST_CASE("the time of a broad phase that finds no pairs is its own") {
+TEST_CASE("a broad phase that finds no pairs is timed") {
   const Scene scene = scene_of_peas(5000);
   const World world = make_world(scene);
   Stepper stepper(world, scene);

@@ -9,6 +9,7 @@
 
 #include "complaint.hpp"
 #include "model/container_walls.hpp"
+#include "model/periodic_walls.hpp"
 #include "observe/bed.hpp"
 #include "observe/container_picture.hpp"
 #include "observe/leaks.hpp"
@@ -37,13 +38,14 @@ double momentum(const World& world) {
 
 }  // namespace
 
-TEST_CASE("a grain goes through a periodic boundary with its velocity, and meets a grain on the other side") {
+TEST_CASE("a grain keeps its velocity through a periodic boundary, and meets a grain on the other side") {
   Scene scene = scene_of(Box{{0.06, 0.05}}, {{ball(), 2}});
   scene.effects.clear();
   scene.solver.iterations = 200;
   scene.periodic[0] = Period{0, 0.06};
+  open_container(scene.periodic, 0.02, scene.walls.size(), scene.walls);
   const World world(scene, {{0, {0.05, 0.025, 0.02}, {1, 0, 0, 0}}, {0, {0.02, 0.025, 0.02}, {1, 0, 0, 0}}});
-  CHECK(world.container_geoms().geoms().size() == 3);  // the floor and the walls across y
+  CHECK(world.walls().geoms().size() == 3);  // the floor and the walls across y
   const Grain& moving = world.grains()[0];
   const Grain& resting = world.grains()[1];
   dBodySetLinearVel(moving.body, 0.5, 0, 0);
@@ -69,7 +71,7 @@ TEST_CASE("a grain goes through a periodic boundary with its velocity, and meets
   CHECK(momentum(world) == relative(before).epsilon(1e-6));
 }
 
-TEST_CASE("the stress of a periodic bed is that of its weight, and its floor bears it") {
+TEST_CASE("the stress of a periodic bed balances its weight, and the floor bears the weight") {
   constexpr double kGravity = 9.81;
   const std::string lines = "x = [0, 0.05]\ny = [0, 0.06]\n";
   const std::string text =
@@ -77,7 +79,7 @@ TEST_CASE("the stress of a periodic bed is that of its weight, and its floor bea
   const Scene scene = scene_with("kind = \"stress\"\nlower = [0, 0, 0]\nupper = [0.05, 0.06, 0.2]\n", text);
   Random random(1);
   const World world(scene, place(scene, random));
-  REQUIRE(world.container_geoms().geoms().size() == 1);
+  REQUIRE(world.walls().geoms().size() == 1);
   Stepper stepper(world, scene);
   LeakWatch leaks(world, scene);
   constexpr int kSettling = 1600, kSamples = 100;
@@ -108,6 +110,7 @@ TEST_CASE("grains on a face, an edge and a corner of a periodic scene have one, 
   Scene scene = scene_of(Box{{0.06, 0.05}}, {{ball(), 3}});
   scene.effects.clear();
   scene.periodic = {Period{0, 0.06}, Period{0, 0.05}, std::nullopt};
+  open_container(scene.periodic, 0.02, scene.walls.size(), scene.walls);
   const World world(
       scene,
       {{0, {0.059, 0.025, 0.02}, {1, 0, 0, 0}}, {0, {0.03, 0.049, 0.02}, {1, 0, 0, 0}}, {0, {0.059, 0.049, 0.2}, {1, 0, 0, 0}}});
@@ -206,7 +209,7 @@ TEST_CASE("a feeder that has not started changes nothing") {
   CHECK(ends[0] == ends[1]);
 }
 
-TEST_CASE("pictures of a periodic box show the walls that it has") {
+TEST_CASE("pictures of a periodic box show the remaining walls") {
   const Box box{{0.2, 0.3}};
   PeriodicAxes axes;
   axes[1] = Period{0, 0.3};
@@ -222,7 +225,7 @@ TEST_CASE("pictures of a periodic box show the walls that it has") {
   CHECK(pictures_of(box, 0.5, axes).size() == 1);
 }
 
-TEST_CASE("a scene that repeats along an axis says what is wrong with it") {
+TEST_CASE("mistakes in a scene with periodic axes are refused with the reason") {
   const std::string text = periodic_text("x = [0, 0.05]\n");
   CHECK(complaint(text).empty());
   check_says(complaint(replaced(text, "x = [0, 0.05]", "x = [0, 0.04]")),

@@ -62,7 +62,7 @@ std::vector<Motion> collide_at(double offset, bool rough) {
 
 }  // namespace
 
-TEST_CASE("grains that meet across the boundary part as they do in the middle of the cell") {
+TEST_CASE("grains collide across the boundary as in the middle of the cell") {
   for (const bool rough : {false, true}) {
     CAPTURE(rough);
     const std::vector<Motion> expected = collide_at(0, rough);
@@ -81,7 +81,7 @@ TEST_CASE("grains that meet across the boundary part as they do in the middle of
   }
 }
 
-TEST_CASE("a simple cubic lattice fills pi / 6 and has six contacts a grain, through the boundaries too") {
+TEST_CASE("a simple cubic lattice has volume fraction pi / 6 and six contacts per grain, also through boundaries") {
   constexpr int kPerAxis = 3;
   constexpr double kShrink = 1e-5;
   const double spacing = 0.01 * (1 - kShrink);
@@ -111,7 +111,7 @@ TEST_CASE("a simple cubic lattice fills pi / 6 and has six contacts a grain, thr
   CHECK(packing.at_contact == supernormal::test::relative(std::numbers::pi / 6).epsilon(1e-9));
 }
 
-TEST_CASE("a contact counts once for the compression, however many points it has and wherever the boundary cuts it") {
+TEST_CASE("a contact counts once for the compression, with any number of points and at any boundary") {
   const GrainKind brick = {"brick", {6e-3, 5e-3, 4e-3}, 40, 40, 0, 1000, "test"};
   constexpr double kDepth = 1e-5;
   for (const double place : {0.5, 0.0, 0.97}) {  // of the cell's side
@@ -129,7 +129,7 @@ TEST_CASE("a contact counts once for the compression, however many points it has
   }
 }
 
-TEST_CASE("compression jams grains, with the overlap asked for") {
+TEST_CASE("compression jams grains with the scene's overlap") {
   Scene scene = weightless(0.05, ball(), 60);
   scene.solver = {30, 0.8, 1e-10};
   constexpr int kSteps = 2000;
@@ -151,7 +151,7 @@ TEST_CASE("compression jams grains, with the overlap asked for") {
   CHECK(packing.at_contact == supernormal::test::relative(packing.volume_fraction * (1 - 3e-3)).epsilon(2e-3));
 }
 
-TEST_CASE("a scene with a periodic cell says what is wrong with it") {
+TEST_CASE("mistakes in a scene with a periodic cell are refused with the reason") {
   const std::string periodic = replaced(scene_in("kind = \"periodic\"\nside = 0.05"), "[drop]\nheight = 0.01\ngap = 0.1\n", "") +
                                "[compression]\noverlap = 0.01\nfinal_overlap = 1e-3\ndamping = 1\n";
   CHECK(complaint(periodic).empty());

@@ -60,7 +60,7 @@ TEST_CASE("small grains among large ones start in cells of their own size, and t
   }
 }
 
-TEST_CASE("the seed decides where they start") {
+TEST_CASE("the seed determines where grains start") {
   const Scene scene = scene_of(kSceneText);
   const auto first_position = [&scene](std::uint64_t seed) {
     Random random(seed);
@@ -70,7 +70,7 @@ TEST_CASE("the seed decides where they start") {
   CHECK(first_position(1) != first_position(2));
 }
 
-TEST_CASE("random numbers are those of the standard's engine, the same everywhere") {
+TEST_CASE("random numbers agree with the engine of the C++ standard") {
   // [rand.predef]: the 10000th output of a default mt19937_64 (seed 5489) is 9981545732273789042.
   Random random(5489);
   for (int i = 1; i < 10000; ++i) random.uniform();
@@ -91,7 +91,7 @@ TEST_CASE("random numbers are uniform") {
   CHECK(rotation_moment == supernormal::test::relative(0.25).epsilon(0.03));  // each of four components has the same share
 }
 
-TEST_CASE("the bounding radius holds the grain and no more") {
+TEST_CASE("the bounding sphere touches the grain") {
   const auto radius = [](std::array<double, 3> axes, double delta, double epsilon, double rounding) {
     return GrainKind{"grain", axes, delta, epsilon, rounding, 1, ""}.bounding_radius();
   };

@@ -83,7 +83,7 @@ TEST_CASE("a feeder delivers its rate, in grains and in kg") {
   CHECK(second.population.fed().mass <= 0.15 * (1 + 1e-9));
 }
 
-TEST_CASE("the fractions of a mixture hold to a grain at any time, by number and by mass") {
+TEST_CASE("the fractions of a mixture are exact to one grain at any time, by number and by mass") {
   for (const Quantity::Of of : {Quantity::Of::Grains, Quantity::Of::Mass}) {
     Feeder spout = feeder(grains(200));
     spout.fraction_of = of;
@@ -101,7 +101,7 @@ TEST_CASE("the fractions of a mixture hold to a grain at any time, by number and
   }
 }
 
-TEST_CASE("a feeder brings sizes and compounds as their kinds say") {
+TEST_CASE("a feeder inserts sizes and compounds of its kinds") {
   Scene scene = falling_scene({feeder(kilograms(0.1))});
   scene.kinds[0].size = SizeDistribution::uniform({0.5, 1.5}, SizeDistribution::By::Number);
   scene.kinds[0].is_fed = true;
@@ -155,7 +155,7 @@ TEST_CASE("a feeder starts and stops on time, and at its total") {
   }
 }
 
-TEST_CASE("grains come without overlap, with the velocity that they are given, within the region") {
+TEST_CASE("a feeder inserts grains without overlap, within its region and with its velocity") {
   Feeder dense = feeder(grains(2000));
   dense.velocity = {0.1, 0, -0.5};
   dense.total = grains(100);
@@ -185,7 +185,7 @@ TEST_CASE("grains come without overlap, with the velocity that they are given, w
   }
 }
 
-TEST_CASE("a feeder whose region is full catches up, or says what is wrong") {
+TEST_CASE("a feeder whose region was full catches up, or ends the run with the reason") {
   Feeder narrow = feeder(grains(100));
   narrow.mixture = {{0, 1}};
   narrow.region = {{0, 0, 0.06}, {0.02, 0.02, 0.01}};
@@ -194,8 +194,9 @@ TEST_CASE("a feeder whose region is full catches up, or says what is wrong") {
   // A tube that is closed below the region until a plate moves away. A sink empties it.
   scene.container = Box{{0.02, 0.02}};
   scene.sinks = {{"floor", Region{{0, 0, 0}, {0.02, 0.02, 0.02}}}};
-  scene.walls = {{"plate", BoxShape{{0.1, 0.1, 0.004}}, {{0.01, 0.01, 0.057}, Eigen::Quaterniond::Identity()}}};
-  scene.walls[0].motions = {{Translation{{1, 0, 0}}, 0.3}};
+  scene.walls = walls_in(scene.container);
+  scene.walls.push_back({"plate", BoxShape{{0.1, 0.1, 0.004}}, {{0.01, 0.01, 0.057}, Eigen::Quaterniond::Identity()}});
+  scene.walls.back().motions = {{Translation{{1, 0, 0}}, 0.3}};
   scene.feeders[0].patience = 1;
   {
     Plant plant(scene);
@@ -221,7 +222,7 @@ TEST_CASE("a feeder whose region is full catches up, or says what is wrong") {
   }
 }
 
-TEST_CASE("mass is conserved through feeders and sinks, and grains that are gone keep their index") {
+TEST_CASE("mass is conserved through feeders and sinks, and removed grains keep their index") {
   Scene scene = falling_scene({feeder(kilograms(0.05))});
   scene.kinds[0].count = 1;
   scene.sinks.insert(scene.sinks.begin(), {"side", Region{{0, -1, 0.02}, {1, 2, 0.03}}});
@@ -252,7 +253,7 @@ TEST_CASE("mass is conserved through feeders and sinks, and grains that are gone
   CHECK(plant.energy.gained() < 1e-3 * 0.05 * 9.81 * 0.1);
 }
 
-TEST_CASE("a scene with feeders and sinks says what is wrong with it") {
+TEST_CASE("mistakes in feeders and sinks are refused with the reason") {
   const std::string feeders = R"([[feeder]]
 name = "spout"
 corner = [0.01, 0.01, 0.05]

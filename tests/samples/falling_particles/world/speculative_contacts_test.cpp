@@ -61,7 +61,7 @@ TEST_CASE("speculative contacts are on in scenes that name them, and in no other
   check_says(complaint(std::string(kSceneText) + kSection + "horizon = 1\n"), {"unknown key \"horizon\"", "enabled"});
 }
 
-TEST_CASE("a compression with speculative contacts is refused: it works by overlaps") {
+TEST_CASE("a compression with speculative contacts is refused") {
   const std::string text =
       replaced(replaced(replaced(kSceneText, "kind = \"box\"\nwidth = [0.05, 0.06]", "kind = \"periodic\"\nside = 0.1"),
                         "[drop]\nheight = 0.01\ngap = 0.1\n", ""),
@@ -81,7 +81,7 @@ TEST_CASE("speculative contacts: grains of 500 m/s stay in their container at st
   }
 }
 
-TEST_CASE("speculative contacts: where a scene repeats, a ball bounces as high as elsewhere") {
+TEST_CASE("speculative contacts: a ball bounces as high on a periodic boundary as elsewhere") {
   for (const double x : {0.03, 0.0, 0.002, 0.0595}) {  // on the boundary it has an image
     for (const double step : {1e-3, 1e-2}) {
       CAPTURE(x);
@@ -105,7 +105,7 @@ TEST_CASE("speculative contacts: where a scene repeats, a ball bounces as high a
   }
 }
 
-TEST_CASE("speculative contacts: a bed has a third of the overlap, at most") {
+TEST_CASE("speculative contacts: a bed has at most a third of the overlap") {
   Scene scene = scene_of(Box{{0.04, 0.04}}, {{ball(), 60}});
   const auto overlap = [](const Scene& of, double until) {
     Simulation simulation(of, 1);

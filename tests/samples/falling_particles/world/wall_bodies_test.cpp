@@ -44,7 +44,7 @@ double speed(const World& world, int axis) { return dBodyGetLinearVel(world.grai
 /// A plate that vibrates with a phase such that it starts in the middle, upwards.
 Vibration shaking(double amplitude, double frequency) { return {{0, 0, amplitude}, frequency, 0}; }
 
-/// The first time when the grain is off the plate, and that when it meets it again; NaN if it never is.
+/// The times when the grain first leaves the plate and when it meets the plate again; NaN if it does not leave.
 struct Flight {
   double start = NAN, end = NAN;
 };
@@ -67,7 +67,9 @@ Flight fly(double amplitude, double frequency, double duration) {
 
 }  // namespace
 
-TEST_CASE("a grain on a vibrating plate takes off where the plate falls faster than it, and lands where the parabola meets it") {
+TEST_CASE(
+    "a grain takes off from a vibrating plate when the plate falls faster than the grain, and lands where its parabola meets the "
+    "plate") {
   constexpr double kFrequency = 20;
   const double omega = 2 * std::numbers::pi * kFrequency;
   for (const double throw_number : {1.5, 2.5}) {
@@ -111,11 +113,11 @@ TEST_CASE("a brick on a conveyor has its speed after v / (mu g), and the conveyo
     CHECK(time == relative(kSpeed / (mu * kGravity)).epsilon(0.01));
     for (int i = 0; i < 500; ++i) stepper.step();
     CHECK(speed(world, 0) == relative(kSpeed).epsilon(1e-3));
-    CHECK(world.walls()->state(0).pose.position == belt.start.position);
+    CHECK(world.walls().state(0).pose.position == belt.start.position);
   }
 }
 
-TEST_CASE("friction of its own is that of the part alone") {
+TEST_CASE("a part's own friction holds for this part only") {
   std::string text = kSceneText;
   text.append("[[part]]\nname = \"ice\"\nshape = \"plane\"\nfriction = 0.1\n[[part]]\nname = \"rock\"\nshape = \"plane\"\n");
   const Scene scene = scene_of(text);
@@ -126,12 +128,13 @@ TEST_CASE("friction of its own is that of the part alone") {
   REQUIRE(found.size() == 2);
   CHECK(found[1].coefficient == 0.1);
   const World world(scene, {});
-  const auto material = [&](std::size_t wall) { return world.walls()->side_of(world.walls()->geoms()[wall], 0).material; };
+  const std::size_t sides = scene.walls.size() - scene.parts().size();
+  const auto material = [&](std::size_t part) { return world.walls().side_of(world.walls().geoms()[sides + part]).material; };
   CHECK(found[1].on == fx::MaterialSelector::between(0, material(0)));
   CHECK(material(0) != material(1));
 }
 
-TEST_CASE("a part is where the function of time says, whatever the step") {
+TEST_CASE("the pose of a wall is a function of time, for any step") {
   const std::vector<WallMotion> motions = {motion(Rotation{Vector3(1, 2, 2).normalized(), {0.1, 0, 0}, 50}),
                                            motion(shaking(0.01, 7)), motion(Translation{{0.1, 0, 0}})};
   Wall wall{"paddle", BoxShape{{0.1, 0.02, 0.05}}, {{0.2, 0.3, 0.5}, Eigen::Quaterniond::Identity()}, motions};
@@ -143,15 +146,15 @@ TEST_CASE("a part is where the function of time says, whatever the step") {
     Stepper stepper(world, scene);
     const auto steps = std::lround(0.5 / step);
     for (int i = 0; i < steps; ++i) stepper.step();
-    const WallPose pose = world.walls()->state(0).pose;
+    const WallPose pose = world.walls().state(0).pose;
     CHECK((pose.position - wanted.position).norm() < 1e-14);
     CHECK(pose.rotation.angularDistance(wanted.rotation) < 1e-7);  // its arccosine
-    const dReal* p = dGeomGetPosition(world.walls()->geoms()[0]);
+    const dReal* p = dGeomGetPosition(world.walls().geoms()[0]);
     CHECK((Vector3(p[0], p[1], p[2]) - wanted.position).norm() < 1e-14);
   }
 }
 
-TEST_CASE("a sleeping grain is woken by a plate that begins to move, and sleeps on one that stands") {
+TEST_CASE("a plate that begins to move wakes a sleeping grain; a plate that stands does not") {
   WallMotion later = motion(Translation{{0, 0, 0.05}});
   later.from = 0.3;
   const Scene scene = scene_on({plane({later})}, light_ball(), {fx::AutoDisable{0.01, 1, 0, 10}, fx::SurfaceLayer{1e-5}});
@@ -173,7 +176,7 @@ TEST_CASE("a grain follows a plate that is slower than the threshold of sleep") 
   CHECK(speed(world, 0) == relative(0.005).epsilon(1e-3));
 }
 
-TEST_CASE("a grain on the floor of a drum that turns has the drum's velocity, also where only the surface turns") {
+TEST_CASE("a grain on the floor of a rotating drum has the drum's velocity, also if only the surface moves") {
   for (const bool surface_only : {false, true}) {
     CAPTURE(surface_only);
     const Rotation turn{Vector3::UnitY(), {0, 0, -0.5}, 12};
@@ -193,7 +196,7 @@ TEST_CASE("a grain on the floor of a drum that turns has the drum's velocity, al
 
 namespace {
 
-/// m, by how much a grain that has come to ride on a part that turns about z leaves its distance from the axis in two seconds.
+/// m, how far a grain that rides on a wall that rotates about z moves from the axis in two seconds.
 double drift(const Wall& wall, const GrainKind& kind, double step, const Vector3& axis_velocity) {
   Scene scene = scene_on({wall}, kind, {fx::Friction{1, {}}, fx::SurfaceLayer{1e-5}});
   scene.time.step = step;
@@ -213,7 +216,7 @@ double drift(const Wall& wall, const GrainKind& kind, double step, const Vector3
 
 }  // namespace
 
-TEST_CASE("a grain that rides on a part that turns stays at its distance from the axis, whatever the step") {
+TEST_CASE("a grain that rides on a rotating wall stays at its distance from the axis, for any step") {
   const Rotation turn{Vector3::UnitZ(), {0, 0, 0}, 60};
   for (const double step : {2e-3, 5e-4}) {
     CAPTURE(step);
@@ -228,7 +231,7 @@ TEST_CASE("a grain that rides on a part that turns stays at its distance from th
   }
 }
 
-TEST_CASE("a ball rests on every shape, where its surface is, and is lifted with it") {
+TEST_CASE("a ball rests on the surface of every shape, and rises with it") {
   const MeshShape square{
       {{{-0.1F, -0.1F, 0.02F}, {0.1F, -0.1F, 0.02F}, {0.1F, 0.1F, 0.02F}, {-0.1F, 0.1F, 0.02F}}, {{0, 1, 2}, {0, 2, 3}}}};
   const std::vector<std::pair<WallShape, double>> shapes = {
@@ -284,9 +287,9 @@ TEST_CASE("the floor below a piston carries the weights and the force") {
   Stepper stepper(world, scene);
   for (int i = 0; i < 2000; ++i) stepper.step();
   const double grain = world.grains()[0].mass.mass * kGravity;
-  CHECK(load_on(world, stepper, world.walls()->geoms()[0], 200) == relative(grain + 3 + 0.25 * kGravity).epsilon(1e-3));
-  CHECK(load_on(world, stepper, world.walls()->geoms()[1], 200) == relative(-3 - 0.25 * kGravity).epsilon(1e-3));
-  const WallState state = world.walls()->state(1);
+  CHECK(load_on(world, stepper, world.walls().geoms()[0], 200) == relative(grain + 3 + 0.25 * kGravity).epsilon(1e-3));
+  CHECK(load_on(world, stepper, world.walls().geoms()[1], 200) == relative(-3 - 0.25 * kGravity).epsilon(1e-3));
+  const WallState state = world.walls().state(1);
   CHECK(state.pose.position.head<2>().norm() < 1e-15);
   CHECK(state.pose.rotation.angularDistance(Eigen::Quaterniond::Identity()) == 0);
   CHECK(std::abs(state.pose.position.z() - 0.02) < 5e-5);  // two surface layers of 1e-5, and what the solver leaves
@@ -302,7 +305,7 @@ TEST_CASE("a piston is held until its time, falls with its damping, and stops wh
   Stepper stepper(world, scene);
   const auto run = [&](double seconds) {
     for (int i = 0; i < std::lround(seconds / kStep); ++i) stepper.step();
-    return world.walls()->state(1);
+    return world.walls().state(1);
   };
   CHECK(run(0.1).pose.position.z() == 0.5);
   // v = F / c (1 - exp(-c t / m)), with the weight in F.
@@ -311,14 +314,14 @@ TEST_CASE("a piston is held until its time, falls with its damping, and stops wh
   CHECK(run(1.5).pose.position.z() == relative(0.3).epsilon(1e-3));
 }
 
-TEST_CASE("a piston that tips a grain off its centre neither tilts nor leaves its axis, and turns as it is told") {
+TEST_CASE("a piston on a grain off its axis neither tilts nor leaves the axis, and rotates as prescribed") {
   Wall wall = piston(0.025);
   wall.motions = {motion(Rotation{Vector3::UnitZ(), {0, 0, 0}, 30})};
   const Scene scene = scene_on({plane({}), wall}, brick(), {fx::Friction{0.5, {}}, fx::SurfaceLayer{1e-5}});
   const World world(scene, {{0, {0.03, 0.02, 4e-3}, {1, 0, 0, 0}}});
   Stepper stepper(world, scene);
   for (int i = 0; i < 2500; ++i) stepper.step();
-  const WallState state = world.walls()->state(1);
+  const WallState state = world.walls().state(1);
   CHECK(state.pose.position.head<2>().norm() < 1e-15);
   CHECK((state.pose.rotation * Vector3::UnitX() - Vector3::UnitY()).norm() < 1e-13);
   CHECK(state.pose.position.z() == relative(0.018).epsilon(0.01));

@@ -1,8 +1,6 @@
-#include "wall_material.hpp"
+#include "material.hpp"
 
 #include <optional>
-
-#include "material.hpp"
 
 namespace falling_particles {
 namespace {

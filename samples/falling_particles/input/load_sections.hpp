@@ -1,0 +1,40 @@
+// Reads the sections of a scene file.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/toml_input.hpp"
+#include "model/scene.hpp"
+
+namespace falling_particles {
+
+/// Reads the [container] of a scene file. Throws InputError.
+Container read_container(const TomlTable& root, const Time& time);
+
+/// Throws InputError unless the container has space for all grains of the start.
+void check_fit(const TomlTable& root, const Scene& scene);
+
+/// The walls of the container, then the walls of the [[part]] sections. Mesh files are relative to the scene's folder. Throws
+/// InputError.
+std::vector<Wall> load_walls(const TomlTable& root, const Scene& scene, const std::string& scene_path);
+
+/// Reads `size` of a [[grain]], if it has one. Throws InputError. The result is the distribution of the factor on all lengths of
+/// the grain. `sieve_size` (m) is its sieve size in the catalogue.
+std::optional<SizeDistribution> load_sizes(const TomlTable& entry, double sieve_size);
+
+/// Reads the axes along which a scene repeats, and removes the walls of the container that close it there. The scene's container,
+/// walls and grains must have been read. Throws InputError, also when a wall is not uniform along such an axis.
+void load_periodic(const TomlTable& root, Scene& scene);
+
+/// Reads the sections [[feeder]]. The scene's container, grains and time must have been read. Throws InputError.
+std::vector<Feeder> load_feeders(const TomlTable& root, const Scene& scene);
+
+/// Reads the sections [[sink]]. Throws InputError.
+std::vector<Sink> load_sinks(const TomlTable& root, const Scene& scene);
+
+/// Reads the sections [[measurement]]. The scene's container, grains and time must have been read. Throws InputError.
+std::vector<MeasurementRequest> load_measurements(const TomlTable& root, const Scene& scene);
+
+}  // namespace falling_particles
