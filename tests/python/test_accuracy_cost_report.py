@@ -38,7 +38,9 @@ def test_queries_and_their_ratios(tmp_path):
     write(tmp_path / "query.csv", QUERY, *rows)
     text = report_of(tmp_path)
     assert "\n* processor: of the test\n" in text
-    assert "| exponents 1.3…5 | 1 % overlap | libccd GJK+EPA | 1e-06 | 11.0 / 3.00 | 4 | 2e-05 | 1e-09 | – | 7 of 240 |\n" in text
+    assert (
+        "| exponents 1.3…5 | 1 % overlap | libccd GJK+EPA | 1e-06 | 11.0 / 3.00 | 4 | 2e-05 | 1e-09 | – | 7 of 240 |\n" in text
+    )
     assert "| exponents 1.3…5 | 1 % overlap | 5.5 | – | – | – | – | 4.00 |\n" in text
     assert "| exponents 1.3…5 | cold | – | 1.00 | – | – | – | 2.00 | – | – | 0.2 |\n" in text
     assert "| exponents 1.3…5 | – | – | – | 400 | 4 | 25 % |\n" in text
@@ -62,7 +64,10 @@ def test_a_method_of_the_literature_has_the_loosest_accuracy_that_is_precise_eno
 def test_a_bed_and_what_comes_out_of_it(tmp_path):
     cost = "1000,2000,0,0.001,0.002,0.001,0.004"
     write(tmp_path / "scene_forms.csv", FORMS, f"Supernormal,1e-09,1000,{cost},0.01", f"dConvex,482,1000,{cost},0.05")
-    outcomes = [f"Supernormal,1e-09,1000,{cost},0.01,0.03,0.66,0.01,1e-6,1e-7,2e-07", f"dBox,,1000,{cost},0.01,0.03,0.7,0.01,1e-6,1e-7,nan"]
+    outcomes = [
+        f"Supernormal,1e-09,1000,{cost},0.01,0.03,0.66,0.01,1e-6,1e-7,2e-07",
+        f"dBox,,1000,{cost},0.01,0.03,0.7,0.01,1e-6,1e-7,nan",
+    ]
     head = f"{FORMS},overlap,volume_fraction,volume_fraction_error,energy_gained,kinetic_height_m,rocking_error"
     write(tmp_path / "scene_outcomes.csv", head, *outcomes)
     text = report_of(tmp_path)

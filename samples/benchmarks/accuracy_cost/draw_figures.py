@@ -30,7 +30,13 @@ QUERY_METHODS = {
     "FCL signed distance": "#999999",
     "Simbody MPR+Newton": "#a64d79",
 }
-QUERY_CLASSES = {"E": "ellipsoids", "M": "exponents 1.3 to 5", "B": "exponents 6 to 20", "O": "exponents 1.1 to 1.3", "N": "needles"}
+QUERY_CLASSES = {
+    "E": "ellipsoids",
+    "M": "exponents 1.3 to 5",
+    "B": "exponents 6 to 20",
+    "O": "exponents 1.1 to 1.3",
+    "N": "needles",
+}
 QUERY_POSES = {"T": "touching", "S": "1 % overlap", "D": "30 % overlap", "N": "1 % apart"}
 COLLIDERS = ["dPlane", "dBox", "dCapsule", "dTriMesh"]
 COLLIDER_METHODS = {"Supernormal": "#0b5394", "Supernormal (warm)": "#6fa8dc", "dConvex": "#38761d", "dTriMesh": "#cc0000"}
@@ -81,7 +87,9 @@ def _queries(table, body_class, name):
             rows = table.select(**{"class": body_class}, pose=pose, method=method)
             _plot(axes, rows, "gap_error", "time_s", 1e6, method, colour)
         axes.set(title=pose_name, xlim=(1e-16, 1), ylim=(0.1, 300))
-        axes.set(xlabel="median error of the gap / smallest half-axis" if k > 1 else "", ylabel="" if k % 2 else "median time, µs")
+        axes.set(
+            xlabel="median error of the gap / smallest half-axis" if k > 1 else "", ylabel="" if k % 2 else "median time, µs"
+        )
     panels[1].legend(*panels[0].get_legend_handles_labels(), loc="upper left")
     return figure
 

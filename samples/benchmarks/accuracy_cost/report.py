@@ -120,7 +120,11 @@ def digits(tables):
     for body_class, name in CLASSES.items():
         for start, method in (("cold", "hybrid"), ("warm", "hybrid (warm)")):
             found = [tables["query"].method(body_class, "S", (method, tolerance)) for tolerance in tolerances]
-            errors = [row.number("gap_error_worst") / float(row["accuracy"]) for row in found if row and float(row["accuracy"]) > 1e-13]
+            errors = [
+                row.number("gap_error_worst") / float(row["accuracy"])
+                for row in found
+                if row and float(row["accuracy"]) > 1e-13
+            ]
             worst = max([0, *(error for error in errors if not isnan(error))])
             rows.append([name, start, *(microseconds(row.number("time_s")) for row in found), text("%.2g", worst)])
     about = (
@@ -141,7 +145,9 @@ def ratios(tables):
             hybrid, early_out = time(HYBRID), time(HYBRID_EARLY_OUT)
             is_verdict = [pose in "NF" and method.startswith("libccd") for method, _ in OTHERS]
             others = [ratio(time(method), early_out if verdict else hybrid) for method, verdict in zip(OTHERS, is_verdict)]
-            rows.append([name, pose_name, *(text("%.1f", other) for other in others), text("%.2f", ratio(hybrid, time(HYBRID_WARM)))])
+            rows.append(
+                [name, pose_name, *(text("%.1f", other) for other in others), text("%.2f", ratio(hybrid, time(HYBRID_WARM)))]
+            )
     about = (
         "## Ratios\n\n"
         "Median time of the other over that of the hybrid at its default tolerance, cold; then warm over cold. Of bodies apart libccd\n"
@@ -208,7 +214,19 @@ def forms(tables):
         "One step of the settled bed in ms, one thread but where it says so, the same step and the same grains for all; contacts per "
         "step. The last\ncolumns are times over ours: of the whole step, and of finding the contacts (broad and narrow phase).\n"
     )
-    head = ["form", "vertices", "pairs", "contacts", "broad", "narrow", "joints", "quickstep", "step", "step / ours", "finding / ours"]
+    head = [
+        "form",
+        "vertices",
+        "pairs",
+        "contacts",
+        "broad",
+        "narrow",
+        "joints",
+        "quickstep",
+        "step",
+        "step / ours",
+        "finding / ours",
+    ]
     step, solver = ours.number("step_s"), ours.number("solver_s")
     return markdown(about, head, 1, rows) + (
         f"Quickstep takes {milliseconds(solver)} ms of our {milliseconds(step)} ms and does not care what the grains are: no geometry, "
@@ -256,7 +274,17 @@ def outcomes(tables):
         "the energy over\nwhat was lost; and, of a single body, the error of the period of an ellipsoid that rocks on a dBox, which is "
         "known exactly.\n\n![outcomes](outcomes.svg)\n"
     )
-    head = ["form", "accuracy", "step, ms", "narrow, ms", "contacts", "deepest overlap", "volume fraction", "energy gained", "period"]
+    head = [
+        "form",
+        "accuracy",
+        "step, ms",
+        "narrow, ms",
+        "contacts",
+        "deepest overlap",
+        "volume fraction",
+        "energy gained",
+        "period",
+    ]
     return markdown(about, head, 1, rows)
 
 

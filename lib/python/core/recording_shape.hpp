@@ -1,16 +1,11 @@
 // A shape that records the normals of its evaluations.
 #pragma once
 
-#include <supernormal/shapes/shape.hpp>
 #include <vector>
 
-namespace explain_pair {
+#include "supernormal/shapes/shape.hpp"
 
-using supernormal::ActiveVertices;
-using supernormal::Jet;
-using supernormal::Order;
-using supernormal::Shape;
-using supernormal::Vector3;
+namespace supernormal::python {
 
 /// Wraps a shape, returns the same digits, and records the normals of all evaluations. A solver evaluates both bodies once per
 /// evaluation of the gap function. So one body records the solver's path, and the library needs no hook.
@@ -47,11 +42,11 @@ class RecordingShape final : public Shape {
   double bounding_radius() const override { return shape_.bounding_radius(); }
   double min_curvature_radius_estimate() const override { return shape_.min_curvature_radius_estimate(); }
   double rolling_radius() const override { return shape_.rolling_radius(); }
-  supernormal::MassProperties mass_properties() const override { return shape_.mass_properties(); }
+  MassProperties mass_properties() const override { return shape_.mass_properties(); }
 
  private:
   const Shape& shape_;
   std::vector<Vector3>& normals_;
 };
 
-}  // namespace explain_pair
+}  // namespace supernormal::python
