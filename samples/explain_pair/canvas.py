@@ -132,10 +132,11 @@ class Canvas:
 
 
 def _shorter(svg):
-    """Each path in one line, with rounded coordinates; clips by their numbers, where matplotlib has addresses in memory."""
+    """Each path in one line and no group, with rounded coordinates; clips by their numbers, where matplotlib has addresses."""
     names = {}
     svg = re.sub(rb"\bp[0-9a-f]{10}\b", lambda name: names.setdefault(name[0], b"clip%d" % len(names)), svg)
-    return re.sub(rb' d="[^"]*"', _shorter_path, svg)
+    svg = re.sub(rb' d="[^"]*"', _shorter_path, svg)
+    return re.sub(rb'<g id="[^"]*">\s*(<path[^>]*/>)\s*</g>', rb"\1", svg)
 
 
 def _shorter_path(path):
