@@ -127,7 +127,7 @@ void bind_shape_queries(py::class_<Shape, std::shared_ptr<Shape>>& shape) {
       .def_property_readonly("has_hessian", &Shape::has_hessian, "Whether hessian() is available.")
       .def_property_readonly(
           "is_smooth", [](const Shape& self) { return !self.has_kinks(); },
-          "Whether h has a second derivative wherever the boundary is not flat. Other solvers than Solver.HYBRID need it.")
+          "Whether h is differentiable: no flat face, no straight edge. Pairs of other shapes are solved by Solver.HYBRID.")
       .def_property_readonly("half_extents", &Shape::half_extents, "(3,), m; half of the extent along the axes of the body's frame")
       .def_property_readonly("is_symmetric", &Shape::is_symmetric,
                              "Whether the body is point-symmetric about its origin. False if unknown.")
