@@ -24,6 +24,14 @@ BODY1, BODY2 = "#1F5F8F", "#A3600F"
 LOWEST, HIGHEST = (0.60, 0.075, 235), (0.985, 0.02, 95)  # of the map: lightness, chroma, hue in degrees
 
 
+# The unit circle in four cubic arcs.
+_BEND = 0.5522847498
+_QUARTER = np.array([[1, _BEND], [_BEND, 1], [0, 1]])
+_TURN = np.array([[0, 1], [-1, 0]])  # of rows, by 90 degrees
+CIRCLE = np.vstack([[[1, 0]], *(_QUARTER @ np.linalg.matrix_power(_TURN, k) for k in range(4))])
+CIRCLE_CODES = [Path.MOVETO] + 12 * [Path.CURVE4]
+
+
 @dataclass(frozen=True)
 class Box:
     """A rectangle of the picture, px."""
@@ -89,11 +97,9 @@ class Canvas:
     def rectangle(self, box, **style):
         self.fill(box.corners, **style)
 
-    def ellipse(self, centre, radius_x, radius_y=None, **style):
-        circle = Path.unit_circle().vertices * [radius_x, radius_y or radius_x] + centre
-        fill, edge, width = style.pop("fill", "none"), style.pop("edge", "none"), style.pop("width", 1.0)
-        path = Path(circle, Path.unit_circle().codes)
-        self._add(PathPatch(path, facecolor=fill, edgecolor=edge, linewidth=width, **style))
+    def ellipse(self, centre, radius_x, radius_y=None, fill="none", edge="none", width=1.0):
+        path = Path(CIRCLE * [radius_x, radius_y or radius_x] + centre, CIRCLE_CODES)
+        self._add(PathPatch(path, facecolor=fill, edgecolor=edge, linewidth=width))
 
     def text(self, at, words, size=13, align="left", colour=INK, is_on_map=False, **style):
         """Text at a point of its baseline. On a map or a body it has a pale ground."""

@@ -148,9 +148,7 @@ def _draw_bands(canvas, values, levels, on_map):
     contours = on_map.contours(values)
     for k, level in enumerate(levels.values):
         rings = [ring for polygon in _rings(contours, level) for ring in polygon]
-        canvas.fill(*rings, fill=levels.colour(k + 1))
-        for line in contours.lines(level):
-            canvas.line(simplified(line, LINE_ERROR), LINE_COLOUR, 0.6, alpha=0.3)
+        canvas.fill(*rings, fill=levels.colour(k + 1), edge=LINE_COLOUR + "4D", width=0.6)
     for line in contours.lines(0):
         canvas.line(simplified(line, LINE_ERROR), **ZERO_STYLE)
 
