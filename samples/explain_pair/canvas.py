@@ -92,14 +92,14 @@ class Canvas:
         polygons = [np.asarray(polygon, float) for polygon in polygons if len(polygon) > 2]
         if polygons:
             path = Path.make_compound_path(*(Path(np.vstack([one, one[:1]]), closed=True) for one in polygons))
-            self._add(PathPatch(path, facecolor=fill, edgecolor=edge, linewidth=width, **style))
+            self._add(PathPatch(path, facecolor=fill, edgecolor=edge, linewidth=width, joinstyle="round", **style))
 
     def rectangle(self, box, **style):
         self.fill(box.corners, **style)
 
     def ellipse(self, centre, radius_x, radius_y=None, fill="none", edge="none", width=1.0):
         path = Path(CIRCLE * [radius_x, radius_y or radius_x] + centre, CIRCLE_CODES)
-        self._add(PathPatch(path, facecolor=fill, edgecolor=edge, linewidth=width))
+        self._add(PathPatch(path, facecolor=fill, edgecolor=edge, linewidth=width, joinstyle="round"))
 
     def text(self, at, words, size=13, align="left", colour=INK, is_on_map=False, **style):
         """Text at a point of its baseline. On a map or a body it has a pale ground."""
@@ -146,8 +146,13 @@ def _shorter(svg):
 
 
 def _shorter_path(path):
-    line = b" " + b" ".join(path[0].split())
-    return re.sub(rb"\d+\.\d+", lambda number: b"%.1f" % float(number[0]), line)
+    """A command is left out where it is the one before."""
+    words, command = [b""], b""
+    for word in path[0].split():
+        if word != command:
+            words.append(word)
+        command = word if word.isalpha() else command
+    return re.sub(rb"\d+\.\d+", lambda number: (b"%.1f" % float(number[0])).removesuffix(b".0"), b" ".join(words))
 
 
 def hex_colour(lightness, chroma, hue):
