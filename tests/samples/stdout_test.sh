@@ -17,7 +17,7 @@ for program in "$@"; do
   expect 0 "$program" --help
   case $(basename "$program") in
     falling_particles) options+=(--list --version) ;;
-    explain_pair | hard_cases) options+=(--list) ;;
+    hard_cases) options+=(--list) ;;
   esac
   for option in "${options[@]}"; do
     [ "$option" = --help ] || "$program" "$option" >/dev/null 2>&1 || continue

@@ -5,12 +5,16 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "enums.hpp"
 #include "interpreter_lock.hpp"
 #include "parallel_for.hpp"
+#include "recording_shape.hpp"
+#include "shape_queries.hpp"
 #include "shapes/validation.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
@@ -33,6 +37,15 @@ Proximity proximity(const Shape& shape1, const Pose& pose1, const Shape& shape2,
   const Vector3 first = first_normal ? require_direction({"first_normal"}, *first_normal) : Vector3::UnitX();
   const WithoutTheLock unlocked;
   return require_answer(find_proximity(shape1, pose1, shape2, pose2, settings, first_normal ? &first : nullptr));
+}
+
+std::pair<Proximity, py::array_t<double>> proximity_path(const Shape& shape1, const Pose& pose1, const Shape& shape2,
+                                                         const Pose& pose2, const Settings& settings,
+                                                         const std::optional<Vector3>& first_normal) {
+  std::vector<Vector3> normals;
+  const Proximity result = proximity(RecordingShape(shape1, normals), pose1, shape2, pose2, settings, first_normal);
+  for (Vector3& n : normals) n = pose1.rotation * n;
+  return {result, rows_of(normals)};
 }
 
 Proximity plane_proximity(const Shape& shape, const Pose& pose, const Vector3& plane_normal, double plane_offset) {
@@ -62,6 +75,13 @@ For bodies apart or touching, every start leads to the same result. For overlapp
 maxima. With a first normal the solver follows the maximum to which it leads. Without one it searches for the highest.
 
 Raises ValueError for settings or a first normal out of range, and when a shape returns a number that is not finite.)";
+
+constexpr const char* kPathDoc = R"(The same as find_proximity, and how the solver found it: (Proximity, normals).
+
+normals: (N, 3), unit, world frame, from body 1 to body 2: where the solver evaluated the gap function, in order. A query with
+max_evaluations below N evaluates the first of them.
+
+Raises what find_proximity raises.)";
 
 constexpr const char* kPlaneDoc =
     R"(The proximity of a body and the half-space plane_normal . x <= plane_offset, in closed form.
@@ -136,6 +156,8 @@ void bind_proximity(py::module_& m) {
                          of[8].cast<bool>(),    of[9].cast<double>()};
       });
   m.def("find_proximity", &proximity, kFindDoc, py::arg("shape1"), py::arg("pose1"), py::arg("shape2"), py::arg("pose2"),
+        py::arg("settings") = Settings(), py::arg("first_normal") = py::none());
+  m.def("find_proximity_path", &proximity_path, kPathDoc, py::arg("shape1"), py::arg("pose1"), py::arg("shape2"), py::arg("pose2"),
         py::arg("settings") = Settings(), py::arg("first_normal") = py::none());
   m.def("find_plane_proximity", &plane_proximity, kPlaneDoc, py::arg("shape"), py::arg("pose"), py::arg("plane_normal"),
         py::arg("plane_offset"));

@@ -126,6 +126,9 @@ void bind_shape_queries(py::class_<Shape, std::shared_ptr<Shape>>& shape) {
            "direction: (..., 3), body's frame, any length but 0; ValueError otherwise, or if has_hessian is false.")
       .def_property_readonly(
           "has_hessian", [](const Shape& self) { return self.traits().has_hessian; }, "Whether hessian() is available.")
+      .def_property_readonly(
+          "is_smooth", [](const Shape& self) { return !self.traits().has_nonsmooth_points; },
+          "Whether h is differentiable: no flat face, no straight edge. Pairs of other shapes are solved by Solver.HYBRID.")
       .def_property_readonly("half_extents", &Shape::half_extents, "(3,), m; half of the extent along the axes of the body's frame")
       .def_property_readonly(
           "is_symmetric", [](const Shape& self) { return self.traits().is_symmetric; },

@@ -95,6 +95,8 @@ class Shape:
     @property
     def has_hessian(self) -> bool: ...
     @property
+    def is_smooth(self) -> bool: ...
+    @property
     def half_extents(self) -> _Floats: ...
     @property
     def is_symmetric(self) -> bool: ...
@@ -352,6 +354,14 @@ def find_proximity(
     settings: Settings = ...,
     first_normal: Optional[npt.ArrayLike] = ...,
 ) -> Proximity: ...
+def find_proximity_path(
+    shape1: Shape,
+    pose1: Pose,
+    shape2: Shape,
+    pose2: Pose,
+    settings: Settings = ...,
+    first_normal: Optional[npt.ArrayLike] = ...,
+) -> Tuple[Proximity, _Floats]: ...
 def find_plane_proximity(shape: Shape, pose: Pose, plane_normal: npt.ArrayLike, plane_offset: float) -> Proximity: ...
 def find_time_of_impact(
     shape1: Shape,

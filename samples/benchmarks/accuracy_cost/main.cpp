@@ -1,10 +1,16 @@
 // Measures the cost of a query: our solvers and libccd on the same pairs of bodies, with the same support function, in one run.
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <stdexcept>
+#include <string>
+#include <system_error>
 
 #include "atlas.hpp"
 #include "box_cost.hpp"
@@ -14,7 +20,6 @@
 #include "ode/face_cost.hpp"
 #include "ode/scene_cost.hpp"
 #include "query_cost.hpp"
-#include "report/atlas_report.hpp"
 #include "report/report.hpp"
 
 namespace {
@@ -43,6 +48,13 @@ struct Options {
   std::string out = "out/accuracy_cost";
 };
 
+/// Becomes the program that writes report.md and draws the figures of a folder.
+[[noreturn]] void become_report(const std::string& folder) {
+  constexpr const char* kPython = "/usr/bin/python3";  // of Debian, which packs matplotlib for it
+  execl(kPython, kPython, ACCURACY_COST_SOURCE "/samples/benchmarks/accuracy_cost/report.py", folder.c_str(), nullptr);
+  throw std::runtime_error("no report: cannot run " + std::string(kPython) + ": " + std::generic_category().message(errno));
+}
+
 void run(const Options& options) {
   const Effort effort{options.rounds, options.batch_us * 1e-6};
   if (options.atlas || options.scene || options.literature || options.boxes) {
@@ -58,8 +70,7 @@ void run(const Options& options) {
       for (const auto& make : {scene_forms, scene_growth, scene_outcomes}) parts.push_back(make(options.scene_path));
     }
     run_parts(parts, options.out);
-    write_report(options.out);
-    return;
+    become_report(options.out);
   }
   if (options.colliders) {
     write_collider_costs(options.poses, options.seed, effort, std::cout);

@@ -1,0 +1,499 @@
+"""Writes report.md from the tables of `accuracy_cost --out FOLDER`, and draws its figures: report.py FOLDER.
+
+Parts without measurements are left out. Without matplotlib there are no figures.
+"""
+
+import pathlib
+import sys
+from math import copysign, inf, isnan, log, nan
+
+CLASSES = {"E": "ellipsoids", "M": "exponents 1.3…5", "B": "exponents 6…20", "O": "exponents 1.1…1.3", "N": "needles"}
+POSES = {"T": "touching", "S": "1 % overlap", "D": "30 % overlap", "N": "1 % apart", "F": "far"}
+HYBRID = ("hybrid", "1e-09")
+HYBRID_WARM = ("hybrid (warm)", "1e-09")
+HYBRID_EARLY_OUT = ("hybrid (early out)", "1e-09")
+OTHERS = [
+    ("libccd GJK+EPA", "1e-06"),
+    ("libccd MPR", "1e-04"),
+    ("Bullet GJK+EPA (float)", ""),
+    ("FCL signed distance", "1e-06"),
+    ("Simbody MPR+Newton", "1e-09"),
+]
+ALGORITHM_1 = "Newton (Algorithm I)"
+COMPARED = [HYBRID, HYBRID_WARM, HYBRID_EARLY_OUT, (ALGORITHM_1, "1e-09"), ("fixed point (Algorithm II)", "1e-09"), *OTHERS]
+MESH_METHODS = ("dTriMesh", "libccd GJK+EPA on hulls")
+
+
+class Row(dict):
+    """Texts by their columns."""
+
+    def number(self, column):
+        """NaN if there is none."""
+        return float(self.get(column) or "nan")
+
+
+class Table:
+    """A table of the program. It is empty if the file does not exist."""
+
+    def __init__(self, path):
+        lines = path.read_text().splitlines() if path.exists() else []
+        self.comments = [line[2:] for line in lines if line.startswith("# ") and not line.startswith("# done")]
+        head, *rows = [line.replace('"', "").split(",") for line in lines if not line.startswith("# ")] or [[]]
+        self.rows = [Row(zip(head, row)) for row in rows]
+
+    def select(self, **cells):
+        return [row for row in self.rows if all(row.get(column) == cell for column, cell in cells.items())]
+
+    def find(self, **cells):
+        """The first row with these cells. It is empty if there is none."""
+        return next(iter(self.select(**cells)), Row())
+
+    def method(self, body_class, pose, method):
+        name, accuracy = method
+        return self.find(**{"class": body_class}, pose=pose, method=name, accuracy=accuracy)
+
+
+def ratio(a, b):
+    """As in C++."""
+    if b == 0:
+        return nan if a == 0 or isnan(a) else copysign(inf, a)
+    return a / b
+
+
+def text(form, value):
+    return "–" if isnan(value) else form % value
+
+
+def microseconds(seconds):
+    return text("%.2f" if seconds < 1e-5 else "%.1f", 1e6 * seconds)
+
+
+def milliseconds(seconds):
+    return text("%.2f", 1e3 * seconds)
+
+
+def markdown(about, head, texts, rows):
+    """A section. The first `texts` columns hold text, the others numbers."""
+    rule = "|" + "---|" * texts + "---:|" * (len(head) - texts)
+    head, *rows = ("| " + " | ".join(row) + " |" for row in (head, *rows))
+    return "\n".join([about, head, rule, *rows]) + "\n\n"
+
+
+def reading(tables):
+    """Conclusions. Their figures are in the tables below them."""
+    query, forms, outcomes = tables["query"], tables["scene_forms"], tables["scene_outcomes"]
+    if not query.rows or not outcomes.rows:
+        return ""
+
+    def time(tolerance):
+        return query.method("M", "S", ("hybrid", tolerance)).number("time_s")
+
+    def step_over_ours(**form):
+        return ratio(forms.find(**form).number("step_s"), forms.find(form="Supernormal").number("step_s"))
+
+    fractions = [row.number("volume_fraction") for row in outcomes.select(form="Supernormal")]
+    hull_error = outcomes.find(form="dConvex", accuracy="482").number("rocking_error")
+    our_error = outcomes.find(form="Supernormal", accuracy="1e-09").number("rocking_error")
+    return (
+        "## Reading\n\n"
+        "* **Digits are cheap.** From 1e-2 to 1e-12 a query of two superellipsoids with moderate exponents becomes "
+        f"{text('%.2f', ratio(time('1e-12'), time('1e-02')))} times as expensive; at 1 % overlap EPA takes more for two digits than we "
+        "for all of them. Only where bodies with sharp edges overlap deeply does our search for the shortest way out cost more than "
+        "EPA, which does not search.\n"
+        "* **A simulation cannot tell the tolerances apart.** Beds settled with tolerances from 1e-1 to 1e-12 have volume fractions of "
+        f"{text('%.3f', min([1, *fractions]))} to {text('%.3f', max([0, *fractions]))} in no order, which is how runs of a chaotic "
+        "scene differ; their times differ as little. So there is nothing to gain from a looser tolerance than the default, 1e-9, and "
+        "below it nothing to see.\n"
+        "* **Polyhedra cannot buy it.** A hull of 482 vertices on the same grain takes "
+        f"{text('%.1f', step_over_ours(form='dConvex', accuracy='482'))} times our time per step, a mesh "
+        f"{text('%.1f', step_over_ours(form='dTriMesh', accuracy='482'))} times, and a body that rocks on its facets has a period that "
+        f"is wrong by {text('%.0f %%', 100 * hull_error)}; ours is wrong by {text('%.0e', our_error)}.\n"
+        "* **Boxes of the same half-axes**, ODE's cheapest stand-in, take "
+        f"{text('%.2f', step_over_ours(form='dBox'))} times our time per step: what they spare in geometry they spend on the solver, "
+        "which has more contacts.\n\n"
+    )
+
+
+def digits(tables):
+    tolerances = ["1e-01", "1e-02", "1e-03", "1e-04", "1e-06", "1e-09", "1e-12", "1e-14"]
+    rows = []
+    for body_class, name in CLASSES.items():
+        for start, method in (("cold", "hybrid"), ("warm", "hybrid (warm)")):
+            found = [tables["query"].method(body_class, "S", (method, tolerance)) for tolerance in tolerances]
+            errors = [
+                row.number("gap_error_worst") / float(row["accuracy"])
+                for row in found
+                if row and float(row["accuracy"]) > 1e-13
+            ]
+            worst = max([0, *(error for error in errors if not isnan(error))])
+            rows.append([name, start, *(microseconds(row.number("time_s")) for row in found), text("%.2g", worst)])
+    about = (
+        "## What each digit costs\n\n"
+        "The hybrid at 1 % overlap: median time in µs over its tolerance, and the worst error over the tolerance.\n"
+    )
+    return markdown(about, ["class", "start", *tolerances, "worst error / tolerance"], 2, rows)
+
+
+def ratios(tables):
+    rows = []
+    for body_class, name in CLASSES.items():
+        for pose, pose_name in POSES.items():
+
+            def time(method):
+                return tables["query"].method(body_class, pose, method).number("time_s")
+
+            hybrid, early_out = time(HYBRID), time(HYBRID_EARLY_OUT)
+            is_verdict = [pose in "NF" and method.startswith("libccd") for method, _ in OTHERS]
+            others = [ratio(time(method), early_out if verdict else hybrid) for method, verdict in zip(OTHERS, is_verdict)]
+            rows.append(
+                [name, pose_name, *(text("%.1f", other) for other in others), text("%.2f", ratio(hybrid, time(HYBRID_WARM)))]
+            )
+    about = (
+        "## Ratios\n\n"
+        "Median time of the other over that of the hybrid at its default tolerance, cold; then warm over cold. Of bodies apart libccd\n"
+        "says only that they are, and is compared with the hybrid that stops when it knows as much (early out).\n"
+    )
+    head = ["class", "pose", "libccd GJK+EPA 1e-6", "libccd MPR 1e-4", "Bullet", "FCL 1e-6", "Simbody 1e-9", "cold / warm"]
+    return markdown(about, head, 2, rows)
+
+
+def floor(tables):
+    rows = []
+    for body_class, name in CLASSES.items():
+        hybrid = tables["query"].method(body_class, "S", HYBRID)
+        if not hybrid:
+            continue
+        lowest, point, hessian = (
+            tables["query"].method(body_class, "S", (method, "")).number("time_s")
+            for method in ("logarithms and exponentials", "h and r", "h and r and H")
+        )
+        evaluations = hybrid.number("evaluations")
+        overhead = 100 * (ratio(hybrid.number("time_s"), evaluations * hessian) - 1)
+        rows.append(
+            [
+                name,
+                "–" if body_class == "E" else text("%.0f", 1e9 * lowest),
+                text("%.0f", 1e9 * point),
+                "–" if body_class == "E" else text("%.2f", ratio(point, lowest)),
+                text("%.0f", 1e9 * hessian),
+                text("%.3g", evaluations),
+                text("%.0f %%", overhead),
+            ]
+        )
+    about = (
+        "## One evaluation and its floor\n\n"
+        "Both bodies, at 1 % overlap, in ns. The floor are the eight logarithms and eight exponentials of the C library that two\n"
+        "superellipsoids cannot do without (none of ellipsoids); the overhead is what the hybrid, cold, takes beyond its evaluations of "
+        "h, r and H.\n"
+    )
+    return markdown(about, ["class", "floor", "h and r", "over the floor", "h, r and H", "evaluations", "overhead"], 1, rows)
+
+
+def forms(tables):
+    table = tables["scene_forms"]
+    ours = table.find(form="Supernormal")
+    if not ours:
+        return ""
+
+    def finding(row):
+        return row.number("broad_s") + row.number("narrow_s")
+
+    rows = [
+        [
+            row["form"],
+            row["accuracy"] if row["form"] in ("dConvex", "dTriMesh") else "",
+            *(text("%.0f", row.number(column)) for column in ("pairs", "contacts")),
+            *(milliseconds(row.number(f"{phase}_s")) for phase in ("broad", "narrow", "joints", "solver", "step")),
+            text("%.2f", ratio(row.number("step_s"), ours.number("step_s"))),
+            text("%.2f", ratio(finding(row), finding(ours))),
+        ]
+        for row in table.rows
+    ]
+    about = (
+        "## A bed of 1000 grains\n\n"
+        "One step of the settled bed in ms, one thread but where it says so, the same step and the same grains for all; contacts per "
+        "step. The last\ncolumns are times over ours: of the whole step, and of finding the contacts (broad and narrow phase).\n"
+    )
+    head = [
+        "form",
+        "vertices",
+        "pairs",
+        "contacts",
+        "broad",
+        "narrow",
+        "joints",
+        "quickstep",
+        "step",
+        "step / ours",
+        "finding / ours",
+    ]
+    step, solver = ours.number("step_s"), ours.number("solver_s")
+    return markdown(about, head, 1, rows) + (
+        f"Quickstep takes {milliseconds(solver)} ms of our {milliseconds(step)} ms and does not care what the grains are: no geometry, "
+        f"however fast, could make the step more than {text('%.1f', ratio(step, solver + ours.number('joints_s')))} times faster than "
+        "ours is.\n\n"
+    )
+
+
+def growth(tables):
+    columns = ["broad_s", "narrow_s", "solver_s", "step_s"]
+    table = tables["scene_growth"]
+    rows = [[row["space"], row["grains"], *(milliseconds(row.number(column)) for column in columns)] for row in table.rows]
+    for space in sorted({row["space"] for row in table.rows}):
+        first, *_, last = 2 * table.select(space=space)
+        size = log(last.number("grains") / first.number("grains"))
+        exponents = (ratio(log(last.number(column) / first.number(column)), size) for column in columns)
+        rows.append([space, "exponent", *(text("**%.2f**", exponent) for exponent in exponents)])
+    about = (
+        "## More grains\n\n"
+        "One step of the bed in ms, in each of ODE's spaces; the bed of 500 grains is laid out again and again, side by side. The last "
+        "row is the exponent\nx of N^x between the smallest and the largest.\n\n![growth](growth.svg)\n"
+    )
+    return markdown(about, ["space", "grains", "broad", "narrow", "quickstep", "step"], 1, rows)
+
+
+def outcomes(tables):
+    rows = [
+        [
+            row["form"],
+            row["accuracy"],
+            milliseconds(row.number("step_s")),
+            milliseconds(row.number("narrow_s")),
+            text("%.0f", row.number("contacts")),
+            text("%.3f", row.number("overlap")),
+            text("%.3f", row.number("volume_fraction")),
+            text("%.0e", row.number("energy_gained")),
+            "does not rock" if isnan(row.number("rocking_error")) else text("%.0e", row.number("rocking_error")),
+        ]
+        for row in tables["scene_outcomes"].rows
+    ]
+    about = (
+        "## What comes out of it\n\n"
+        "1000 grains fall into a box and settle (0.6 s). All beds are measured with the same ruler: the exact grains in the places that "
+        "they\nhave come to. Deepest overlap relative to the smaller half-axis of the pair; share of the volume; the largest rise of "
+        "the energy over\nwhat was lost; and, of a single body, the error of the period of an ellipsoid that rocks on a dBox, which is "
+        "known exactly.\n\n![outcomes](outcomes.svg)\n"
+    )
+    head = [
+        "form",
+        "accuracy",
+        "step, ms",
+        "narrow, ms",
+        "contacts",
+        "deepest overlap",
+        "volume fraction",
+        "energy gained",
+        "period",
+    ]
+    return markdown(about, head, 1, rows)
+
+
+def colliders(tables):
+    rows = [
+        [
+            row["collider"],
+            row["method"],
+            row["accuracy"],
+            microseconds(row.number("time_s")),
+            text("%.0e", row.number("depth_error")),
+            text("%.0e", row.number("depth_error_worst")),
+            text("%.3g", row.number("contacts")),
+            row["misses"],
+        ]
+        for row in tables["colliders"].rows
+        if not row["method"].startswith("Supernormal") or row["accuracy"] in ("1e-02", "1e-04", "1e-09", "1e-12")
+    ]
+    about = (
+        "## Colliders\n\n"
+        "A superellipsoid with exponents 4 that overlaps ODE's geoms by 2 %: a dCollide, over tolerance or number of vertices.\n\n"
+        "![colliders](colliders.svg)\n"
+    )
+    return markdown(about, ["collider", "method", "accuracy", "time µs", "depth error", "worst", "contacts", "misses"], 3, rows)
+
+
+def meshes(tables):
+    rows = [
+        [
+            name,
+            row["method"],
+            "–" if row["method"].startswith("hybrid") else row["accuracy"],
+            microseconds(row.number("time_s")),
+            text("%.0e", row.number("gap_error")),
+            f"{row['failures']} of {row['queries']}",
+        ]
+        for body_class, name in CLASSES.items()
+        for row in tables["meshes"].select(**{"class": body_class}, pose="S")
+    ]
+    about = (
+        "## ODE's polyhedra\n\n"
+        "At 1 % overlap: median time in µs, median error of the gap, failures, over the number of vertices.\n"
+    )
+    return markdown(about, ["class", "method", "vertices", "time", "gap", "failures"], 2, rows)
+
+
+def _precise_enough(rows):
+    """The loosest accuracy with a median gap error below 1e-9. If there is none, the tightest."""
+    return next((row for row in rows if row.number("gap_error") < 1e-9), rows[-1] if rows else Row())
+
+
+def _comparisons(table, body_class, method):
+    """The rows of a method at the accuracy that is precise enough, or at all numbers of vertices, each with that of its warm start."""
+    rows = table.select(**{"class": body_class}, pose="S", method=method)
+    warm = _precise_enough(table.select(**{"class": body_class}, pose="S", method=f"{method} (warm)"))
+    return [(row, warm) for row in (rows if method in MESH_METHODS else [_precise_enough(rows)])]
+
+
+def _cold_methods(table, body_class):
+    methods = dict.fromkeys(row["method"] for row in table.select(**{"class": body_class}))
+    return [method for method in methods if not method.endswith("(warm)")]
+
+
+def literature(tables):
+    table = tables["literature"]
+    rows, beside = [], []
+    for body_class, name in CLASSES.items():
+        methods = _cold_methods(table, body_class)
+        for method in methods:
+            for row, warm in _comparisons(table, body_class, method):
+                everywhere = [found for pose in POSES if (found := table.method(body_class, pose, (method, row["accuracy"])))]
+                counts = (
+                    sum(found.number(column) for found in everywhere)
+                    for column in ("no_answer", "wrong_verdict", "wrong_gap", "inexact", "queries")
+                )
+                evaluations = row.number("evaluations")
+                rows.append(
+                    [
+                        name,
+                        method,
+                        row["accuracy"],
+                        microseconds(row.number("time_s")),
+                        microseconds(warm.number("time_s")),
+                        text("%.3g", evaluations) if evaluations > 0 else "–",
+                        text("%.0e", row.number("gap_error")),
+                        *(text("%.0f", count) for count in counts),
+                    ]
+                )
+        if methods:
+            (theirs,), (ours,) = (_comparisons(table, body_class, method) for method in ("surface angles (2)", ALGORITHM_1))
+            beside.append([name, *(text("%.1f", ratio(a.number("time_s"), b.number("time_s"))) for a, b in zip(theirs, ours))])
+    about = (
+        "## The methods of the literature\n\n"
+        "Each method at the loosest of its accuracies at which the median error of the gap is below 1e-9 of the smallest half-axis,\n"
+        "or at its tightest. Meshes have their number of vertices there, and all of their sizes. Time, evaluations and error at 1 %\n"
+        "overlap; failures in all five situations. Off: gaps that were told and are off by more than 1e-6.\n"
+    )
+    head = ["class", "method", "accuracy", "cold, µs", "warm, µs", "evaluations", "error"]
+    head += ["no answer", "wrong verdict", "wrong gap", "off", "of"]
+    about_beside = (
+        "### Algorithm I beside the reference method\n\n"
+        "The time of the Newton iteration in four surface angles over that of Algorithm I, each as accurate as above.\n"
+    )
+    return markdown(about, head, 3, rows) + markdown(about_beside, ["class", "cold", "warm"], 1, beside)
+
+
+def boxes(tables):
+    rows = [
+        [
+            CLASSES[row["class"]],
+            row["box"],
+            text("%.3f", 1e6 * row.number("time_s")),
+            text("%.2f", row.number("volume")),
+            text("%.2f", row.number("volume_p99")),
+            row["failures"],
+            text("%.1f", row.number("pairs")),
+            text("%.1f", row.number("apart")),
+            text("%.2f", 1e6 * row.number("narrow_s")),
+            text("%.2f", 1e6 * (row.number("time_s") + row.number("narrow_s"))),
+        ]
+        for row in tables["boxes"].rows
+    ]
+    about = (
+        "## Bounding boxes\n\n"
+        "1000 bodies of each class in random orientations, which fill 60 % of a cube. Times in µs for each body; volume over that of\n"
+        "the smallest box, median and 99th percentile; pairs of overlapping boxes for each body, and those of them whose bodies are\n"
+        "apart. The narrow phase needs the last times for these: the hybrid, which stops when it knows that they are. What it does with\n"
+        "the others is the same for all boxes. Failures: no box, or one that is too small.\n"
+    )
+    head = ["class", "box", "time", "volume", "99 %", "failures", "pairs", "apart", "their time", "box + their time"]
+    return markdown(about, head, 2, rows)
+
+
+def queries(tables):
+    rows = [
+        [
+            name,
+            pose_name,
+            *method,
+            f"{microseconds(row.number('time_s'))} / {microseconds(row.number('time_p99_s'))}",
+            text("%.3g", row.number("evaluations")) if row.number("evaluations") > 0 else "–",
+            *(text("%.0e", row.number(column)) for column in ("gap_error", "normal_error", "contact_error")),
+            f"{row['failures']} of {row['queries']}",
+        ]
+        for body_class, name in CLASSES.items()
+        for pose, pose_name in POSES.items()
+        for method in COMPARED
+        if (row := tables["query"].method(body_class, pose, method))
+    ]
+    about = (
+        "## Queries\n\n"
+        "Median / 99th percentile of the time in µs; median error of the gap, of the normal (rad) and of the contact point (gap and "
+        "point\nrelative to the smallest half-axis); failures: no answer, wrong verdict, or wrong by more than 10 % of the gap + 0.001 "
+        "of the\nhalf-axis. A dash: the method does not tell it (of bodies apart libccd says only that they are).\n\n"
+        "![exponents 1.3 to 5](query_M.svg)\n![exponents 6 to 20](query_B.svg)\n\n"
+        "More figures: [ellipsoids](query_E.svg), [octahedral](query_O.svg), [needles](query_N.svg).\n"
+    )
+    head = ["class", "pose", "method", "accuracy", "time", "evaluations", "gap", "normal", "point", "failures"]
+    return markdown(about, head, 4, rows)
+
+
+# The sections, each with the table that it needs.
+SECTIONS = [
+    (reading, "query"),
+    (digits, "query"),
+    (ratios, "query"),
+    (floor, "query"),
+    (forms, "scene_forms"),
+    (growth, "scene_growth"),
+    (outcomes, "scene_outcomes"),
+    (colliders, "colliders"),
+    (meshes, "meshes"),
+    (literature, "literature"),
+    (boxes, "boxes"),
+    (queries, "query"),
+]
+
+
+def read_tables(folder):
+    return {name: Table(folder / f"{name}.csv") for name in dict.fromkeys(name for _, name in SECTIONS)}
+
+
+def report(tables):
+    """The text of report.md."""
+    measured = next((tables[name] for name in ("query", "scene_forms", "boxes", "literature") if tables[name].rows), None)
+    environment = "".join(f"* {line}\n" for line in (measured.comments if measured else []))
+    return (
+        "# What accuracy costs\n\nWritten by `accuracy_cost --atlas`. Only ratios carry to another machine; all methods of a table took "
+        f"turns in one run.\n\n{environment}\n" + "".join(section(tables) for section, name in SECTIONS if tables[name].rows)
+    )
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit("usage: report.py FOLDER, with the tables of accuracy_cost")
+    folder = pathlib.Path(sys.argv[1])
+    tables = read_tables(folder)
+    try:
+        (folder / "report.md").write_text(report(tables), encoding="utf-8")
+    except OSError as error:
+        sys.exit(f"{folder}/report.md: cannot be written: {error.strerror}")
+    try:
+        from draw_figures import draw_figures
+    except ImportError as missing:
+        print(f"no figures: {missing} (apt install python3-matplotlib)", file=sys.stderr)
+    else:
+        draw_figures(tables, folder)
+
+
+if __name__ == "__main__":
+    sys.dont_write_bytecode = True
+    main()

@@ -1,0 +1,95 @@
+"""The report of samples/benchmarks/accuracy_cost has the numbers of its tables, and leaves out what is not measured."""
+
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+PROGRAM = pathlib.Path(__file__).parents[2] / "samples" / "benchmarks" / "accuracy_cost" / "report.py"
+QUERY = (
+    "class,pose,method,accuracy,queries,time_s,time_p99_s,evaluations,gap_error,gap_error_p99,gap_error_worst,normal_error,contact_error,"
+    "failures,inexact,no_answer,wrong_verdict,wrong_gap"
+)
+FORMS = "form,accuracy,grains,pairs,contacts,refused,broad_s,narrow_s,joints_s,solver_s,step_s"
+
+
+def query(method, accuracy, time, error, failures=0, pose="S"):
+    return f'M,{pose},"{method}",{accuracy},240,{time},3e-06,4,{error},1e-12,2e-10,1e-09,nan,{failures},5,{failures},0,0'
+
+
+def write(path, head, *rows):
+    path.write_text("\n".join(["# processor: of the test", head, *rows, "# done: all", ""]))
+
+
+def report_of(folder):
+    subprocess.run([sys.executable, PROGRAM, folder], check=True, capture_output=True, text=True)
+    return (folder / "report.md").read_text()
+
+
+def test_queries_and_their_ratios(tmp_path):
+    rows = [
+        query("hybrid", "1e-02", 1e-6, "1e-04"),
+        query("hybrid", "1e-09", 2e-6, "1e-13"),
+        query("hybrid (warm)", "1e-09", 5e-7, 0),
+        query("libccd GJK+EPA", "1e-06", 11e-6, "2e-05", 7),
+        query("h and r and H", "", 4e-7, "nan"),
+    ]
+    write(tmp_path / "query.csv", QUERY, *rows)
+    text = report_of(tmp_path)
+    assert "\n* processor: of the test\n" in text
+    assert (
+        "| exponents 1.3…5 | 1 % overlap | libccd GJK+EPA | 1e-06 | 11.0 / 3.00 | 4 | 2e-05 | 1e-09 | – | 7 of 240 |\n" in text
+    )
+    assert "| exponents 1.3…5 | 1 % overlap | 5.5 | – | – | – | – | 4.00 |\n" in text
+    assert "| exponents 1.3…5 | cold | – | 1.00 | – | – | – | 2.00 | – | – | 0.2 |\n" in text
+    assert "| exponents 1.3…5 | – | – | – | 400 | 4 | 25 % |\n" in text
+    assert "## Colliders" not in text and "## Reading" not in text
+
+
+def test_a_method_of_the_literature_has_the_loosest_accuracy_that_is_precise_enough(tmp_path):
+    rows = [
+        query(f"{method}{start}", accuracy, time, error, 3, pose)
+        for pose in "TS"
+        for method in ("Newton (Algorithm I)", "surface angles (2)")
+        for start, time in (("", 2e-6), (" (warm)", 1e-6))
+        for accuracy, error in (("1e-02", "1e-05"), ("1e-04", "1e-10"), ("1e-06", "1e-15"))
+    ]
+    write(tmp_path / "literature.csv", QUERY, *rows)
+    text = report_of(tmp_path)
+    assert "| exponents 1.3…5 | surface angles (2) | 1e-04 | 2.00 | 1.00 | 4 | 1e-10 | 6 | 0 | 0 | 10 | 480 |\n" in text
+    assert "| exponents 1.3…5 | 1.0 | 1.0 |\n" in text
+
+
+def test_a_bed_and_what_comes_out_of_it(tmp_path):
+    cost = "1000,2000,0,0.001,0.002,0.001,0.004"
+    write(tmp_path / "scene_forms.csv", FORMS, f"Supernormal,1e-09,1000,{cost},0.01", f"dConvex,482,1000,{cost},0.05")
+    outcomes = [
+        f"Supernormal,1e-09,1000,{cost},0.01,0.03,0.66,0.01,1e-6,1e-7,2e-07",
+        f"dBox,,1000,{cost},0.01,0.03,0.7,0.01,1e-6,1e-7,nan",
+    ]
+    head = f"{FORMS},overlap,volume_fraction,volume_fraction_error,energy_gained,kinetic_height_m,rocking_error"
+    write(tmp_path / "scene_outcomes.csv", head, *outcomes)
+    text = report_of(tmp_path)
+    assert "| dConvex | 482 | 1000 | 2000 | 1.00 | 2.00 | 1.00 | 4.00 | 50.00 | 5.00 | 1.00 |\n" in text
+    assert "| Supernormal | 1e-09 | 10.00 | 2.00 | 2000 | 0.030 | 0.660 | 1e-06 | 2e-07 |\n" in text
+    assert text.count("does not rock") == 1
+    assert "more than 2.0 times faster than ours is.\n" in text
+
+
+def test_no_tables_make_a_report_without_sections(tmp_path):
+    assert "##" not in report_of(tmp_path)
+
+
+def test_every_figure_of_the_report_is_drawn(tmp_path):
+    pytest.importorskip("matplotlib", reason="python3-matplotlib is not installed")
+    write(tmp_path / "query.csv", QUERY, query("hybrid", "1e-09", 2e-6, "1e-13"), query("libccd MPR", "1e-04", 2e-6, "nan"))
+    head = "collider,method,accuracy,poses,time_s,time_p99_s,depth_error,depth_error_worst,contacts,misses"
+    write(tmp_path / "colliders.csv", head, '"dTriMesh (3200 triangles)","dConvex",482,100,1e-6,2e-6,1e-3,1e-2,1,0')
+    cost = "1000,2000,0,0.001,0.002,0.001,0.004,0.01"
+    write(tmp_path / "scene_growth.csv", FORMS.replace("form,accuracy", "space"), f"hash,500,{cost}", f"hash,1000,{cost}")
+    write(tmp_path / "scene_forms.csv", FORMS, f"dBox,,1000,{cost}")
+    write(tmp_path / "scene_outcomes.csv", f"{FORMS},rocking_error", f"Supernormal,1e-01,1000,{cost},1e-7")
+    named = {word.split(")")[0] for word in report_of(tmp_path).split("](")[1:]}
+    assert named == {path.name for path in tmp_path.glob("*.svg")} and len(named) == 8
+    assert all("</svg>" in (tmp_path / name).read_text() for name in named)
