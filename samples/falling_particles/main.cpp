@@ -18,9 +18,8 @@
 #include "input/list_walls.hpp"
 #include "input/load_effects.hpp"
 #include "model/scene.hpp"
-#include "observe/measurement.hpp"
+#include "observe/measuring.hpp"
 #include "output/lammps_input.hpp"
-#include "output/list_tables.hpp"
 #include "output/rendering.hpp"
 #include "run/doubts.hpp"
 #include "run/forecast.hpp"
@@ -51,13 +50,16 @@ void list() {
     std::printf("[%s]\n  parameters  %s\n  cost        %d rows per contact; passes per step: %s\n  source      %s\n", effect.name,
                 falling_particles::scene_parameters(effect).c_str(), effect.rows, effect.passes, effect.source);
   }
-  std::puts("\nIt measures what its sections [[measurement]] ask for, each into measurements/NAME.csv. Parameters of all:\n");
+  std::puts("\nIt measures what its sections [[measurement]] request, each into measurements/NAME.csv. Parameters of all:\n");
   std::puts("  interval: s, from sample to sample, a multiple of time.step; name: of the table, the kind without it;");
   std::puts("  from, until: s, of the first and the last sample, the whole run without them\n");
   std::fputs(falling_particles::list_measurements().c_str(), stdout);
   std::puts("\nWalls besides those of its container, which stand, move or are driven, are its sections [[part]].\n");
   std::fputs(falling_particles::list_walls().c_str(), stdout);
-  std::puts("\nIt writes these tables, besides those of its measurements. --tables SCENE prints the columns of a scene's.\n");
+  std::puts(
+      "\nThese tables are on by default. A section [[measurement]] with a kind of their names writes one more, with its own "
+      "interval.");
+  std::puts("--tables SCENE prints the columns of a scene's tables.\n");
   std::fputs(falling_particles::list_tables().c_str(), stdout);
   std::puts("\nGrains come from its sections [[feeder]], and go into its sections [[sink]].\n");
   std::fputs(falling_particles::list_population().c_str(), stdout);

@@ -11,14 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "base/random.hpp"
-#include "observe/energy.hpp"
-#include "output/output_files.hpp"
+#include "observe/measuring.hpp"
+#include "observe/simulation.hpp"
 #include "output/picture.hpp"
-#include "output/result_names.hpp"
-#include "world/placement.hpp"
-#include "world/stepper.hpp"
-#include "world/world.hpp"
 
 namespace {
 
@@ -77,13 +72,15 @@ std::vector<Candidate> candidates(const Contents& contents) {
 void measure(const Options& options) {
   const Scene scene = load_scene(options.scene);
   const int steps = static_cast<int>(std::lround(options.duration / scene.time.step));
-  Random random(scene.seed);
-  World world(scene, place(scene, random));
-  Stepper stepper(world, scene);
+  Simulation simulation(scene, 1);
+  const World& world = simulation.world;
+  Stepper& stepper = simulation.stepper;
   const Contents contents = contents_of(world, scene);
   std::vector<Candidate> all = candidates(contents);
   OutputFolder tables(fs::temp_directory_path(), "pictures_cost", result_names());
-  Trajectory trajectory(tables.file(std::string(kTrajectoryFile)));
+  const fs::path path = tables.file("trajectory.csv");
+  const std::unique_ptr<Measurement> trajectory = find_measurement_kind("trajectory")->on_by_default->make(world);
+  TableFile file(path, trajectory->columns());
   double stepping = 0, writing = 0, framing = 0;
   int frames = 0;
   for (int step = 0; step <= steps; ++step) {
@@ -91,7 +88,11 @@ void measure(const Options& options) {
     if (static_cast<long long>(step) * options.frames < static_cast<long long>(frames) * steps) continue;
     ++frames;
     const double time = step * scene.time.step;
-    writing += seconds_of([&] { trajectory.write(time, world); });
+    writing += seconds_of([&] {
+      TableText table;
+      trajectory->measure({time, world, {}, &simulation}, table);
+      file.write(table.text());
+    });
     Frame frame;
     framing +=
         seconds_of([&] { frame = frame_of(time, measure_energy(world, scene), contents, world, step == 0 ? nullptr : &stepper); });
@@ -103,7 +104,7 @@ void measure(const Options& options) {
   std::printf("| | processor time, s | at the end, s | of the run | MB |\n|---|---:|---:|---:|---:|\n");
   const double run = stepping + writing;
   std::printf("| steps | %.2f | | | |\n| trajectory.csv | %.3f | | %.1f %% | %.2f |\n", stepping, writing, 100 * writing / run,
-              1e-6 * static_cast<double>(fs::file_size(tables.file(std::string(kTrajectoryFile)))));
+              1e-6 * static_cast<double>(fs::file_size(path)));
   for (const Candidate& candidate : all) {
     const double seconds = framing + candidate.adding + candidate.finishing;
     std::printf("| %s | %.3f | %.3f | %.1f %% | %.2f |\n", candidate.name.c_str(), seconds, candidate.finishing,

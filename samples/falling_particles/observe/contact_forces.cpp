@@ -1,6 +1,6 @@
 // The measurement contact_forces: a line for each contact.
 
-#include "kinds.hpp"
+#include "measurement.hpp"
 #include "region.hpp"
 #include "surfaces.hpp"
 
@@ -43,14 +43,15 @@ class ContactForces final : public Measurement {
 }  // namespace
 
 MeasurementKind contact_forces_kind() {
-  return {"contact_forces",
-          "every contact with its forces, a line each",
-          {{"lower, upper", "m, corners of a box that holds the contacts; without them everywhere"}},
-          "time, the two grains and their kinds (of a wall its name), position, normal towards grain 1, overlap, normal force, "
-          "tangential force on grain 1, points",
-          "feedback of ODE's contact joints",
-          true,
-          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+  return {.name = "contact_forces",
+          .measures = "every contact with its forces, a line each",
+          .parameters = {{"lower, upper", "m, corners of a box that holds the contacts; without them everywhere"}},
+          .columns =
+              "time, the two grains and their kinds (of a wall its name), position, normal towards grain 1, overlap, normal force, "
+              "tangential force on grain 1, points",
+          .source = "feedback of ODE's contact joints",
+          .needs_contacts = true,
+          .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             return [region = SamplingRegion(table, scene, SamplingRegion::Without::Everywhere), names = surface_names(scene)](
                        const World& world) { return std::make_unique<ContactForces>(region, surfaces_of(world, names)); };
           }};

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "kinds.hpp"
+#include "measurement.hpp"
 #include "region.hpp"
 
 namespace falling_particles {
@@ -114,23 +114,23 @@ class Coordination final : public Measurement {
 MeasurementKind coordination_kind() {
   constexpr std::int64_t kMostNeeded = 20;
   constexpr std::size_t kIsostaticSpheres = 4;  // frictionless spheres, in three dimensions
-  return {"coordination",
-          "the number of force-bearing contacts of a grain, and rattlers",
-          {{"lower, upper", "m, corners of a box that holds the grains' centres; without them everywhere"},
-           {"walls", "true or false, whether contacts with walls count; true without it"},
-           {"least", "1 to 20, contacts without which a grain is a rattler; 4 without it (frictionless spheres)"}},
-          "time, grains, mean, rattlers, mean without rattlers, number of grains with 0, 1, ... contacts",
-          "O'Hern et al., Phys. Rev. E 68 (2003) 011306: rattlers are taken away until none is left",
-          true,
-          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+  return {.name = "coordination",
+          .measures = "the number of force-bearing contacts of a grain, and rattlers",
+          .parameters = {{"lower, upper", "m, corners of a box that holds the grains' centres; without them everywhere"},
+                         {"walls", "true or false, whether contacts with walls count; true without it"},
+                         {"least", "1 to 20, contacts without which a grain is a rattler; 4 without it (frictionless spheres)"}},
+          .columns = "time, grains, mean, rattlers, mean without rattlers, number of grains with 0, 1, ... contacts",
+          .source = "O'Hern et al., Phys. Rev. E 68 (2003) 011306: rattlers are taken away until none is left",
+          .needs_contacts = true,
+          .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             const SamplingRegion region(table, scene, SamplingRegion::Without::Everywhere);
             const bool walls = !table.has("walls") || table.boolean("walls");
             const std::size_t least =
                 table.has("least") ? static_cast<std::size_t>(table.integer("least", 1, kMostNeeded)) : kIsostaticSpheres;
             return [=](const World&) { return std::make_unique<Coordination>(region, walls, least); };
           },
-          {"mean", "mean_without_rattlers"},
-          "contacts per grain"};
+          .plotted = {"mean", "mean_without_rattlers"},
+          .plot_label = "contacts per grain"};
 }
 
 }  // namespace falling_particles

@@ -6,6 +6,11 @@
 
 namespace falling_particles {
 
+double beverloo_mass_flow(double outlet, double grain_diameter, double bulk_density, double gravity) {
+  const double effective = std::max(0.0, outlet - kBeverlooK * grain_diameter);
+  return kBeverlooC * bulk_density * std::sqrt(gravity) * std::pow(effective, 2.5);
+}
+
 Discharge::Discharge(World& world, const Hopper& hopper, Random& random)
     : world_(world), hopper_(hopper), random_(random), has_passed_(world.grains().size(), false) {
   passages_.reserve(has_passed_.size());

@@ -1,4 +1,4 @@
-// The discharge of a hopper.
+// The discharge of a hopper, and Beverloo's law for it.
 #pragma once
 
 #include <cstddef>
@@ -28,6 +28,16 @@ struct Charge {
     archive(time, mass, grain_diameter, bed);
   }
 };
+
+/// Constants of Beverloo's law: the discharge coefficient, and the width of the empty annulus at the rim relative to the grain
+/// diameter.
+constexpr double kBeverlooC = 0.58;
+constexpr double kBeverlooK = 1.4;
+
+/// The mass flow (kg/s) through a round outlet in a flat bottom: C rho sqrt(g) (D - k d)^2.5; 0 if D is below k d. W. A. Beverloo,
+/// H. A. Leniger, J. van de Velde, The flow of granular solids through orifices, Chem. Eng. Sci. 15 (1961) 260-269. `outlet` and
+/// `grain_diameter` in m, `bulk_density` in kg/m^3, `gravity` in m/s^2.
+double beverloo_mass_flow(double outlet, double grain_diameter, double bulk_density, double gravity);
 
 /// Opens the outlet of a hopper at its time, and counts the grains whose centres pass it.
 class Discharge {

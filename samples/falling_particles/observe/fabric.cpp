@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "kinds.hpp"
+#include "measurement.hpp"
 #include "region.hpp"
 
 namespace falling_particles {
@@ -52,20 +52,20 @@ class Fabric final : public Measurement {
 }  // namespace
 
 MeasurementKind fabric_kind() {
-  return {"fabric",
-          "the fabric tensor, the mean of n n over the normals n of force-bearing contacts",
-          {{"lower, upper", "m, corners of a box that holds the contacts; without them everywhere"},
-           {"walls", "true or false, whether contacts with walls count; false without it"}},
-          "time, contacts, six components, eigenvalues, direction of the largest, anisotropy sqrt(3/2) |15/2 (F - I/3)|",
-          "Satake 1982; anisotropy: Guo and Zhao, Computers and Geotechnics 47 (2013)",
-          true,
-          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+  return {.name = "fabric",
+          .measures = "the fabric tensor, the mean of n n over the normals n of force-bearing contacts",
+          .parameters = {{"lower, upper", "m, corners of a box that holds the contacts; without them everywhere"},
+                         {"walls", "true or false, whether contacts with walls count; false without it"}},
+          .columns = "time, contacts, six components, eigenvalues, direction of the largest, anisotropy sqrt(3/2) |15/2 (F - I/3)|",
+          .source = "Satake 1982; anisotropy: Guo and Zhao, Computers and Geotechnics 47 (2013)",
+          .needs_contacts = true,
+          .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             const SamplingRegion region(table, scene, SamplingRegion::Without::Everywhere);
             const bool walls = table.has("walls") && table.boolean("walls");
             return [=](const World&) { return std::make_unique<Fabric>(region, walls); };
           },
-          {"anisotropy"},
-          "anisotropy"};
+          .plotted = {"anisotropy"},
+          .plot_label = "anisotropy"};
 }
 
 }  // namespace falling_particles

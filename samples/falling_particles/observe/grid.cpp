@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "kinds.hpp"
+#include "measurement.hpp"
 #include "region.hpp"
 
 namespace falling_particles {
@@ -124,14 +124,16 @@ class Grid final : public Measurement {
 
 MeasurementKind grid_kind() {
   return {
-      "grid",
-      "velocity, density, volume fraction and granular temperature in the cells of a grid; a grain counts where its centre is",
-      {{"lower, upper", "m, corners of the grid; without them all of a periodic cell"},
-       {"cells", "three whole numbers from 1 to 1000, along x, y and z; up to 1e6 cells"}},
-      "time, cell, its middle, grains, density, volume fraction, mean velocity by mass, granular temperature, velocity variance",
-      "granular temperature beside the cell's own velocity gradient: Glasser and Goldhirsch, Phys. Fluids 13 (2001) 407",
-      false,
-      [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+      .name = "grid",
+      .measures =
+          "velocity, density, volume fraction and granular temperature in the cells of a grid; a grain counts where its centre is",
+      .parameters = {{"lower, upper", "m, corners of the grid; without them all of a periodic cell"},
+                     {"cells", "three whole numbers from 1 to 1000, along x, y and z; up to 1e6 cells"}},
+      .columns =
+          "time, cell, its middle, grains, density, volume fraction, mean velocity by mass, granular temperature, velocity "
+          "variance",
+      .source = "granular temperature about the velocity gradient of the cell: Glasser and Goldhirsch, Phys. Fluids 13 (2001) 407",
+      .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
         const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
         const CellCounts cells = read_cells(table);
         return [=](const World&) { return std::make_unique<Grid>(region, cells); };

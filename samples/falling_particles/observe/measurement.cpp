@@ -2,14 +2,22 @@
 
 #include <algorithm>
 
-#include "kinds.hpp"
+#include "measurement_kinds.hpp"  // made by CMake: MEASUREMENT_KINDS(KIND) is KIND(name) for each measurement of its list
 
 namespace falling_particles {
 
+#define DECLARE(name) MeasurementKind name##_kind();
+MEASUREMENT_KINDS(DECLARE)
+#undef DECLARE
+
 const std::vector<MeasurementKind>& measurement_kinds() {
-  static const std::vector<MeasurementKind> kinds = {contact_forces_kind(), coordination_kind(), fabric_kind(),
-                                                     stress_kind(),         part_force_kind(),   grid_kind(),
-                                                     nematic_order_kind(),  segregation_kind(),  surface_kind()};
+  static const std::vector<MeasurementKind> kinds = [] {
+#define MAKE(name) name##_kind(),
+    std::vector<MeasurementKind> all = {MEASUREMENT_KINDS(MAKE)};
+#undef MAKE
+    for (MeasurementKind& kind : table_kinds()) all.push_back(std::move(kind));
+    return all;
+  }();
   return kinds;
 }
 
@@ -21,6 +29,7 @@ const MeasurementKind* find_measurement_kind(std::string_view name) {
 std::string list_measurements() {
   std::string text;
   for (const MeasurementKind& kind : measurement_kinds()) {
+    if (kind.on_by_default) continue;
     text += "[[measurement]] kind = \"" + kind.name + "\"\n  measures    " + kind.measures + '\n';
     for (const MeasurementParameter& parameter : kind.parameters) {
       text += std::string("  ") + (&parameter == &kind.parameters.front() ? "parameters  " : "            ") + parameter.key +
@@ -30,6 +39,16 @@ std::string list_measurements() {
     text += std::string("  cost        ") +
             (kind.needs_contacts ? "the forces of the sampled steps' joints" : "a pass over the grains") + "\n  source      " +
             kind.source + '\n';
+  }
+  return text;
+}
+
+std::string list_tables() {
+  std::string text;
+  for (const MeasurementKind& kind : measurement_kinds()) {
+    if (!kind.on_by_default) continue;
+    text += default_file(kind) + "\n  measures    " + kind.measures + "\n  lines       one for " + kind.on_by_default->lines +
+            "; of " + kind.on_by_default->scenes + "\n  columns     " + kind.columns + '\n';
   }
   return text;
 }

@@ -1,7 +1,9 @@
-// The interface of measurements.
+// Measurements and their kinds.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,11 +17,15 @@
 
 namespace falling_particles {
 
+class Simulation;
+
 /// A run at one time.
 struct Sample {
   double time;  ///< s
   const World& world;
   const std::vector<PairContact>& contacts;  ///< of the last step; empty for kinds that do not need them
+  const Simulation* simulation = nullptr;    ///< the simulation of the world; never null in a run
+  std::size_t lines = 0;                     ///< number of lines that the table has already
 };
 
 /// Writes lines about a run at one time. It has no state from sample to sample: a resumed run needs only MeasurementState.
@@ -30,7 +36,7 @@ class Measurement {
   Measurement(const Measurement&) = delete;
   Measurement& operator=(const Measurement&) = delete;
 
-  /// The names of the columns, units included, separated by commas; the first is time_s.
+  /// The names of the columns, units included, separated by commas.
   virtual std::string columns() const = 0;
   virtual void measure(const Sample& sample, TableText& table) const = 0;
 };
@@ -40,28 +46,49 @@ struct MeasurementParameter {
   std::string text;  ///< unit, range and default
 };
 
-/// A kind of measurement that a scene can name: [[measurement]] kind = "name".
-struct MeasurementKind {
-  std::string name;
-  std::string measures;  ///< the measured quantity
-  std::vector<MeasurementParameter> parameters;
-  std::string columns;  ///< in words
-  std::string source;   ///< reference of the definition
-  bool needs_contacts;  ///< whether it needs the contacts of the sampled steps, with their forces
-  /// Checks the section's parameters against the scene. The scene's container, grains and time must have been read. Throws
-  /// InputError.
-  MeasurementMaker (*read)(const TomlTable& table, const Scene& scene);
-  std::vector<std::string> plotted = {};  ///< columns to plot over time, all of one unit
-  std::string plot_label = {};            ///< of the plot's axis
+/// The scenes in which a kind is on without a section: it has a sample in each frame, and its table is NAME.csv.
+struct OnByDefault {
+  std::string lines;   ///< what each line is about
+  std::string scenes;  ///< the scenes, in words
+  bool (*is_on)(const Scene& scene);
+  MeasurementMaker make;
 };
 
-/// All kinds, in the order of the list for users.
+/// A kind of measurement. A scene requests it by a section [[measurement]] with kind = "name".
+struct MeasurementKind {
+  std::string name;
+  std::string measures;                               ///< the measured quantity
+  std::vector<MeasurementParameter> parameters = {};  ///< of the section
+  std::string columns;                                ///< in words; their names if the kind may be on by default
+  std::string source = {};                            ///< reference of the definition
+  bool needs_contacts = false;                        ///< whether it needs the contacts of the sampled steps, with their forces
+  /// Checks the section's parameters against the scene. The scene's container, grains and time must have been read. Throws
+  /// InputError.
+  std::function<MeasurementMaker(const TomlTable& table, const Scene& scene)> read;
+  std::vector<std::string> plotted = {};  ///< columns to plot over time, all of one unit
+  std::string plot_label = {};            ///< of the plot's axis
+  std::optional<OnByDefault> on_by_default = {};
+
+  bool is_on(const Scene& scene) const { return on_by_default && on_by_default->is_on(scene); }
+};
+
+/// All kinds: first the measurements that a scene must request, then the tables that are on by default, each in the order of the
+/// list for users.
 const std::vector<MeasurementKind>& measurement_kinds();
+
+/// The kinds that are on by default (tables.cpp).
+std::vector<MeasurementKind> table_kinds();
 
 /// Null if there is no such kind.
 const MeasurementKind* find_measurement_kind(std::string_view name);
 
-/// The list for users, as text.
+/// The name of the table of a kind that is on by default.
+inline std::string default_file(const MeasurementKind& kind) { return kind.name + ".csv"; }
+
+/// The list of the measurements that a scene must request, for users, as text.
 std::string list_measurements();
+
+/// The list of the tables that are on by default, for users, as text.
+std::string list_tables();
 
 }  // namespace falling_particles

@@ -3,33 +3,58 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/toml_string.hpp"
+#include "simulation.hpp"
+
 namespace falling_particles {
+namespace {
 
-Measuring::Measuring(const Scene& scene, const World& world, const OutputFolder& folder)
-    : Measuring(scene, world, folder, MeasuringState{std::vector<MeasuringState::OfTable>(scene.measurements.size()), {}}) {}
+std::string path_of(const MeasurementRequest& request) { return std::string(kMeasurementFolder) + '/' + request.name + ".csv"; }
 
-Measuring::Measuring(const Scene& scene, const World& world, const OutputFolder& folder, const MeasuringState& saved)
-    : world_(&world), folder_(folder.file(kMeasurementFolder)), step_(scene.time.step), gathering_(saved.gathering) {
-  if (scene.measurements.empty()) return;
-  create_folder(folder_);
-  entries_.reserve(scene.measurements.size());
-  for (std::size_t i = 0; i < scene.measurements.size(); ++i) {
-    const MeasurementRequest& request = scene.measurements[i];
-    const MeasuringState::OfTable& table = saved.tables[i];
-    Entry entry;
-    entry.request = &request;
-    entry.measurement = request.make(world);
-    entry.file = std::make_unique<OutputFile>(folder_ / (request.name + ".csv"), table.file);
+/// Whether samples have to be taken before a compression scales the cell. The contacts are those of the step.
+bool precedes_watches(const MeasurementKind& kind) { return kind.needs_contacts || !kind.on_by_default; }
+
+/// `columns`: names without quotes, separated by commas.
+std::string toml_line(const std::string& table, const std::string& columns) {
+  std::string names;
+  for (std::size_t at = 0; at < columns.size();) {
+    const std::size_t end = std::min(columns.find(',', at), columns.size());
+    names += (names.empty() ? "" : ", ") + toml_string(columns.substr(at, end - at));
+    at = end + 1;
+  }
+  return toml_string(table) + " = [" + names + "]\n";
+}
+
+}  // namespace
+
+TableFile::TableFile(const std::filesystem::path& path, const std::string& columns, const FileState& kept) : file_(path, kept) {
+  if (kept.bytes == 0) file_.write(columns + '\n');
+}
+
+std::string Measuring::Entry::path() const { return request == nullptr ? default_file(*kind) : path_of(*request); }
+
+Measuring::Measuring(const Scene& scene, const Simulation& simulation, const OutputFolder& folder, const MeasuringState& saved)
+    : simulation_(&simulation), folder_(folder.file(kMeasurementFolder)), step_(scene.time.step), gathering_(saved.gathering) {
+  for (const MeasurementKind& kind : measurement_kinds()) {
+    if (kind.is_on(scene)) entries_.push_back({&kind});
+  }
+  for (const MeasurementRequest& request : scene.measurements) {
+    entries_.push_back({find_measurement_kind(request.kind), &request});
+  }
+  if (!scene.measurements.empty()) create_folder(folder_);
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    Entry& entry = entries_[i];
+    const MeasuringState::OfTable table = saved.tables.empty() ? MeasuringState::OfTable() : saved.tables[i];
+    entry.measurement = entry.maker()(simulation.world);
+    entry.file = std::make_unique<TableFile>(folder.file(entry.path()), entry.measurement->columns(), table.file);
     entry.state = table.state;
     entry.watch = table.watch;
-    if (table.file.bytes == 0) entry.file->write(entry.measurement->columns() + '\n');
-    entries_.push_back(std::move(entry));
   }
 }
 
-void Measuring::go_on_in(const World& world) {
-  world_ = &world;
-  for (Entry& entry : entries_) entry.measurement = entry.request->make(world);
+void Measuring::go_on_in(const Simulation& simulation) {
+  simulation_ = &simulation;
+  for (Entry& entry : entries_) entry.measurement = entry.maker()(simulation.world);
 }
 
 MeasuringState Measuring::save() {
@@ -39,31 +64,41 @@ MeasuringState Measuring::save() {
     entry.file->sync();
     saved.tables.push_back({entry.file->state(), entry.state, entry.watch});
   }
-  if (!entries_.empty()) sync_folder(folder_);
+  if (entries_.back().request != nullptr) sync_folder(folder_);
   return saved;
 }
 
-bool Measuring::wants_forces(int step) const {
+bool Measuring::wants_forces(int step, bool is_frame) const {
   return std::ranges::any_of(entries_,
-                             [step](const Entry& entry) { return entry.request->needs_contacts && entry.request->is_due(step); });
+                             [=](const Entry& entry) { return entry.kind->needs_contacts && entry.is_due(step, is_frame); });
 }
 
-void Measuring::after_step(int step, double time, const std::deque<MeasuredContact>& contacts) {
-  std::vector<PairContact> pairs;
-  if (step > 0 && wants_forces(step)) {
+void Measuring::after_step(int step, double time, bool is_frame) {
+  std::vector<PairContact> contacts;
+  if (step > 0 && wants_forces(step, is_frame)) {
     const Stopwatch::Lap lap(gathering_);
-    pairs = gather_contacts(contacts, *world_, step_);
+    contacts = gather_contacts(simulation_->stepper.measured_contacts(), simulation_->world, step_);
   }
   for (Entry& entry : entries_) {
-    const bool is_start_without_contacts = step == 0 && entry.request->needs_contacts;
-    if (!entry.request->is_due(step) || is_start_without_contacts) continue;
-    const Stopwatch::Lap lap(entry.watch);
-    TableText table;
-    entry.measurement->measure({time, *world_, pairs}, table);
-    entry.file->write(table.text());
-    ++entry.state.samples;
-    entry.state.lines += table.lines();
+    const bool is_start_without_contacts = step == 0 && entry.kind->needs_contacts;
+    if (!precedes_watches(*entry.kind) || is_start_without_contacts) continue;
+    if (entry.is_due(step, is_frame)) sample(entry, time, contacts);
   }
+}
+
+void Measuring::after_watches(int step, double time, bool is_frame) {
+  for (Entry& entry : entries_) {
+    if (!precedes_watches(*entry.kind) && entry.is_due(step, is_frame)) sample(entry, time, {});
+  }
+}
+
+void Measuring::sample(Entry& entry, double time, const std::vector<PairContact>& contacts) {
+  const Stopwatch::Lap lap(entry.watch);
+  TableText table;
+  entry.measurement->measure({time, simulation_->world, contacts, simulation_, entry.state.lines}, table);
+  entry.file->write(table.text());
+  ++entry.state.samples;
+  entry.state.lines += table.lines();
 }
 
 void Measuring::close_tables() {
@@ -72,11 +107,23 @@ void Measuring::close_tables() {
 
 std::vector<MeasurementCost> Measuring::costs() const {
   std::vector<MeasurementCost> costs;
-  costs.reserve(entries_.size());
   for (const Entry& entry : entries_) {
-    costs.push_back({entry.request->name, entry.request->kind, entry.state, entry.watch.seconds()});
+    if (entry.request != nullptr) costs.push_back({entry.request->name, entry.state, entry.watch.seconds()});
   }
   return costs;
+}
+
+std::string tables_of(const Scene& scene) {
+  std::string text;
+  for (const MeasurementKind& kind : measurement_kinds()) {
+    if (kind.is_on(scene)) text += toml_line(default_file(kind), kind.columns);
+  }
+  if (scene.measurements.empty()) return text;
+  const Simulation simulation(scene, 1);
+  for (const MeasurementRequest& request : scene.measurements) {
+    text += toml_line(path_of(request), request.make(simulation.world)->columns());
+  }
+  return text;
 }
 
 }  // namespace falling_particles

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -16,7 +15,7 @@
 
 namespace falling_particles {
 
-/// The folder of the tables, within the folder of the run.
+/// The folder of the requested tables, within the folder of the run. Tables that are on by default are beside it.
 inline constexpr const char* kMeasurementFolder = "measurements";
 
 /// The state of a measurement besides the bytes of its table. A resumed run restores it.
@@ -42,7 +41,7 @@ struct MeasuringState {
       archive(file, state, watch);
     }
   };
-  std::vector<OfTable> tables;  ///< in the order of the scene
+  std::vector<OfTable> tables;  ///< of the kinds that are on by default, then in the order of the scene; empty at the start
   Stopwatch gathering;          ///< time to gather contacts
 
   template <typename Archive>
@@ -54,47 +53,71 @@ struct MeasuringState {
 /// The cost of a measurement.
 struct MeasurementCost {
   std::string name;
-  std::string kind;
   MeasurementState state;
   double seconds;  ///< wall-clock time of its samples
 };
 
-/// Takes the samples of a scene's measurements and writes their tables.
+/// A table that grows. Each call of write() goes to the operating system at once, so that a killed run leaves whole samples. A
+/// write error ends the run (write_file.hpp).
+class TableFile {
+ public:
+  /// Writes the columns, or continues after the bytes of `kept`, with which an existing table begins.
+  TableFile(const std::filesystem::path& path, const std::string& columns, const FileState& kept = {});
+  void write(std::string_view lines) { file_.write(lines); }
+  void close() { file_.close(); }
+  FileState state() const { return file_.state(); }
+  void sync() { file_.sync(); }
+
+ private:
+  OutputFile file_;
+};
+
+/// Takes the samples of a run's measurements and writes their tables.
 class Measuring {
  public:
-  /// Creates the folder and the tables, if there are any. `world` must not have made a step, and must outlive this object.
-  Measuring(const Scene& scene, const World& world, const OutputFolder& folder);
-  /// Resumes with existing tables.
-  Measuring(const Scene& scene, const World& world, const OutputFolder& folder, const MeasuringState& saved);
+  /// Creates the tables, or continues with existing ones. The simulation must not have made a step since it was made, and must
+  /// outlive this object.
+  Measuring(const Scene& scene, const Simulation& simulation, const OutputFolder& folder, const MeasuringState& saved = {});
 
   /// Whether a sample after this step needs the forces of its contacts.
-  bool wants_forces(int step) const;
-  /// `contacts`: of the step, if wants_forces(step).
-  void after_step(int step, double time, const std::deque<MeasuredContact>& contacts);
+  bool wants_forces(int step, bool is_frame) const;
+  /// Samples the kinds that a scene requests, before a compression scales the cell.
+  void after_step(int step, double time, bool is_frame);
+  /// Samples the kinds that are on by default, with what the watches have seen.
+  void after_watches(int step, double time, bool is_frame);
   void close_tables();
 
-  /// Continues with another world of the same scene.
-  void go_on_in(const World& world);
+  /// Continues with another simulation of the same scene.
+  void go_on_in(const Simulation& simulation);
   /// The state so far. The tables up to it survive a power cut.
   MeasuringState save();
 
-  std::vector<MeasurementCost> costs() const;
+  std::vector<MeasurementCost> costs() const;                          ///< of the requested measurements
   double seconds_of_contacts() const { return gathering_.seconds(); }  ///< s, to gather contacts for all measurements
 
  private:
   struct Entry {
-    const MeasurementRequest* request = nullptr;
-    std::unique_ptr<Measurement> measurement;
-    std::unique_ptr<OutputFile> file;
+    const MeasurementKind* kind = nullptr;
+    const MeasurementRequest* request = nullptr;  // null for a kind that is on by default
+    std::unique_ptr<Measurement> measurement = {};
+    std::unique_ptr<TableFile> file = {};
     MeasurementState state = {};
     Stopwatch watch = {};
-  };
 
-  const World* world_;
-  std::filesystem::path folder_;  // of the tables
+    bool is_due(int step, bool is_frame) const { return request == nullptr ? is_frame : request->is_due(step); }
+    const MeasurementMaker& maker() const { return request == nullptr ? kind->on_by_default->make : request->make; }
+    std::string path() const;  // within the folder of the run
+  };
+  void sample(Entry& entry, double time, const std::vector<PairContact>& contacts);
+
+  const Simulation* simulation_;
+  std::filesystem::path folder_;  // of the requested tables
   double step_;
   std::vector<Entry> entries_;
   Stopwatch gathering_;
 };
+
+/// The tables that a run of the scene writes, as TOML: "energies.csv" = ["time_s", …]. Nothing is run.
+std::string tables_of(const Scene& scene);
 
 }  // namespace falling_particles

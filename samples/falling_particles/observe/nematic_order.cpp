@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "kinds.hpp"
+#include "measurement.hpp"
 #include "region.hpp"
 
 namespace falling_particles {
@@ -67,24 +67,23 @@ std::size_t find_axis(const TomlTable& table, const Scene& scene, const std::str
 }  // namespace
 
 MeasurementKind nematic_order_kind() {
-  return {
-      "nematic_order",
-      "the alignment of an axis of one kind of grains",
-      {{"grain", "the kind's name"},
-       {"axis", "longest or shortest, the half-axis that is followed"},
-       {"lower, upper", "m, corners of a box that holds the grains' centres; without them everywhere"}},
-      "time, grains, order parameter (largest eigenvalue of the mean of 3/2 u u - I/2), director, biaxiality (difference of the "
-      "others)",
-      "de Gennes and Prost, The Physics of Liquid Crystals (1993)",
-      false,
-      [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
-        const SamplingRegion region(table, scene, SamplingRegion::Without::Everywhere);
-        const std::string grain = read_grain(table, "grain", scene);
-        const std::size_t axis = find_axis(table, scene, grain, table.choice("axis", {"longest", "shortest"}));
-        return [=](const World&) { return std::make_unique<NematicOrder>(region, grain, axis); };
-      },
-      {"order", "biaxiality"},
-      "order parameter"};
+  return {.name = "nematic_order",
+          .measures = "the alignment of an axis of one kind of grains",
+          .parameters = {{"grain", "the kind's name"},
+                         {"axis", "longest or shortest, the half-axis that is followed"},
+                         {"lower, upper", "m, corners of a box that holds the grains' centres; without them everywhere"}},
+          .columns =
+              "time, grains, order parameter (largest eigenvalue of the mean of 3/2 u u - I/2), director, biaxiality (difference "
+              "of the others)",
+          .source = "de Gennes and Prost, The Physics of Liquid Crystals (1993)",
+          .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+            const SamplingRegion region(table, scene, SamplingRegion::Without::Everywhere);
+            const std::string grain = read_grain(table, "grain", scene);
+            const std::size_t axis = find_axis(table, scene, grain, table.choice("axis", {"longest", "shortest"}));
+            return [=](const World&) { return std::make_unique<NematicOrder>(region, grain, axis); };
+          },
+          .plotted = {"order", "biaxiality"},
+          .plot_label = "order parameter"};
 }
 
 }  // namespace falling_particles

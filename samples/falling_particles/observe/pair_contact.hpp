@@ -14,9 +14,9 @@ namespace falling_particles {
 
 using supernormal::Vector3;
 
-/// The contact of a grain with another grain or with a wall. All points of the pair, up to kContactsPerPair for each pair of
-/// bodies, form one contact with the sum of their forces. In a periodic cell the grains are the images that meet. If the points of
-/// a contact lie on both sides of the cell, they are shifted to the side of the first one.
+/// The contact of a grain with another grain or with a wall. A pair of bodies has up to kContactsPerPair points. All points of a
+/// pair of grains form one contact. Its force is the sum of their forces. In a periodic cell the grains are the images that meet.
+/// Points on both sides of the cell are shifted to the side of the first one.
 struct PairContact {
   const Grain* grain1;  ///< the grain with the lower index; never null
   const Grain* grain2;  ///< null for a wall

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/nearest_word.hpp"
-#include "kinds.hpp"
+#include "measurement.hpp"
 #include "surfaces.hpp"
 
 namespace falling_particles {
@@ -50,33 +50,35 @@ std::vector<std::string> read_surfaces(const TomlTable& table, const Scene& scen
 
 MeasurementKind part_force_kind() {
   constexpr double kFarthest = 1e6;  // m
-  return {"part_force",
-          "the force of the grains on a wall or on several together, and its torque about a point",
+  return {
+      .name = "part_force",
+      .measures = "the force of the grains on a wall or on several together, and its torque about a point",
+      .parameters =
           {{"surfaces",
             "names: floor, x_low, x_high, y_low, y_high (box, hopper's tray), lid, hopper, dish, ground (terrain), or of parts; "
             "without "
             "it all"},
            {"about", "m, the point; the origin without it"}},
-          "time, force-bearing contacts, force, torque",
-          "sum of the feedback of ODE's contact joints",
-          true,
-          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
-            const std::vector<std::string> chosen = read_surfaces(table, scene);
-            Vector3 about = Vector3::Zero();
-            if (table.has("about")) {
-              const std::vector<double> v = table.numbers("about", 3, Interval::closed(-kFarthest, kFarthest, "m"));
-              about = Vector3(v[0], v[1], v[2]);
-            }
-            return [chosen, about, names = surface_names(scene)](const World& world) {
-              std::vector<dGeomID> geoms;
-              for (const NamedSurface& surface : surfaces_of(world, names)) {
-                if (std::ranges::find(chosen, surface.name) != chosen.end()) geoms.push_back(surface.geom);
-              }
-              return std::make_unique<PartForce>(std::move(geoms), about);
-            };
-          },
-          {"force_x_N", "force_y_N", "force_z_N"},
-          "force, N"};
+      .columns = "time, force-bearing contacts, force, torque",
+      .source = "sum of the feedback of ODE's contact joints",
+      .needs_contacts = true,
+      .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+        const std::vector<std::string> chosen = read_surfaces(table, scene);
+        Vector3 about = Vector3::Zero();
+        if (table.has("about")) {
+          const std::vector<double> v = table.numbers("about", 3, Interval::closed(-kFarthest, kFarthest, "m"));
+          about = Vector3(v[0], v[1], v[2]);
+        }
+        return [chosen, about, names = surface_names(scene)](const World& world) {
+          std::vector<dGeomID> geoms;
+          for (const NamedSurface& surface : surfaces_of(world, names)) {
+            if (std::ranges::find(chosen, surface.name) != chosen.end()) geoms.push_back(surface.geom);
+          }
+          return std::make_unique<PartForce>(std::move(geoms), about);
+        };
+      },
+      .plotted = {"force_x_N", "force_y_N", "force_z_N"},
+      .plot_label = "force, N"};
 }
 
 }  // namespace falling_particles

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "kinds.hpp"
+#include "measurement.hpp"
 #include "region.hpp"
 
 namespace falling_particles {
@@ -69,16 +69,16 @@ class Segregation final : public Measurement {
 }  // namespace
 
 MeasurementKind segregation_kind() {
-  return {"segregation",
-          "Lacey's mixing index of two kinds, by number: 0 apart, 1 mixed at random",
-          {{"grains", "the names of two kinds"},
-           {"lower, upper", "m, corners of the grid; without them all of a periodic cell"},
-           {"cells", "three whole numbers from 1 to 1000, along x, y and z; the index depends on their size"}},
-          "time, grains of both kinds, cells that hold some, fraction of the first kind, its variance, that when apart, that when "
-          "mixed, index",
-          "Lacey, J. Appl. Chem. 4 (1954) 257; cells are weighted by their grains",
-          false,
-          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+  return {.name = "segregation",
+          .measures = "Lacey's mixing index of two kinds, by number: 0 apart, 1 mixed at random",
+          .parameters = {{"grains", "the names of two kinds"},
+                         {"lower, upper", "m, corners of the grid; without them all of a periodic cell"},
+                         {"cells", "three whole numbers from 1 to 1000, along x, y and z; the index depends on their size"}},
+          .columns =
+              "time, grains of both kinds, cells with grains, fraction of the first kind, its variance, the variance of separated "
+              "kinds, the variance of random order, index",
+          .source = "Lacey, J. Appl. Chem. 4 (1954) 257; cells are weighted by their grains",
+          .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             const std::vector<std::string> grains = table.choices("grains", names_of_grains(scene));
             if (grains.size() != 2) {
               table.fail("grains", table.full_name("grains") + " has " + std::to_string(grains.size()) + " names; allowed: two");
@@ -87,8 +87,8 @@ MeasurementKind segregation_kind() {
             const CellCounts cells = read_cells(table);
             return [=](const World&) { return std::make_unique<Segregation>(region, cells, grains); };
           },
-          {"lacey"},
-          "Lacey's index"};
+          .plotted = {"lacey"},
+          .plot_label = "Lacey's index"};
 }
 
 }  // namespace falling_particles

@@ -1,6 +1,7 @@
 #include "simulation.hpp"
 
 #include <array>
+#include <variant>
 
 #include "base/archive.hpp"
 #include "world/placement.hpp"
@@ -19,6 +20,18 @@ constexpr std::array kCounts = {&snStatistics::queries_cold,          &snStatist
 static_assert(sizeof(snStatistics) == kCounts.size() * sizeof(snCount));
 
 }  // namespace
+
+Watches::Watches(World& world, const Scene& scene, Random& random) : leaks(world, scene), energy(world, scene) {
+  if (const Hopper* hopper = std::get_if<Hopper>(&scene.container)) discharge.emplace(world, *hopper, random);
+  if (scene.compression) compressor.emplace(world, *world.cell(), *scene.compression, scene.time.duration);
+}
+
+void Watches::after_step(double time, const Stepper& stepper) {
+  leaks.after_step(time);
+  energy.after_step();
+  if (discharge) discharge->after_step(time);
+  if (compressor) compressor->after_step(time, stepper.contact_geoms());
+}
 
 /// The saved bytes. The world is read first, since the other members need it.
 struct Simulation::Saved {

@@ -3,18 +3,40 @@
 
 #include <supernormal/supernormal.h>
 
+#include <optional>
 #include <string>
 #include <supernormal/effects.hpp>
 #include <vector>
 
 #include "base/random.hpp"
+#include "discharge.hpp"
+#include "energy.hpp"
+#include "leaks.hpp"
 #include "model/scene.hpp"
-#include "watches.hpp"
+#include "world/compression.hpp"
 #include "world/population.hpp"
 #include "world/stepper.hpp"
 #include "world/world.hpp"
 
 namespace falling_particles {
+
+/// The monitors that run after every step. Their arguments must outlive them.
+struct Watches {
+  Watches(World& world, const Scene& scene, Random& random);
+  void after_step(double time, const Stepper& stepper);
+
+  /// The compressor has no state from step to step.
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(leaks, energy);
+    if (discharge) archive(*discharge);
+  }
+
+  LeakWatch leaks;
+  EnergyWatch energy;
+  std::optional<Discharge> discharge;    ///< for a hopper
+  std::optional<Compressor> compressor;  ///< for a periodic container
+};
 
 /// The simulation of a scene, from its start or from a saved state. Two simulations continue alike only if both start from the same
 /// saved state, because World::save does not save everything. A thread can have only one simulation at a time, since ODE's random

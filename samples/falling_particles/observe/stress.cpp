@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "kinds.hpp"
+#include "measurement.hpp"
 #include "region.hpp"
 
 namespace falling_particles {
@@ -104,24 +104,25 @@ class Stress final : public Measurement {
 
 MeasurementKind stress_kind() {
   constexpr std::int64_t kMostSlices = 1000;
-  return {
-      "stress",
-      "the stress tensor of a box or of slices of it, pressure positive",
-      {{"lower, upper", "m, corners of the box, which should lie within the container; without them all of a periodic cell"},
-       {"axis", "x, y or z, across which the box is sliced; z without it"},
-       {"slices", "1 to 1000, of equal thickness; 1 without it"}},
-      "time, slice, its ends, grains; contact part and kinetic part, nine components each; pressure, deviator",
-      "Love 1927, Weber 1966; share of a force by its way from centre to contact to centre: Weinhart et al., Granular Matter 14 "
-      "(2012)",
-      true,
-      [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
-        const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
-        const std::size_t axis = table.has("axis") ? read_axis(table, "axis") : 2;
-        const std::int64_t slices = table.has("slices") ? table.integer("slices", 1, kMostSlices) : 1;
-        return [=](const World&) { return std::make_unique<Stress>(region, axis, static_cast<std::size_t>(slices)); };
-      },
-      {"pressure_Pa", "deviator_Pa"},
-      "stress, Pa"};
+  return {.name = "stress",
+          .measures = "the stress tensor of a box or of slices of it, pressure positive",
+          .parameters = {{"lower, upper",
+                          "m, corners of the box, which should lie within the container; without them all of a periodic cell"},
+                         {"axis", "x, y or z, across which the box is sliced; z without it"},
+                         {"slices", "1 to 1000, of equal thickness; 1 without it"}},
+          .columns = "time, slice, its ends, grains; contact part and kinetic part, nine components each; pressure, deviator",
+          .source =
+              "Love 1927, Weber 1966; a slice takes the fraction of each branch that is in it: Weinhart et al., Granular "
+              "Matter 14 (2012)",
+          .needs_contacts = true,
+          .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+            const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
+            const std::size_t axis = table.has("axis") ? read_axis(table, "axis") : 2;
+            const std::int64_t slices = table.has("slices") ? table.integer("slices", 1, kMostSlices) : 1;
+            return [=](const World&) { return std::make_unique<Stress>(region, axis, static_cast<std::size_t>(slices)); };
+          },
+          .plotted = {"pressure_Pa", "deviator_Pa"},
+          .plot_label = "stress, Pa"};
 }
 
 }  // namespace falling_particles

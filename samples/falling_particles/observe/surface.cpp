@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "kinds.hpp"
+#include "measurement.hpp"
 #include "region.hpp"
 
 namespace falling_particles {
@@ -148,30 +148,29 @@ Settings read_settings(const TomlTable& table) {
   };
   const std::size_t columns = count("columns", 3, 40);
   const std::size_t rays = count("rays", 1, 20);
-  const double middle = table.has("middle") ? table.number("middle", Interval::positive(1, "(share of the width)")) : 0.5;
+  const double middle = table.has("middle") ? table.number("middle", Interval::positive(1, "(fraction of the width)")) : 0.5;
   return {is_about_x ? std::size_t{1} : std::size_t{0}, columns, rays, middle};
 }
 
 }  // namespace
 
 MeasurementKind surface_kind() {
-  return {"surface",
-          "the height of the bed in columns, and the slope of its middle: the dynamic angle of repose of a drum",
-          {{"lower, upper", "m, corners of a box; grains with centres between their heights count"},
-           {"axis", "x or y, the drum's: the profile runs along the other one; y without it"},
-           {"columns", "3 to 1000, along the profile; 40 without it"},
-           {"rays", "1 to 1000, vertical ones across each column, whose heights are averaged; 20 without it"},
-           {"middle", "in (0, 1], share of the width to which the line is fitted; 0.5 without it"}},
-          "time, angle (positive where the bed rises along the axis), its standard error, columns of the fit, heights",
-          "line of least squares through the middle: Henein et al., Metallurgical Transactions B 14 (1983)",
-          false,
-          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+  return {.name = "surface",
+          .measures = "the height of the bed in columns, and the slope of its middle: the dynamic angle of repose of a drum",
+          .parameters = {{"lower, upper", "m, corners of a box; grains with centres between their heights count"},
+                         {"axis", "x or y, the drum's: the profile runs along the other one; y without it"},
+                         {"columns", "3 to 1000, along the profile; 40 without it"},
+                         {"rays", "1 to 1000, vertical ones across each column, whose heights are averaged; 20 without it"},
+                         {"middle", "in (0, 1], fraction of the width to which the line is fitted; 0.5 without it"}},
+          .columns = "time, angle (positive where the bed rises along the axis), its standard error, columns of the fit, heights",
+          .source = "line of least squares through the middle: Henein et al., Metallurgical Transactions B 14 (1983)",
+          .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
             const Settings settings = read_settings(table);
             return [=](const World&) { return std::make_unique<Surface>(region, settings); };
           },
-          {"angle_deg"},
-          "angle, degrees"};
+          .plotted = {"angle_deg"},
+          .plot_label = "angle, degrees"};
 }
 
 }  // namespace falling_particles

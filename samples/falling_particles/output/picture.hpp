@@ -1,4 +1,4 @@
-// The formats of pictures of a run.
+// The formats of pictures of a run, and the names of its results.
 #pragma once
 
 #include <memory>
@@ -33,7 +33,7 @@ struct PictureFormat {
   std::string_view name;
   std::vector<std::string_view> files;  ///< names of the files and folders that it writes into the output folder
   std::unique_ptr<Picture> (*make)(const OutputFolder& folder, const PictureFormat& format, const Contents& contents);
-  std::vector<std::string_view> rendered = {};  ///< names of the files that other programs make
+  std::vector<std::string> rendered = {};  ///< names of the files that other programs make
 };
 
 /// All formats, in the order of the list for users.
@@ -41,5 +41,8 @@ const std::vector<PictureFormat>& picture_formats();
 
 /// Null if there is no such format.
 const PictureFormat* find_picture_format(std::string_view name);
+
+/// The names of the summary and of the tables, measurements and pictures of all scenes.
+ResultNames result_names();
 
 }  // namespace falling_particles

@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "base/toml_string.hpp"
-#include "observe/beverloo.hpp"
 
 namespace falling_particles {
 namespace {

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/stopwatch.hpp"
@@ -21,6 +22,8 @@
 #include "world/stepper.hpp"
 
 namespace falling_particles {
+
+inline constexpr std::string_view kSummaryFile = "summary.toml";
 
 /// A bed is settled if its kinetic energy would lift it by less than this fraction of the smallest half-axis.
 constexpr double kSettledHeight = 1e-3;

@@ -14,8 +14,8 @@ namespace falling_particles {
 /// points, lines and polygons, as text.
 ///
 /// A grain is a point with its kind (from 0, in the order of the scene file), quaternion (w, x, y, z), half-axes (m), exponents
-/// (delta, epsilon), rounding (m), velocity (m/s) and angular velocity (rad/s). A compound has a point per component, and a capsule
-/// is the ellipsoid of its size. In scenes with compounds, feeders or sinks, `grain` is the index of the point's grain; absent
+/// (delta, epsilon), rounding (m), velocity (m/s) and angular velocity (rad/s). A compound has a point per component. A capsule
+/// is the ellipsoid of its size. In scenes with compounds, feeders or sinks, `grain` is the index of the point's grain. Absent
 /// grains are left out. A contact is a point with its normal (unit, towards grain 1), depth (m) and the two grains (-1: a wall). If
 /// the scene requests forces, it has the force on grain 1 (N). The container's triangles face the grains; there is a new file
 /// whenever a wall has changed.

@@ -12,7 +12,6 @@
 #include "base/interval.hpp"
 #include "model/grain_shape.hpp"
 #include "model/lattice.hpp"
-#include "origins.hpp"
 #include "output/wall_mesh.hpp"
 #include "world/world.hpp"
 

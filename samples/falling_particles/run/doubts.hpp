@@ -1,4 +1,4 @@
-// Doubts: values of a scene that its author can hardly mean.
+// Doubts: values of a scene that are probably mistakes.
 #pragma once
 
 #include <optional>
@@ -29,6 +29,9 @@ double normal_way_of(const Wall& wall, const Scene& scene);
 
 /// A sentence for each doubt about a valid scene, with a remedy.
 std::vector<std::string> doubts_about(const Scene& scene);
+
+/// Sentences about grains of the start and of feeders that start behind meshes, above nothing, or where there is no space for them.
+std::vector<std::string> doubts_about_origins(const Scene& scene);
 
 /// Throws InputError when a grain of the start overlaps a wall. It would be pushed out on either side, or not at all.
 void refuse_overlapping_start(const Scene& scene);

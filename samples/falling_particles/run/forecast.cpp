@@ -34,9 +34,9 @@ std::uint64_t samples_of(const MeasurementRequest& request) {
 }
 
 /// The bytes of a sample, from a sample of the start and the lines of the expected contacts.
-double bytes_of_sample(const MeasurementRequest& request, const World& world, int grains) {
+double bytes_of_sample(const MeasurementRequest& request, const Simulation& simulation, int grains) {
   TableText table;
-  request.make(world)->measure({0, world, {}}, table);
+  request.make(simulation.world)->measure({0, simulation.world, {}, &simulation}, table);
   const double contacts = request.kind == "contact_forces" ? kContactsPerGrain * grains : 0;
   return static_cast<double>(table.text().size()) + kLineOfContact * contacts;
 }
@@ -69,8 +69,7 @@ Forecast forecast(const Scene& scene) {
     Simulation simulation(scene, 1);
     for (const MeasurementRequest& request : scene.measurements) {
       result.samples.push_back(samples_of(request));
-      result.table_bytes +=
-          static_cast<double>(result.samples.back()) * bytes_of_sample(request, simulation.world, result.most_grains);
+      result.table_bytes += static_cast<double>(result.samples.back()) * bytes_of_sample(request, simulation, result.most_grains);
     }
     result.start_step = time_start(simulation);
   }

@@ -1,4 +1,4 @@
-#include "origins.hpp"
+// Doubts about the positions at which the grains of a scene start.
 
 #include <supernormal/supernormal.h>
 
@@ -10,6 +10,7 @@
 #include <set>
 #include <variant>
 
+#include "doubts.hpp"
 #include "sight.hpp"
 #include "world/candidate.hpp"
 #include "world/free_places.hpp"

@@ -20,7 +20,6 @@
 #include "observe/measuring.hpp"
 #include "observe/simulation.hpp"
 #include "output/recorder.hpp"
-#include "output/result_names.hpp"
 #include "output/summary.hpp"
 #include "progress.hpp"
 
@@ -44,12 +43,12 @@ struct SavedRun {
   Stopwatch time;
   CheckpointCost cost;
   std::string simulation;
-  RecorderState recorder;
   MeasuringState measuring;
+  RecorderState recorder;
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(step, time, cost.number, cost.watch, simulation, recorder, measuring);
+    archive(step, time, cost.number, cost.watch, simulation, measuring, recorder);
   }
 };
 
@@ -62,10 +61,11 @@ class Run {
       return;
     }
     simulation_.emplace(scene, options.threads);
+    measuring_.emplace(scene, *simulation_, folder);
     recorder_.emplace(folder, scene, *simulation_, checkpoints.are_on());
-    measuring_.emplace(scene, simulation_->world, folder);
-    recorder_->record(0, *simulation_, false);
-    measuring_->after_step(0, 0, simulation_->stepper.measured_contacts());
+    measuring_->after_step(0, 0, true);
+    measuring_->after_watches(0, 0, true);
+    recorder_->record(0, *simulation_);
   }
 
   /// Returns false if the run was stopped at a checkpoint. Otherwise the results are complete, or end at an interrupt.
@@ -85,8 +85,8 @@ class Run {
   Checkpoints& checkpoints_;
   const RunOptions& options_;
   std::optional<Simulation> simulation_;
-  std::optional<Recorder> recorder_;
   std::optional<Measuring> measuring_;
+  std::optional<Recorder> recorder_;
   int step_ = 0;
   Stopwatch time_;  // of the steps and their output
   CheckpointCost cost_;
@@ -94,8 +94,8 @@ class Run {
 
 void Run::go_on(const SavedRun& saved) {
   simulation_.emplace(scene_, options_.threads, saved.simulation);
+  measuring_.emplace(scene_, *simulation_, folder_, saved.measuring);
   recorder_.emplace(folder_, scene_, *simulation_, saved.recorder);
-  measuring_.emplace(scene_, simulation_->world, folder_, saved.measuring);
   step_ = saved.step;
   time_ = saved.time;
   cost_ = saved.cost;
@@ -108,11 +108,11 @@ void Run::save() {
   ++cost_.number;
   const std::string state = simulation_->save();
   Writer writer;
-  writer(SavedRun{step_, time_, cost_, state, recorder_->save(), measuring_->save()});
+  writer(SavedRun{step_, time_, cost_, state, measuring_->save(), recorder_->save()});
   checkpoints_.write(writer.bytes());
   simulation_.reset();
   simulation_.emplace(scene_, options_.threads, state);
-  measuring_->go_on_in(simulation_->world);
+  measuring_->go_on_in(*simulation_);
 }
 
 void Run::advance_to(int until, Progress* progress) {
@@ -125,11 +125,12 @@ void Run::advance_to(int until, Progress* progress) {
     const double now = time_after(step_, scene_.time);
     const bool is_frame = step_ == steps || step_ % scene_.time.steps_per_frame() == 0;
     watches.energy.exchange(simulation_->population.before_step(now));
-    stepper.step((is_frame && recorder_->wants_forces()) || measuring_->wants_forces(step_));
-    measuring_->after_step(step_, now, stepper.measured_contacts());  // before a compression scales the cell
+    stepper.step((is_frame && recorder_->wants_forces()) || measuring_->wants_forces(step_, is_frame));
+    measuring_->after_step(step_, now, is_frame);
     watches.after_step(now, stepper);
     const bool is_last = step_ == steps || interrupted();
-    if (is_last || is_frame) recorder_->record(now, *simulation_, true);
+    measuring_->after_watches(step_, now, is_last || is_frame);
+    if (is_last || is_frame) recorder_->record(now, *simulation_);
     if (progress != nullptr) progress->update(step_, now, stepper.contacts());
     if (is_last) break;
   }
@@ -146,7 +147,6 @@ bool Run::advance() {
     save();
     if (stop_requested()) return false;
   }
-  recorder_->close_tables();
   measuring_->close_tables();
   return true;
 }

@@ -1,4 +1,4 @@
-#include "synthetic_bed.hpp"
+// The synthetic benchmark of a bed.
 
 #include <supernormal/supernormal.h>
 
@@ -10,7 +10,9 @@
 #include <variant>
 
 #include "base/processor_time.hpp"
+#include "forecast.hpp"
 #include "world/contact_joints.hpp"
+#include "world/placement.hpp"
 #include "world/world.hpp"
 
 namespace falling_particles {

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "base/input_error.hpp"
-#include "output/result_names.hpp"
+#include "output/picture.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace falling_particles;

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "base/random.hpp"
-#include "observe/beverloo.hpp"
 #include "observe/discharge.hpp"
 #include "observe/leaks.hpp"
 #include "scenes.hpp"

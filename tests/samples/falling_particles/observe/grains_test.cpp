@@ -185,6 +185,7 @@ TEST_CASE("measurements: mistakes are told with what is allowed") {
       {"kind = \"nematic_order\"\ninterval = 0.01\ngrain = \"pea\"\naxis = \"longest\"\n",
        {"no single longest half-axis", "allowed"}},
       {"kind = \"segregation\"\ninterval = 0.01\ngrains = [\"pea\"]\n", {"has 1 names; allowed: two"}},
+      {"kind = \"discharge\"\ninterval = 0.01\n", {"measurement.kind is \"discharge\"; allowed: in hoppers"}},
   };
   for (const auto& [section, says] : mistakes) check_says(complaint(start + section), says);
   CHECK(complaint(start + "kind = \"fabric\"\ninterval = 0.01\n").empty());

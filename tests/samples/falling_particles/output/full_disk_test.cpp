@@ -7,9 +7,8 @@
 
 #include "base/input_error.hpp"
 #include "base/write_file.hpp"
-#include "output/output_files.hpp"
+#include "observe/measuring.hpp"
 #include "output/picture.hpp"
-#include "output/result_names.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace falling_particles;
@@ -78,11 +77,10 @@ TEST_CASE("each table that does not fit on the disk is named, with the reason") 
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "table";
   fs::create_symlink("/dev/full", path);
-  check_complaint([&] { const Trajectory table(path); }, path);
-  check_complaint([&] { const Energies table(path); }, path);
-  check_complaint([&] { const StateFile table(path); }, path);
-  check_complaint([&] { const DischargeFile table(path); }, path);
-  check_complaint([&] { const CompressionFile table(path); }, path);
+  for (const MeasurementKind& kind : measurement_kinds()) {
+    CAPTURE(kind.name);
+    check_complaint([&] { const TableFile table(path, kind.columns); }, path);
+  }
 }
 
 TEST_CASE("a file is written whole or not at all") {

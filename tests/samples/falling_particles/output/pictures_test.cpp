@@ -14,7 +14,6 @@
 
 #include "model/picture_names.hpp"
 #include "output/picture.hpp"
-#include "output/result_names.hpp"
 #include "output/wall_mesh.hpp"
 #include "scenes.hpp"
 #include "support/temporary_folder.hpp"

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "output/picture.hpp"
-#include "output/result_names.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace falling_particles;

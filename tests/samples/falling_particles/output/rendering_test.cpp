@@ -11,9 +11,7 @@
 #include "base/child_process.hpp"
 #include "base/interrupt.hpp"
 #include "base/read_file.hpp"
-#include "output/output_files.hpp"
 #include "output/picture.hpp"
-#include "output/result_names.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace falling_particles;
@@ -136,7 +134,7 @@ TEST_CASE("formats name all that other programs make for them, and plots have a 
       CHECK(holds(format.rendered, rendering.file));
       ++count;
       if (format.name != "plots") continue;
-      CHECK(holds(kOutputFiles, std::filesystem::path(rendering.file).replace_extension("csv").string()));
+      CHECK(holds(result_names().files, std::filesystem::path(rendering.file).replace_extension("csv").string()));
       CHECK(rendering.input.find("plot ARG1") != std::string::npos);
     }
   }

@@ -11,9 +11,9 @@
 #include "base/input_error.hpp"
 #include "base/read_file.hpp"
 #include "base/write_file.hpp"
+#include "observe/measuring.hpp"
 #include "output/frame_log.hpp"
-#include "output/output_files.hpp"
-#include "output/result_names.hpp"
+#include "output/picture.hpp"
 #include "scene_text.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -21,6 +21,8 @@ using namespace falling_particles;
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* kColumns = "time_s,discharged_kg,discharged_grains";
 
 class SceneInFolder {
  public:
@@ -171,19 +173,19 @@ TEST_CASE("checkpoint: a table goes on after the bytes that are kept") {
   const fs::path path = folder.path() / "discharge.csv";
   FileState kept;
   {
-    DischargeFile table(path);
-    table.write(0.1, 1, 2);
+    TableFile table(path, kColumns);
+    table.write("0.1,1,2\n");
     kept = table.state();
-    table.write(0.2, 3, 4);
+    table.write("0.2,3,4\n");
   }
   {
-    DischargeFile table(path, kept);
-    table.write(0.3, 5, 6);
+    TableFile table(path, kColumns, kept);
+    table.write("0.3,5,6\n");
     table.sync();
     CHECK(table.state().bytes == read_file(path).size());
   }
   CHECK(read_file(path) == "time_s,discharged_kg,discharged_grains\n0.1,1,2\n0.3,5,6\n");
-  CHECK_THROWS_WITH_AS(DischargeFile(path, FileState{1000, {}}), doctest::Contains("has 55 bytes, and had 1000"), InputError);
+  CHECK_THROWS_WITH_AS(TableFile(path, kColumns, FileState{1000, {}}), doctest::Contains("has 55 bytes, and had 1000"), InputError);
   CHECK(read_file(path).size() == 55);
 }
 
@@ -192,19 +194,20 @@ TEST_CASE("checkpoint: a table that was changed or removed since is refused and 
   const fs::path path = folder.path() / "discharge.csv";
   FileState kept;
   {
-    DischargeFile table(path);
-    table.write(0.1, 1, 2);
+    TableFile table(path, kColumns);
+    table.write("0.1,1,2\n");
     kept = table.state();
-    table.write(0.2, 3, 4);
+    table.write("0.2,3,4\n");
   }
   std::string changed = read_file(path);
   changed[kept.bytes - 2] = '7';
   write_file(path, changed);
-  CHECK_THROWS_WITH_AS(DischargeFile(path, kept), doctest::Contains("discharge.csv\" was changed since it was last saved"),
+  CHECK_THROWS_WITH_AS(TableFile(path, kColumns, kept), doctest::Contains("discharge.csv\" was changed since it was last saved"),
                        InputError);
   CHECK(read_file(path) == changed);
   fs::remove(path);
-  CHECK_THROWS_WITH_AS(DischargeFile(path, kept), doctest::Contains("discharge.csv\" is missing; without --resume"), InputError);
+  CHECK_THROWS_WITH_AS(TableFile(path, kColumns, kept), doctest::Contains("discharge.csv\" is missing; without --resume"),
+                       InputError);
   CHECK_FALSE(fs::exists(path));
 }
 

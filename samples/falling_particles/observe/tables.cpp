@@ -1,0 +1,176 @@
+// The tables that a run writes unasked: measurements that are on by default. A new table is an entry of kTables.
+
+#include <algorithm>
+#include <array>
+#include <variant>
+
+#include "measurement.hpp"
+#include "simulation.hpp"
+
+namespace falling_particles {
+namespace {
+
+struct TableOfFrames {
+  const char* name;
+  const char* measures;
+  const char* columns;
+  const char* lines;   // what each line is about
+  const char* scenes;  // the scenes that have the table, in words
+  bool (*is_on)(const Scene& scene);
+  void (*write)(const Sample& sample, TableText& table);
+};
+
+bool is_always_on(const Scene& /*scene*/) { return true; }
+
+void write_trajectory(const Sample& sample, TableText& table) {
+  const std::string time = shortest(sample.time);
+  for (const Grain& grain : sample.world.present()) {
+    table.add(time).add(sample.world.index_of(grain)).add(grain.kind->name);
+    for (const double number : grain.position()) table.add(number);
+    for (const double number : grain.quaternion()) table.add(number);
+    table.end_line();
+  }
+}
+
+void write_energies(const Sample& sample, TableText& table) {
+  const Energy energy = measure_energy(sample.world, sample.world.scene());
+  table.add(sample.time).add(energy.kinetic).add(energy.potential).add(energy.total());
+  table.add(sample.simulation->stepper.contacts()).end_line();
+}
+
+void write_state(const Sample& sample, TableText& table) {
+  const Stepper& stepper = sample.simulation->stepper;
+  const Watches& watches = sample.simulation->watches;
+  const Scene& scene = sample.world.scene();
+  double deepest = 0;
+  for (const dContactGeom& contact : stepper.contact_geoms()) deepest = std::max<double>(deepest, contact.depth);
+  table.add(sample.time).add(deepest).add(stepper.deepest_contact());
+  scene.gravity() == nullptr ? table.blank() : table.add(kinetic_height(sample.world, scene));
+  table.add(largest_kinetic_energy(sample.world)).add(watches.energy.lost()).add(watches.energy.gained());
+  table.add(watches.leaks.count()).end_line();
+}
+
+void write_discharge(const Sample& sample, TableText& table) {
+  const Discharge& discharge = *sample.simulation->watches.discharge;
+  table.add(sample.time).add(discharge.mass()).add(discharge.count()).end_line();
+}
+
+// At the start no contact has been measured yet.
+void write_compression(const Sample& sample, TableText& table) {
+  if (sample.time == 0) return;
+  const Packing& packing = sample.simulation->watches.compressor->packing();
+  table.add(sample.time).add(packing.side).add(packing.volume_fraction).add(packing.at_contact);
+  table.add(packing.overlap.relative).add(packing.target_overlap).add(packing.contacts_per_grain).end_line();
+}
+
+/// The velocity of a part is the mean of the last step, without the motion of a conveyor's surface.
+void write_parts(const Sample& sample, TableText& table) {
+  const WallBodies& walls = *sample.world.walls();
+  for (std::size_t i = 0; i < walls.count(); ++i) {
+    if (!walls.wall(i).moves()) continue;
+    const auto& [pose, velocity] = walls.state(i);
+    const Eigen::Quaterniond& q = pose.rotation;
+    table.add(sample.time).add(walls.wall(i).name).add(pose.position).add(q.w()).add(q.x()).add(q.y()).add(q.z());
+    table.add(velocity.linear).add(velocity.angular).end_line();
+  }
+}
+
+/// A line for each grain that was inserted since the last sample.
+void write_grains(const Sample& sample, TableText& table) {
+  const std::vector<Grain>& grains = sample.world.grains();
+  for (std::size_t i = sample.lines; i < grains.size(); ++i) {
+    const Grain& grain = grains[i];
+    table.add(i).add(grain.kind->name).add(grain.scale).add(grain.scale * grain.kind->sieve_size()).add(grain.mass.mass);
+    table.end_line();
+  }
+}
+
+void write_amount(const Sample& sample, const std::string& by, const GrainKind& kind, const Amount& amount, TableText& table) {
+  table.add(sample.time).add(by).add(kind.name).add(std::to_string(amount.grains)).add(amount.mass).end_line();
+}
+
+/// The amounts that were fed so far.
+void write_feeders(const Sample& sample, TableText& table) {
+  for (const Feeding& feeding : sample.simulation->population.feeders()) {
+    for (std::size_t i = 0; i < feeding.feeder().mixture.size(); ++i) {
+      write_amount(sample, feeding.feeder().name, feeding.kind(i), feeding.state().fed[i], table);
+    }
+  }
+}
+
+/// The amounts that were removed so far.
+void write_sinks(const Sample& sample, TableText& table) {
+  const Scene& scene = sample.world.scene();
+  for (std::size_t sink = 0; sink < scene.sinks.size(); ++sink) {
+    const std::vector<Amount>& taken = sample.simulation->population.taken(sink);
+    for (std::size_t kind = 0; kind < scene.kinds.size(); ++kind) {
+      write_amount(sample, scene.sinks[sink].name, scene.kinds[kind].kind, taken[kind], table);
+    }
+  }
+}
+
+/// In the order of the list for users.
+constexpr std::array kTables = {
+    TableOfFrames{"trajectory", "positions and orientations of the grains; the index of a removed grain is never used again",
+                  "time_s,body,grain,x_m,y_m,z_m,qw,qx,qy,qz", "a frame and grain that is there", "all scenes", is_always_on,
+                  write_trajectory},
+    TableOfFrames{"energies", "the energies of all grains, and the number of contacts",
+                  "time_s,kinetic_J,potential_J,total_J,contacts", "a frame", "all scenes", is_always_on, write_energies},
+    TableOfFrames{"state", "the end state of the summary, at any time of the run",
+                  "time_s,deepest_contact_m,deepest_contact_of_all_steps_m,kinetic_height_m,largest_kinetic_energy_J,"
+                  "energy_lost_J,energy_gained_J,bodies_leaked",
+                  "a frame", "all scenes", is_always_on, write_state},
+    TableOfFrames{"discharge", "the grains that have passed the outlet so far", "time_s,discharged_kg,discharged_grains", "a frame",
+                  "hoppers", [](const Scene& scene) { return std::holds_alternative<Hopper>(scene.container); }, write_discharge},
+    TableOfFrames{"compression", "the packing in the cell",
+                  "time_s,cell_side_m,volume_fraction,volume_fraction_at_contact,mean_overlap,target_overlap,contacts_per_grain",
+                  "a frame after the start", "compressions", [](const Scene& scene) { return scene.compression.has_value(); },
+                  write_compression},
+    TableOfFrames{"parts", "poses of parts, and their mean velocities in the last step",
+                  "time_s,part,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s",
+                  "a frame and part that moves", "scenes with parts that move",
+                  [](const Scene& scene) { return std::ranges::any_of(scene.walls, &Wall::moves); }, write_parts},
+    TableOfFrames{"grains", "sizes and masses of the grains; the scale is the factor on the lengths of the kind",
+                  "body,grain,scale,sieve_size_m,mass_kg", "a grain", "scenes with grains of many sizes",
+                  [](const Scene& scene) { return scene.has_sizes(); }, write_grains},
+    TableOfFrames{"feeders", "the amounts fed so far", "time_s,feeder,grain,grains,kg", "a frame, feeder and kind that it feeds",
+                  "scenes with feeders", [](const Scene& scene) { return !scene.feeders.empty(); }, write_feeders},
+    TableOfFrames{"sinks", "the amounts removed so far", "time_s,sink,grain,grains,kg", "a frame, sink and kind of the scene",
+                  "scenes with sinks", [](const Scene& scene) { return !scene.sinks.empty(); }, write_sinks},
+};
+
+class FrameMeasurement final : public Measurement {
+ public:
+  explicit FrameMeasurement(const TableOfFrames& table) : table_(table) {}
+  std::string columns() const override { return table_.columns; }
+  void measure(const Sample& sample, TableText& table) const override { table_.write(sample, table); }
+
+ private:
+  const TableOfFrames& table_;
+};
+
+MeasurementKind kind_of(const TableOfFrames& table) {
+  const auto make = [&table](const World&) { return std::make_unique<FrameMeasurement>(table); };
+  const auto read = [&table, make](const TomlTable& section, const Scene& scene) -> MeasurementMaker {
+    if (!table.is_on(scene)) {
+      section.fail("kind", std::string("measurement.kind is \"") + table.name + "\"; allowed: in " + table.scenes);
+    }
+    return make;
+  };
+  return {.name = table.name,
+          .measures = table.measures,
+          .columns = table.columns,
+          .read = read,
+          .on_by_default = OnByDefault{table.lines, table.scenes, table.is_on, make}};
+}
+
+}  // namespace
+
+std::vector<MeasurementKind> table_kinds() {
+  std::vector<MeasurementKind> kinds;
+  kinds.reserve(kTables.size());
+  for (const TableOfFrames& table : kTables) kinds.push_back(kind_of(table));
+  return kinds;
+}
+
+}  // namespace falling_particles
