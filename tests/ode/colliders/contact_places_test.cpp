@@ -175,15 +175,15 @@ Solid heightfield(double /*a*/) {
   return {owner, owner->geom, [](const Vec& p) { return -p[2]; }, 1e30};
 }
 
-/// How far a contact may be beside a geom, in sizes of the smaller one. With room for more than one there are corners, under which
-/// both faces may be round and leave the plane by up to the largest reach each.
-double largest_distance(int room) { return room == 1 ? 1e-6 : 2 * 0.07; }
+/// How far (m) a contact may be beside a geom. With room for more than one there are corners, under which both faces may be round
+/// and leave the plane by up to the reach each: 0.07 sizes of the smaller body, or the depth of the overlap, whichever is larger.
+double largest_distance(int room, double size, double depth) { return room == 1 ? 1e-6 * size : 2 * std::max(0.07 * size, depth); }
 
 /// m; from the world's origin, whose rounding a place has with single precision.
 double distance(dGeomID geom) { return dGeomGetClass(geom) == dPlaneClass ? 0 : norm(to_vec(dGeomGetPosition(geom))); }
 
-/// Asks for the contacts of a pair in either order and checks their places.
-void check_places(const Solid& one, const Solid& other, const std::string& name) {
+/// Asks for the contacts of a pair that overlaps by `depth` (m), in either order, and checks their places.
+void check_places(const Solid& one, const Solid& other, double depth, const std::string& name) {
   const double size = std::min(one.size, other.size);
   for (const int room : {1, 2, 3, 4, 8}) {
     for (const bool is_swapped : {false, true}) {
@@ -193,7 +193,7 @@ void check_places(const Solid& one, const Solid& other, const std::string& name)
         const Vec pos = to_vec(contact.pos);
         const double beside = std::max(-one.depth(pos), -other.depth(pos));
         const double farthest = norm(pos) + distance(one.geom) + distance(other.geom);
-        if (!(beside <= within_rounding(largest_distance(room) * size, farthest)))
+        if (!(beside <= within_rounding(largest_distance(room, size, depth), farthest)))
           FAIL_CHECK(name, ", room ", room, ": ", beside / size, " beside a body");
       }
     }
@@ -241,13 +241,13 @@ TEST_CASE("our bodies and each other, on ODE's: a contact acts within the overla
                                    std::to_string(sample);
           ++pairs;
           if (lay(small, large, depth, sample < 2, beside, random))
-            check_places(small, large, name);
+            check_places(small, large, depth, name);
           else
             ++unknown;
           if (std::string(other.name) == "dTriMesh" && ratio > 30) continue;  // triangles far smaller than rounding of the pose
           ++pairs;
           if (lay(large_ours, small_other, depth, sample < 2, beside, random))
-            check_places(large_ours, small_other, name + " above");
+            check_places(large_ours, small_other, depth, name + " above");
           else
             ++unknown;
         }
@@ -271,7 +271,7 @@ TEST_CASE("our bodies on planes and heightfields: a contact acts within the over
           const bool is_known = lay(upper, lower, depth, sample < 10, above, random);
           REQUIRE((is_known || kIsSinglePrecision));
           if (!is_known) continue;
-          check_places(upper, lower, std::string(one.name) + " on " + floor.name + ", size " + std::to_string(size));
+          check_places(upper, lower, depth, std::string(one.name) + " on " + floor.name + ", size " + std::to_string(size));
         }
       }
     }
