@@ -1,10 +1,9 @@
-#include "midway_point.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "newton_step.hpp"
+#include "published_methods.hpp"
 
 namespace literature {
 namespace {
