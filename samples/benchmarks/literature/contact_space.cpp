@@ -1,10 +1,9 @@
-#include "contact_space.hpp"
-
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "published_methods.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "tangents.hpp"
 

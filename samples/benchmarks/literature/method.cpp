@@ -4,10 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "common_normal_angles.hpp"
-#include "common_normal_points.hpp"
-#include "contact_space.hpp"
-#include "midway_point.hpp"
+#include "published_methods.hpp"
 
 namespace literature {
 namespace {

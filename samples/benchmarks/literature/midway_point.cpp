@@ -1,10 +1,9 @@
-#include "midway_point.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "newton_step.hpp"
+#include "published_methods.hpp"
 
 namespace literature {
 namespace {
@@ -16,7 +15,7 @@ constexpr double kStageAccuracy = 1e-3;  // of all stages but the last, relative
 constexpr int kMostHalvings = 26;        // to a step of 1e-8, where the line search of Podlozhnyuk et al. ends
 
 /// A point, its multiplier mu, and the values there, in the frame of body 1.
-struct Iterate {
+struct MidwayIterate {
   Vector3 x;
   double mu;
   Implicit f1, f2;
@@ -27,9 +26,9 @@ class Newton {
  public:
   Newton(const Bodies& bodies, const Options& options) : bodies_(bodies), options_(options) {}
 
-  Iterate at(const Vector3& x, double mu) {
+  MidwayIterate at(const Vector3& x, double mu) {
     ++evaluations_;
-    Iterate result{x, mu, body1_.implicit(x), body2_.implicit(bodies_.in_body2(x)), {}};
+    MidwayIterate result{x, mu, body1_.implicit(x), body2_.implicit(bodies_.in_body2(x)), {}};
     result.f2.gradient = bodies_.rotation * result.f2.gradient;
     result.f2.hessian = bodies_.rotation * result.f2.hessian * bodies_.rotation.transpose();
     result.residual << result.f1.gradient + mu * mu * result.f2.gradient, result.f1.value - result.f2.value;
@@ -37,8 +36,8 @@ class Newton {
   }
 
   /// Uses the multiplier that makes both gradients equally long. It is 1 at the centre of body 2, where the gradient is 0.
-  Iterate at(const Vector3& x) {
-    Iterate result = at(x, 1);
+  MidwayIterate at(const Vector3& x) {
+    MidwayIterate result = at(x, 1);
     const double length2 = result.f2.gradient.norm();
     if (length2 > 0) result.mu = std::sqrt(result.f1.gradient.norm() / length2);
     result.residual.head<3>() = result.f1.gradient + result.mu * result.mu * result.f2.gradient;
@@ -53,7 +52,7 @@ class Newton {
 
   /// Whether Newton's method converges from x.
   bool solve(Vector3& x, double accuracy) {
-    Iterate now = at(x);
+    MidwayIterate now = at(x);
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
       if (options_.path != nullptr) options_.path->push_back((now.f1.gradient - now.f2.gradient).normalized());
       Eigen::Matrix4d jacobian;
@@ -63,7 +62,7 @@ class Newton {
       if (!found) return false;
       const Vector4& step = *found;
       const double moved = step.head<3>().norm();
-      Iterate next = at(now.x - step.head<3>(), now.mu - step[3]);
+      MidwayIterate next = at(now.x - step.head<3>(), now.mu - step[3]);
       double share = 1;
       const bool is_last = moved <= accuracy * bodies_.size();
       for (int k = 0; k < kMostHalvings && !is_last && !(next.residual.norm() < now.residual.norm()); ++k) {
@@ -93,7 +92,7 @@ class Newton {
   }
 
   CommonNormal answer(const Vector3& x) {
-    const Iterate there = at(x);
+    const MidwayIterate there = at(x);
     CommonNormal result;
     if (!there.residual.allFinite()) return result;
     result.outcome = Outcome::Apart;

@@ -1,12 +1,68 @@
-// The contact force between two overlapping bodies.
+// The contact force between two overlapping bodies: an elastic normal force, friction and rolling resistance.
 #pragma once
 
+#include <Eigen/Core>
+
 #include "kernel/body.hpp"
-#include "kernel/contact_history.hpp"
 #include "kernel/contact_material.hpp"
-#include "kernel/normal_force.hpp"
+#include "supernormal/contact/contact_curvature.hpp"
 
 namespace granular {
+
+/// The state of a slider: a spring and damper in series with friction, or with rolling resistance. Units: force and displacement,
+/// or torque and angle.
+struct SliderForce {
+  Vector3 force = Vector3::Zero();   ///< against the motion
+  Vector3 spring = Vector3::Zero();  ///< the remaining deflection
+  bool slips = false;                ///< whether the limit was reached
+};
+
+/// The force of a spring with the deflection `spring` and a damper with the velocity `rate`, at most `limit`. Beyond the limit the
+/// spring is shortened, so it pulls back as soon as the motion reverses.
+SliderForce slide(const Vector3& spring, const Vector3& rate, double stiffness, double damping, double limit);
+
+/// The history of a pair, in the world frame, for body 1.
+struct ContactHistory {
+  Vector3 normal = Vector3::Zero();   ///< of the last query, from body 1 to body 2; zero if there was none
+  Vector3 sliding = Vector3::Zero();  ///< m; deflection of the tangential spring
+  Vector3 rolling = Vector3::Zero();  ///< rad; deflection of the rolling spring
+  double stiffness = 0;               ///< N/m; of the tangential spring in the last step
+
+  static constexpr int kSize = 10;  ///< how many numbers store one history
+
+  bool has_normal() const { return normal != Vector3::Zero(); }
+  void release_springs() {
+    sliding.setZero();
+    rolling.setZero();
+    stiffness = 0;
+  }
+
+  /// Reads and writes a history as an array of numbers.
+  static ContactHistory load(const double* values) {
+    return {Vector3::Map(values), Vector3::Map(values + 3), Vector3::Map(values + 6), values[9]};
+  }
+  void store(double* values) const {
+    Vector3::Map(values) = normal;
+    Vector3::Map(values + 3) = sliding;
+    Vector3::Map(values + 6) = rolling;
+    values[9] = stiffness;
+  }
+};
+
+/// The state of a spring at some depth.
+struct NormalForce {
+  double force = 0;      ///< N
+  double stiffness = 0;  ///< N/m; derivative of the force by the depth
+  double energy = 0;     ///< J; integral of the force over the depth
+};
+
+/// Hooke's law.
+NormalForce hooke_force(const ContactMaterial& material, double depth);
+
+/// Hertz's law for a depth (m, > 0) and a relative curvature. The radius of flat faces is infinite. The force therefore grows no
+/// faster than under a flat punch of half the `width` (m), the mean half-extent of the smaller body.
+NormalForce hertz_force(const ContactMaterial& material, double depth, const supernormal::ContactCurvature& curvature,
+                        double width);
 
 /// The contact of two bodies, in the world frame.
 struct Contact {

@@ -175,15 +175,15 @@ Solid heightfield(double /*a*/) {
   return {owner, owner->geom, [](const Vec& p) { return -p[2]; }, 1e30};
 }
 
-/// The allowed distance of a contact from a geom, in sizes of the smaller one. With max_contacts above 1 there are manifold points.
-/// Both faces may be round there, and each leaves the plane by up to the largest reach.
-double largest_distance(int room) { return room == 1 ? 1e-6 : 2 * 0.07; }
+/// The allowed distance (m) of a contact from a geom. With max_contacts above 1 there are manifold points. Both faces may be round
+/// there, and each leaves the plane by up to the reach: 0.07 sizes of the smaller body, or the depth of the overlap if that is larger.
+double largest_distance(int room, double size, double depth) { return room == 1 ? 1e-6 * size : 2 * std::max(0.07 * size, depth); }
 
 /// m; the distance from the world's origin, of which a place has the rounding in single precision
 double distance(dGeomID geom) { return dGeomGetClass(geom) == dPlaneClass ? 0 : norm(to_vec(dGeomGetPosition(geom))); }
 
-/// Queries the contacts of a pair in both orders and checks their places.
-void check_places(const Solid& one, const Solid& other, const std::string& name) {
+/// Queries the contacts of a pair that overlaps by `depth` (m) in both orders and checks their places.
+void check_places(const Solid& one, const Solid& other, double depth, const std::string& name) {
   const double size = std::min(one.size, other.size);
   for (const int room : {1, 2, 3, 4, 8}) {
     for (const bool is_swapped : {false, true}) {
@@ -193,7 +193,7 @@ void check_places(const Solid& one, const Solid& other, const std::string& name)
         const Vec pos = to_vec(contact.pos);
         const double beside = std::max(-one.depth(pos), -other.depth(pos));
         const double farthest = norm(pos) + distance(one.geom) + distance(other.geom);
-        if (!(beside <= within_rounding(largest_distance(room) * size, farthest)))
+        if (!(beside <= within_rounding(largest_distance(room, size, depth), farthest)))
           FAIL_CHECK(name, ", room ", room, ": ", beside / size, " beside a body");
       }
     }
@@ -242,13 +242,13 @@ TEST_CASE("our bodies with each other and with ODE's geoms: a contact acts withi
                                    std::to_string(sample);
           ++pairs;
           if (lay(small, large, depth, sample < 2, beside, random))
-            check_places(small, large, name);
+            check_places(small, large, depth, name);
           else
             ++unknown;
           if (std::string(other.name) == "dTriMesh" && ratio > 30) continue;  // triangles far smaller than the rounding of the pose
           ++pairs;
           if (lay(large_ours, small_other, depth, sample < 2, beside, random))
-            check_places(large_ours, small_other, name + " above");
+            check_places(large_ours, small_other, depth, name + " above");
           else
             ++unknown;
         }
@@ -272,7 +272,7 @@ TEST_CASE("our bodies with planes and heightfields: a contact acts within the ov
           const bool is_known = lay(upper, lower, depth, sample < 10, above, random);
           REQUIRE((is_known || kIsSinglePrecision));
           if (!is_known) continue;
-          check_places(upper, lower, std::string(one.name) + " on " + floor.name + ", size " + std::to_string(size));
+          check_places(upper, lower, depth, std::string(one.name) + " on " + floor.name + ", size " + std::to_string(size));
         }
       }
     }

@@ -1,6 +1,5 @@
-#include "common_normal_points.hpp"
-
 #include "newton_step.hpp"
+#include "published_methods.hpp"
 #include "tangents.hpp"
 
 namespace literature {
@@ -43,6 +42,44 @@ CommonNormal common_normal_points(const Bodies& bodies, const Options& options, 
     const double accuracy = options.tolerance * bodies.size();
     if (step->norm() > accuracy) continue;
     return judged(bodies, p, n1.vector, bodies.rotation * q + bodies.offset, bodies.rotation * n2.vector, accuracy, evaluations);
+  }
+  return {.evaluations = evaluations};
+}
+
+CommonNormal common_normal_angles(const Bodies& bodies, const Options& options, Start start) {
+  int evaluations = 0;
+  std::array<Vector2, 2> angles = start_angles(bodies, options, start, evaluations);
+  Eigen::Vector4d residual;
+  Eigen::Matrix4d jacobian;
+  for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
+    const SurfacePoint surface1 = bodies.body1.surface(angles[0]);
+    const SurfacePoint surface2 = bodies.body2.surface(angles[1]);
+    ++evaluations;
+    const Normalized<2> n1(surface1.normal, surface1.normal_rate);
+    const Normalized<2> n2(surface2.normal, surface2.normal_rate);
+    if (options.path != nullptr) options.path->push_back(n1.vector);
+    const Tangents tangents = tangents_of(n2.vector);
+    const Vector3 point2 = bodies.rotation * surface2.point + bodies.offset;
+    const Vector3 d = point2 - surface1.point;
+    const Matrix32 d_rate = bodies.rotation * surface2.point_rate;  // by the angles of body 2
+    for (int k = 0; k < 2; ++k) {
+      const auto which = static_cast<std::size_t>(k);
+      const Vector3 t = bodies.rotation * tangents.tangent[which];
+      const Matrix32 t_rate = bodies.rotation * (tangents.rate[which] * n2.rate);
+      residual[k] = n1.vector.dot(t);
+      jacobian.block<1, 2>(k, 0) = t.transpose() * n1.rate;
+      jacobian.block<1, 2>(k, 2) = n1.vector.transpose() * t_rate;
+      residual[2 + k] = d.dot(t);
+      jacobian.block<1, 2>(2 + k, 0) = -t.transpose() * surface1.point_rate;
+      jacobian.block<1, 2>(2 + k, 2) = t.transpose() * d_rate + d.transpose() * t_rate;
+    }
+    const auto step = newton_step(jacobian, residual);
+    if (!step) break;
+    angles[0] -= step->head<2>();
+    angles[1] -= step->tail<2>();
+    if (step->norm() > options.tolerance) continue;
+    return judged(bodies, surface1.point, n1.vector, point2, bodies.rotation * n2.vector, options.tolerance * bodies.size(),
+                  evaluations);
   }
   return {.evaluations = evaluations};
 }

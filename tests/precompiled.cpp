@@ -1,0 +1,1 @@
+// The source of tests_precompiled, whose precompiled header the programs of tests share.
