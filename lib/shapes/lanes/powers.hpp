@@ -38,23 +38,25 @@ SUPERNORMAL_INLINE void log2_parts(Real<W> x, Real<W>& e, Real<W>& of_m) {
 // Adding 1.5 * 2^52 rounds to an integer, which then stands in the lowest bits.
 constexpr double kToInteger = 0x1.8p52;
 
-// Powers of two up to this are normal numbers, and products of two of their roots too.
-constexpr double kMostExponent = 1020;
+// 2^n is limited to this n, and 0 below the negative n. With lengths in [1e-30, 1e30] m, products with the other numbers remain
+// normal.
+constexpr double kMostExponent = 900;
 
-/// 2^(n + r) for an integer n, limited to [-1020, 1020], and |r| <= 1/2.
+/// 2^(n + r) for an integer n and |r| <= 1/2; 0 where n < -900, and n is limited to 900.
 template <int W>
 SUPERNORMAL_INLINE Real<W> exp2_parts(Real<W> n, Real<W> r) {
+  const Mask<W> is_zero = n < Real<W>(-kMostExponent);
   n = min(max(n, Real<W>(-kMostExponent)), Real<W>(kMostExponent));
   const Real<W> r2 = r * r, r4 = r2 * r2;
   const auto pair = [&r](int k) { return Real<W>(kExp2[k + 1]) * r + kExp2[k]; };
   const Real<W> high = pair(10) * r2 + pair(8), middle = pair(6) * r2 + pair(4);
   const Real<W> low = pair(2) * r2 + Real<W>(kExp2[1]) * r;
   const Real<W> polynomial = ((high * r4 + middle) * r4 + low) + kExp2[0];  // 1 comes last, so that it rounds but once
-  return from_bits(bits_of(polynomial) + (bits_of(n + kToInteger) << 52));
+  return select(is_zero, Real<W>(0.0), from_bits(bits_of(polynomial) + (bits_of(n + kToInteger) << 52)));
 }
 
-/// x^p for a positive normal number x and |p| <= 1000; limited to [2^-1020, 2^1020]. The relative error is a few units of rounding,
-/// and |p| more for the rounding of log2(m).
+/// x^p for a positive normal number x and |p| <= 1000; 0 below 2^-900, and limited to 2^900. The relative error is a few units of
+/// rounding, and |p| more for the rounding of log2(m).
 template <int W>
 SUPERNORMAL_INLINE Real<W> power(Real<W> x, Real<W> p) {
   Real<W> e, of_m;

@@ -20,7 +20,12 @@ def test_a_path_is_the_librarys_and_ends_at_its_answer(sample_pairs, solver):
     for pair in sample_pairs:
         settings = sn.Settings(solver=solver)
         answer, path = solver_path(pair, settings)
-        assert answer == pair.find(sn.find_proximity, settings)  # to be recorded changes no digit
+        direct = pair.find(sn.find_proximity, settings)
+        if solver == sn.Solver.HYBRID:  # which takes its first steps in vector lanes
+            assert (answer.status, answer.is_global) == (direct.status, direct.is_global)
+            assert abs(answer.gap - direct.gap) <= answer.error + direct.error
+        else:
+            assert answer == direct  # to be recorded changes no digit
         assert len(path) == path.evaluations == answer.evaluations
         # The answer is one of the evaluations. For the solvers without a safeguard the others are for the contact's place.
         is_answer = (np.linalg.norm(path.normals - answer.normal, axis=1) < ROUNDING) & (
