@@ -6,7 +6,9 @@
 namespace supernormal {
 
 Ellipsoid::Ellipsoid(const Vector3& half_axes)
-    : half_axes_(require_half_axes(half_axes)), squares_(half_axes.cwiseProduct(half_axes)), numbers_(make_lane_body(*this, half_axes, 2, 2)) {}
+    : half_axes_(require_half_axes(half_axes)),
+      squares_(half_axes.cwiseProduct(half_axes)),
+      numbers_(make_lane_body(*this, half_axes, 2, 2)) {}
 
 double Ellipsoid::rolling_radius() const {
   const double smallest = half_axes_.minCoeff();

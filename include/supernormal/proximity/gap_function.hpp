@@ -37,10 +37,10 @@ class SUPERNORMAL_API GapFunction {
 
   int evaluations() const { return evaluations_; }  ///< how often evaluate() was called, and what was counted before
   void count_earlier(int evaluations) { evaluations_ += evaluations; }  ///< counts evaluations that were made elsewhere
-  const Shape& shape1() const { return *shape1_; }         ///< body 1
-  const Shape& shape2() const { return *shape2_; }         ///< body 2
-  const ShapeTraits& traits1() const { return traits1_; }  ///< of body 1
-  const ShapeTraits& traits2() const { return traits2_; }  ///< of body 2
+  const Shape& shape1() const { return *shape1_; }                      ///< body 1
+  const Shape& shape2() const { return *shape2_; }                      ///< body 2
+  const ShapeTraits& traits1() const { return traits1_; }               ///< of body 1
+  const ShapeTraits& traits2() const { return traits2_; }               ///< of body 2
 
   /// Centre 2 - centre 1, m, in body 1's frame.
   const Vector3& offset() const { return offset_; }

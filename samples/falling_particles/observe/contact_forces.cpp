@@ -52,8 +52,9 @@ MeasurementKind contact_forces_kind() {
           .source = "feedback of ODE's contact joints",
           .needs_contacts = true,
           .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
-            return [region = SamplingRegion(table, scene, SamplingRegion::Without::Everywhere)](
-                       const World& world) { return std::make_unique<ContactForces>(region, surfaces_of(world)); };
+            return [region = SamplingRegion(table, scene, SamplingRegion::Without::Everywhere)](const World& world) {
+              return std::make_unique<ContactForces>(region, surfaces_of(world));
+            };
           }};
 }
 

@@ -176,7 +176,8 @@ Solid heightfield(double /*a*/) {
 }
 
 /// The allowed distance (m) of a contact from a geom. With max_contacts above 1 there are manifold points. Both faces may be round
-/// there, and each leaves the plane by up to the reach: 0.07 sizes of the smaller body, or the depth of the overlap if that is larger.
+/// there, and each leaves the plane by up to the reach: 0.07 sizes of the smaller body, or the depth of the overlap if that is
+/// larger.
 double largest_distance(int room, double size, double depth) { return room == 1 ? 1e-6 * size : 2 * std::max(0.07 * size, depth); }
 
 /// m; the distance from the world's origin, of which a place has the rounding in single precision
