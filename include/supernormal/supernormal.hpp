@@ -6,19 +6,21 @@
 ///                  LinearImage; your own as a class derived from Shape, or as a CallbackShape
 ///     two bodies   find_proximity(): signed distance, common normal, witness points, contact point; certify_depth proves the
 ///                  depth. A Sphere of radius 0 is a point, a Polytope of three points a triangle
+///     many pairs   find_proximities(): the same answers; many ellipsoids and superellipsoids together cost less
 ///     others       find_plane_proximity(), find_ray_hit(), find_ray_proximity(), MeshContacts, find_nearest_triangle()
 ///     in motion    find_time_of_impact(), find_plane_time_of_impact(), find_mesh_time_of_impact(): when bodies meet; pose_at()
 ///     contacts     find_contact_manifold(), find_plane_contact_manifold(), draw_in_corners(), reduced_to(); hertz_correction(),
 ///                  hertz_damping_ratio()
 ///     ahead        find_contacts_ahead(), find_plane_contacts_ahead(), MeshContactsAhead: contacts of bodies that will meet;
 ///                  find_manifold_of_gaps(), find_plane_manifold_of_gaps(), nearness(), reach_towards()
-///     one body     find_bounding_box(), Shape::mass_properties(), Shape::point(), find_curvature(), projected_area(), tessellate()
+///     one body     find_bounding_box(), Shape::mass_properties(), Shape::point(), find_curvature(), find_contact_curvature(),
+///                  projected_area(), surface_area(), tessellate()
 ///
 /// Units and frames: lengths are in m, or in any other unit that is used throughout. x_world = rotation x_body + position. Normals
 /// are unit vectors and point from body 1 to body 2. A gap is positive if the bodies are apart, and negative if they overlap.
 ///
 /// Errors: a constructor refuses bad parameters with std::invalid_argument, whose text contains the parameter, its value and the
-/// valid range. Nothing is clamped. A query only throws if settings are out of range. It reports all other problems, such as
+/// valid range. Nothing is clamped. A query only throws if settings are out of range or spans differ in length. It reports all other problems, such as
 /// numbers that are not finite or a limit reached, in Proximity::status.
 ///
 /// Threads and memory: shapes and functions have no state, so any number of threads may use them at once. Queries allocate nothing,

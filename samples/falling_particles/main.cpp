@@ -31,7 +31,7 @@ constexpr const char* kFooter =
     "Writes OUT/<scene>/trajectory.csv, energies.csv, state.csv, summary.toml, of a hopper discharge.csv, of a packing\n"
     "compression.csv, of parts that move parts.csv, of feeders and sinks feeders.csv and sinks.csv, and the pictures that the "
     "scene\n"
-    "asks for, view.html, scene.glb and a plot of each table if it does not say; until the end they are in "
+    "asks for, view.html, scene.glb and plots of tables if it does not say; until the end they are in "
     "OUT/<scene>.unfinished-1. If the run is killed the tables stay\n"
     "there, up to the last frame, until the next run of the scene; with --checkpoint-every, --resume goes on from there.\n"
     "Exit code: 0 done; 1 failed (disk full, say, or stdout closed): results of an earlier run stay unless there are new ones;\n"
