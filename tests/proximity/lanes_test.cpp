@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "proximity/lanes/lane_query.hpp"
@@ -156,6 +157,22 @@ TEST_CASE("lanes read no number that was not set") {
         find_in_lanes({many.queries().data() + first, 5}, {}, *kernels.kernels[k], answers);
         return answers[2];
       }));
+    }
+  }
+}
+
+TEST_CASE("lanes: sizes and distances at the ends of the range raise no exception") {
+  const Superellipsoid huge(Vector3::Constant(1e30), 2, 1.1), tiny(Vector3::Constant(1e-30), 1.1, 2);
+  RandomBodies random(random_kinds().front(), 5);
+  const Traps traps("ends of the range");
+  for (int k = 0; k < 200; ++k) {
+    const Pose here{Vector3::Zero(), random.draw_apart().pose2.rotation};
+    const Vector3 direction = random.draw_apart().pose2.rotation.col(0);
+    const Pose there{(k % 2 == 0 ? 5e149 : 1e30) * direction, random.draw_apart().pose2.rotation};
+    for (const auto& [one, other] : {std::pair(&huge, &tiny), std::pair(&tiny, &huge), std::pair(&tiny, &tiny)}) {
+      CHECK(std::isfinite(find_proximity(*one, here, *other, there).gap));
+      const Vector3 normal = Vector3::UnitY();
+      CHECK(std::isfinite(find_proximity(*one, here, *other, there, {}, &normal).gap));
     }
   }
 }

@@ -349,15 +349,15 @@ struct LaneSearch {
 
   /// The pairs in search, one a lane.
   struct Lanes {
-    Table<kFields, W>& state;
-    Table<kFoundFields, W>& found;
     Table<3, W> best_normal, step;
     alignas(8 * W) double best_s[W];
     alignas(8 * W) double best_at[W];  // the evaluation of the best normal
     alignas(8 * W) double evaluations[W];
     alignas(8 * W) double is_active[W];  // 1 or 0
-    int pair[W];                         // of the chunk
     double cuts[W][kMostLaneEvaluations][3];
+    Table<kFields, W>& state;
+    Table<kFoundFields, W>& found;
+    int pair[W];  // of the chunk
 
     SUPERNORMAL_INLINE void load_pair(int lane, const Pairs& pairs, int index, int fields) {
       if constexpr (W > 1) {
@@ -470,10 +470,10 @@ struct LaneSearch {
     Table<kFoundFields, W> own_found;
     Lanes lanes = [&]() -> Lanes {
       if constexpr (W == 1) {
-        return {pairs, ends, {}, {}, {}, {}, {}, {}, {}, {}};
+        return {{}, {}, {}, {}, {}, {}, {}, pairs, ends, {}};
       } else {
         own_found = {};
-        return {own_state, own_found, {}, {}, {}, {}, {}, {}, {}, {}};
+        return {{}, {}, {}, {}, {}, {}, {}, own_state, own_found, {}};
       }
     }();
     int next = 0, active = 0;
@@ -553,7 +553,9 @@ struct LaneSearch {
     const R s = ends.at(kFoundS, column), unit_length = pairs.at(kUnit, column);
     const Regular sum(ends.sym(kFoundHessian, column), R(0.0), n, unit_length, kLaneFlatContact);
     const V across = d - n * s;
-    const V from_point1 = ends.sym(kFoundHessian1, column) * sum.solve(across);
+    // Where the sum is not regular, the radii may be of any size, and a product with them out of range.
+    const V along = select(sum.is_regular, across, V{R(0.0), R(0.0), R(0.0)});
+    const V from_point1 = ends.sym(kFoundHessian1, column) * sum.solve(along);
     const V shift = from_point1 - n * dot(from_point1, n) - across * R(0.5);
     const R half_distance = length(across) * R(0.5), distance = length(shift);
     const R limit = half_distance + min(radii.size1, radii.size2) * R(2.0);
@@ -582,7 +584,7 @@ struct LaneSearch {
     const V to_centre1 = contact - (r1 - n * radii.rolling1), to_centre2 = contact - (r1 + d + n * radii.rolling2);
     const M is_in_balls = (length(to_centre1) <= radii.rolling1 + near) & (length(to_centre2) <= radii.rolling2 + near);
     // That a point is in both bodies also proves that they overlap where a maximum is followed.
-    const M is_open = wanted & is_good & (s < R(0.0)) & (is_followed | ~is_in_balls);
+    const M is_open = wanted & is_good & (s <= R(0.0)) & (is_followed | ~is_in_balls);
     if (any(is_open)) {
       const Mat<R> rotation = {pairs.vec(kRotation, column), pairs.vec(kRotation + 3, column), pairs.vec(kRotation + 6, column)};
       const V from2 = transposed_times(rotation, contact - pairs.vec(kOffset, column));
