@@ -259,7 +259,7 @@ struct LaneSearch {
     }
     SUPERNORMAL_INLINE void put_body2(Table<kFoundFields, W>&) const {}  // evaluated anew where it is needed
     /// A step in the normal is the best for round bodies.
-    SUPERNORMAL_INLINE void improve(V, V, const Evaluation&, const Regular&, M, V&) const {}
+    SUPERNORMAL_INLINE M improve(V, V, const Evaluation&, const Regular&, M, V&) const { return R(1.0) < R(0.0); }
     SUPERNORMAL_INLINE M has_flat_faces() const { return R(1.0) < R(0.0); }
   };
 
@@ -307,9 +307,10 @@ struct LaneSearch {
     SUPERNORMAL_INLINE M is_flat(int gauges) const { return (R(1.0) < state.at(gauges)) & (R(1.0) < state.at(gauges + 2)); }
 
     /// The tilts beyond n + step and m - step of the normals at the boundary points to which the step leads
-    /// (CertifiedNewton::through_boundary_points). Zero for a body that is not flat, and where the normal rotates too far. For a
-    /// body with one flat norm and one sharp norm the step in the normal takes 8 % more evaluations, and each costs 20 % less.
-    SUPERNORMAL_INLINE void tilts(V n, V m, V step1, V step2, V& tilt1, V& tilt2) const {
+    /// (CertifiedNewton::through_boundary_points). Zero for a body that is not flat. For a body with one flat norm and one sharp
+    /// norm the step in the normal takes 8 % more evaluations, and each costs 20 % less. Returns the pairs that have no such step:
+    /// the normal of a flat body would rotate too far.
+    SUPERNORMAL_INLINE M tilts(V n, V m, V step1, V step2, V& tilt1, V& tilt2) const {
       const Vec<P> normal = {{n.x, m.x}, {n.y, m.y}, {n.z, m.z}}, dn = {{step1.x, step2.x}, {step1.y, step2.y}, {step1.z, step2.z}};
       const Sym<P> H = {{H1.xx, H2.xx}, {H1.yy, H2.yy}, {H1.zz, H2.zz}, {H1.xy, H2.xy}, {H1.xz, H2.xz}, {H1.yz, H2.yz}};
       const Vec<P> target = jets.r + H * dn;
@@ -327,23 +328,26 @@ struct LaneSearch {
       const V none = {R(0.0), R(0.0), R(0.0)};
       tilt1 = select(is_flat(kGauges1) & is_ahead.a, V{tilt.x.a, tilt.y.a, tilt.z.a}, none);
       tilt2 = select(is_flat(kGauges2) & is_ahead.b, V{tilt.x.b, tilt.y.b, tilt.z.b}, none);
+      return (is_flat(kGauges1) & ~is_ahead.a) | (is_flat(kGauges2) & ~is_ahead.b);
     }
 
-    /// Replaces Newton's step in the normal by one through the boundary points, for the wanted pairs with flat faces.
-    SUPERNORMAL_INLINE void improve(V n, V m, const Evaluation& now, const Regular& regular, M wanted, V& step) const {
+    /// Replaces Newton's step in the normal by one through the boundary points, for the wanted pairs with flat faces. Returns the
+    /// pairs that have no such step.
+    SUPERNORMAL_INLINE M improve(V n, V m, const Evaluation& now, const Regular& regular, M wanted, V& step) const {
       const auto is_less = [](V tilt, V normal) {
         return (abs(tilt.x) <= abs(normal.x) * kTuning.same_tilt) & (abs(tilt.y) <= abs(normal.y) * kTuning.same_tilt) &
                (abs(tilt.z) <= abs(normal.z) * kTuning.same_tilt);
       };
       const V step2 = -transposed_times(rotation, step);
-      const M open = wanted & (has_flat_faces()) & ~(is_less(step, n) & is_less(step2, m));
-      if (!any(open)) return;
+      const M open = wanted & (is_flat(kGauges1) | is_flat(kGauges2)) & ~(is_less(step, n) & is_less(step2, m));
+      if (!any(open)) return open;
       // A step that is not regular may be of any length.
       const V none = {R(0.0), R(0.0), R(0.0)};
       V tilt1, tilt2;
-      tilts(n, m, select(open, step, none), select(open, step2, none), tilt1, tilt2);
+      const M is_lost = open & tilts(n, m, select(open, step, none), select(open, step2, none), tilt1, tilt2);
       const V through = step + regular.solve(H1 * tilt1 - rotated2 * (rotation * tilt2));
       step = select(open & (R(0.0) < dot(now.d, through)), through, step);
+      return is_lost;
     }
   };
 
@@ -441,13 +445,13 @@ struct LaneSearch {
     round.is_followed =
         goes_on & is_better & may_follow & regular.is_regular & (twice_gain * R(0.5 * kTuning.gain_safety) <= tolerance);
     goes_on = goes_on & ~round.is_followed;
-    bodies.improve(n, m, now, regular, goes_on & is_better & regular.is_regular, step);
+    const M is_lost = bodies.improve(n, m, now, regular, goes_on & is_better & regular.is_regular, step);
     const M gains = tolerance < dot(now.d, step);
     // A face is level: no shorter step leads higher.
     const M is_level = bodies.has_flat_faces() & (best_s - state.at(kRounding) <= now.s);
     const M is_last = R(settings.most_evaluations - 1.5) < evaluations;
     const M is_stuck =
-        (is_better & (~regular.is_regular | ~(is_provable | may_follow | gains))) | (~is_better & is_level) | is_last;
+        is_lost | (is_better & (~regular.is_regular | ~(is_provable | may_follow | gains))) | (~is_better & is_level) | is_last;
     round.is_open = round.is_open | (goes_on & is_stuck);
     goes_on = goes_on & ~is_stuck;
 
