@@ -20,8 +20,8 @@
 /// are unit vectors and point from body 1 to body 2. A gap is positive if the bodies are apart, and negative if they overlap.
 ///
 /// Errors: a constructor refuses bad parameters with std::invalid_argument, whose text contains the parameter, its value and the
-/// valid range. Nothing is clamped. A query only throws if settings are out of range or spans differ in length. It reports all other problems, such as
-/// numbers that are not finite or a limit reached, in Proximity::status.
+/// valid range. Nothing is clamped. A query only throws if settings are out of range or spans differ in length. It reports all
+/// other problems, such as numbers that are not finite or a limit reached, in Proximity::status.
 ///
 /// Threads and memory: shapes and functions have no state, so any number of threads may use them at once. Queries allocate nothing,
 /// except scratch memory that each thread keeps for deep overlaps and that grows with the first of them. MeshContacts and

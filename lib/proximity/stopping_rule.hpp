@@ -9,8 +9,8 @@
 namespace supernormal {
 
 /// What every loop of a query asks before it goes on: here errors are compared with the tolerance, evaluations with their limit,
-/// and Settings::stop_when_apart is heeded. Only the lanes have their own comparisons (lanes/certified_newton_lanes.hpp). The loops differ in the error that they offer; lib/proximity/README.md says
-/// which errors are proved.
+/// and Settings::stop_when_apart is heeded. Only the lanes have their own comparisons (lanes/certified_newton_lanes.hpp). The loops
+/// differ in the error that they offer; lib/proximity/README.md says which errors are proved.
 class StoppingRule {
  public:
   /// Keeps a reference to `gap`, whose evaluations count. The tolerance is Settings::tolerance times GapFunction::length_unit(),
