@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -15,8 +16,9 @@ namespace supernormal {
 namespace {
 
 // If the origin is on a face, an edge or a vertex of the hull of the known points, the search continues around a point beside the
-// origin. The point is this vector, in units of the rounding error of s. The bound grows by its length.
-const Vector3 kBeside(7, 11, 9);
+// origin: the first of these vectors, in units of the rounding error of s, that is on none. The bound grows by its length. A round
+// body's point in the direction of one vector is in the plane of this vector and an edge, so the next vector is needed.
+const std::array<Vector3, 3> kBeside = {Vector3(7, 11, 9), Vector3(-11, 9, 7), Vector3(9, 7, -11)};
 
 }  // namespace
 
@@ -57,26 +59,28 @@ bool ExpandingPolytope::run(const SearchLimits& limits, GapJet& best, double& er
 // GJK: if the hull of the known points does not contain the origin, the next normal is the direction of the hull's nearest point.
 bool ExpandingPolytope::enclose_origin() {
   Vector3 centre = Vector3::Zero();
+  std::size_t moves = 0;  // of the centre
   while (!is_apart()) {
     std::array<Vector3, CuttingPlanes::kCapacity> shifted;
     // The centre is no vertex: in symmetric poses the origin is on the line between the centre and a boundary point.
     const std::span<const Vector3> boundary = cuts_.boundary_points(), points(shifted.data(), boundary.size());
     for (std::size_t k = 0; k < points.size(); ++k) shifted[k] = boundary[k] - centre;
-    const MinimumNormPoint nearest = minimum_norm_point(points);
-    if (nearest.norm == 0) {
-      const std::optional<std::array<Vector3, 4>> around = enclosing_tetrahedron(points);
-      if (around && polytope_.start(*around, centre)) break;
-    }
-    const bool is_beside = !centre.isZero(0);
-    if (nearest.norm <= (is_beside ? 0 : gap_.rounding())) {
-      if (is_beside) return false;
-      centre = gap_.rounding() * kBeside;
+    MinimumNormSearch search;
+    const MinimumNormPoint nearest = search.update(points);
+    if (search.around() && polytope_.start(*search.around(), centre)) break;
+    if (nearest.norm <= gap_.rounding()) {
+      if (moves == kBeside.size()) return false;
+      centre = gap_.rounding() * kBeside[moves++];
       continue;
     }
     if (!may_continue()) return false;
     cuts_.keep_lowest_at(nearest.normal);
+    const std::span<const Vector3> triangle = search.simplex();
     const Vector3 point = evaluate(nearest.normal) - centre;
     climb_if_higher();
+    // The triangle of a thin body may pass nearer to the centre than the determinants of the search resolve. The heights of the
+    // polytope's facets have more digits.
+    if (triangle.size() == 3 && polytope_.start({triangle[0], triangle[1], triangle[2], point}, centre)) break;
     if (!(nearest.normal.dot(point) < nearest.norm - gap_.rounding())) return false;
   }
   if (is_apart()) return false;

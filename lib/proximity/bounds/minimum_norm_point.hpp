@@ -29,6 +29,9 @@ class MinimumNormSearch {
   /// more. If the last simplex does not help, the search starts anew.
   const MinimumNormPoint& update(std::span<const Vector3> points);
 
+  /// The vertices whose hull has the nearest point in its interior: one, two or three.
+  std::span<const Vector3> simplex() const { return {vertices_.data(), count_}; }
+
   /// The tetrahedron that contains the origin inside, if the search found one.
   const std::optional<std::array<Vector3, 4>>& around() const { return around_; }
 

@@ -224,3 +224,26 @@ TEST_CASE("bodies that pass through one another keep their normal until another 
     }
   }
 }
+
+TEST_CASE("thin bodies on one another, whose known points are in planes with the centre: the depth is certified") {
+  Settings settings;
+  settings.certify_depth = true;
+  settings.max_evaluations = 2000;
+  for (const double thickness : {1e-4, 1e-3, 1e-2, 0.1}) {
+    for (const double delta : {1.5, 2.0, 8.0}) {
+      const Superellipsoid coin({1, 1, thickness}, delta, 20);
+      for (const double beside : {0.0, 0.05, 0.1, 0.2, 0.3, 0.5}) {
+        for (const double height : {0.5, 1.0, 1.5, 1.9}) {
+          const Pose pose2{{beside, 0, height * thickness}, Matrix3::Identity()};
+          const Proximity found = find_proximity(coin, {}, coin, pose2, settings);
+          CAPTURE(thickness);
+          CAPTURE(delta);
+          CAPTURE(beside);
+          CAPTURE(height);
+          CHECK(found.is_global);
+          CHECK(found.gap == relative((height - 2) * thickness).epsilon(1e-9));
+        }
+      }
+    }
+  }
+}
