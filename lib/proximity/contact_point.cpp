@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "proximity/limits.hpp"
 #include "proximity/local/local_model.hpp"
 #include "proximity/local/piecewise_model.hpp"
 #include "proximity/local/regular_hessian.hpp"
@@ -12,13 +13,8 @@
 namespace supernormal {
 namespace {
 
-// In units of the pair's length: beyond this, a radius of curvature drowns the radii across it, unless the basis is aligned with
-// it.
-constexpr double kFlat = 1e4;
-
-// In units of the pair's length, or the tolerance if that is larger. Within kNear of a body a contact counts as a point of it.
-// Points of tilted normals may be kDeepest below the tangent plane.
-constexpr double kNear = 1e-7;
+// In units of the pair's length, or the tolerance if that is larger: points of tilted normals may be this far below the tangent
+// plane.
 constexpr double kDeepest = 1e-6;
 
 // The tilt of a normal is kTilt times the possible error of the gap, over the distance that is left. A smaller tilt might not reach
@@ -157,7 +153,7 @@ Vector3 contact_between(const GapFunction& gap, const GapJet& jet) {
   if (!gap.has_hessian()) return contact_of_balls(gap, jet);
   const Vector3 middle = jet.jet1.r + 0.5 * jet.d;
   const Matrix3 H2 = gap.rotation() * jet.jet2.H * gap.rotation().transpose();
-  const RegularHessian sum(jet.jet1.H + H2, 0, jet.n, gap.length_unit(), kFlat);
+  const RegularHessian sum(jet.jet1.H + H2, 0, jet.n, gap.length_unit(), limits::kFlatContact);
   if (sum.is_regular()) {
     const Vector3 across = jet.d - jet.s * jet.n;
     // from_point1 is H1 times the tilt of the normal that would bring both points together: the displacement of point 1. At a sharp
@@ -170,7 +166,7 @@ Vector3 contact_between(const GapFunction& gap, const GapJet& jet) {
 }
 
 Vector3 contact_point(GapFunction& gap, const GapJet& jet, const StoppingRule& rule, std::span<const WitnessPair> beside) {
-  const double near = std::max(kNear * gap.length_unit(), rule.tolerance());
+  const double near = std::max(limits::kNear * gap.length_unit(), rule.tolerance());
   Place place{contact_between(gap, jet), jet.jet1.r - gap.shape1().rolling_radius() * jet.n,
               jet.jet1.r + jet.d + gap.shape2().rolling_radius() * jet.n};
   // Where one body is round, the sharper body's own point is the best.

@@ -4,16 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "proximity/limits.hpp"
 #include "shapes/finite.hpp"
 #include "shapes/superellipsoid_batch.hpp"
 
 namespace supernormal {
 namespace {
-
-// Rounding error of s in units of the last place of its terms. Each support function is accurate to a few units, and the sum adds a
-// few. The rotation and the normal are rounded too, which moves body 2's boundary point in proportion to its distance from the
-// origin.
-constexpr double kRoundingUnits = 8;
 
 double smallest_half_extent(const Vector3& half_extents1, const Vector3& half_extents2) {
   const double smallest1 = half_extents1.minCoeff();
@@ -36,7 +32,7 @@ GapFunction::GapFunction(const Shape& shape1, const Pose& pose1, const Shape& sh
   const Vector3 half1 = shape1.half_extents();
   const Vector3 half2 = shape2.half_extents();
   length_unit_ = smallest_half_extent(half1, half2);
-  rounding_ = kRoundingUnits * std::numeric_limits<double>::epsilon() *
+  rounding_ = limits::kRoundingUnits * std::numeric_limits<double>::epsilon() *
               (offset_.norm() + shape1.bounding_radius() + shape2.bounding_radius());
 }
 

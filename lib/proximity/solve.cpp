@@ -1,6 +1,5 @@
 #include "supernormal/proximity/solve.hpp"
 
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -92,30 +91,18 @@ void find_proximities(std::span<const ProximityQuery> queries, const Settings& s
                                 std::to_string(queries.size()) + " queries");
   }
   const LaneKernels& kernels = lane_kernels();
-  const LaneKernel& widest = *kernels.kernels[kernels.count - 1];
-  constexpr std::size_t kAtOnce = 64;
-  std::array<ProximityQuery, kAtOnce> in_lanes;
-  std::array<Proximity, kAtOnce> answers;
-  std::array<std::size_t, kAtOnce> which;
-  std::size_t count = 0;
-  const auto run = [&] {
-    find_in_lanes({in_lanes.data(), count}, settings, widest, {answers.data(), count});
-    for (std::size_t k = 0; k < count; ++k) results[which[k]] = answers[k];
-    count = 0;
-  };
+  LaneBatch in_lanes(settings, *kernels.kernels[kernels.count - 1], results);
   for (std::size_t k = 0; k < queries.size(); ++k) {
-    const auto& [shape1, pose1, shape2, pose2, first_normal] = queries[k];
-    const bool is_for = is_for_lanes(*shape1, *shape2, settings) && is_usable(*pose1) && is_usable(*pose2);
-    if (!is_for) {
-      results[k] = find_proximity(*shape1, *pose1, *shape2, *pose2, settings, first_normal);
-      continue;
+    ProximityQuery query = queries[k];
+    const bool is_usable_pair = is_usable(*query.pose1) && is_usable(*query.pose2);
+    if (is_usable_pair && is_for_lanes(*query.shape1, *query.shape2, settings)) {
+      if (query.first_normal != nullptr && !is_usable(*query.first_normal)) query.first_normal = nullptr;
+      in_lanes.add(query, k);
+    } else {
+      results[k] = find_proximity(query, settings);
     }
-    which[count] = k;
-    in_lanes[count] = queries[k];
-    if (first_normal != nullptr && !is_usable(*first_normal)) in_lanes[count].first_normal = nullptr;
-    if (++count == kAtOnce) run();
   }
-  if (count > 0) run();
+  in_lanes.solve_rest();
 }
 
 }  // namespace supernormal

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "shapes/lanes/superellipsoid_jet.hpp"
 #include "supernormal/shapes/shape.hpp"
@@ -10,15 +9,10 @@
 namespace supernormal {
 namespace {
 
-// For p < 2 the second derivative is unbounded as k -> 0 (a flat face). Below this ratio it stays constant. That value exceeds any
-// relevant radius of curvature, and a product of two such numbers is still in range.
-constexpr double kFlatRatio = kLanesFlatRatio;
-
-// The least ratio of plain numbers. The ratio of any two of the three numbers is then well above kFlatRatio.
+// The least ratio of plain numbers. The ratio of any two of the three numbers is then well above kLanesFlatRatio.
 constexpr double kPlainRatio = 1e-50;
 
-/// k^e of a ratio in [0, 1], for e > 0.
-double power_of(double k, double e) { return k > 0 ? power(Real<1>(std::max(k, kLanesLeastRatio)), Real<1>(e)).v : 0; }
+double power_of(double k, double e) { return ratio_power(Real<1>(k), Real<1>(e)).v; }
 
 /// sum^inverse_p of a number in [1, 4).
 double root_of(double sum, double inverse_p) { return root(Real<1>(sum), Real<1>(inverse_p)).v; }
@@ -26,7 +20,7 @@ double root_of(double sum, double inverse_p) { return root(Real<1>(sum), Real<1>
 }  // namespace
 
 PowerNorm::PowerNorm(double p, double p_minus_1, double inverse_p)
-    : p_minus_1_(p_minus_1), inverse_p_(inverse_p), is_euclidean_(p == 2) {}
+    : p_minus_1_(p_minus_1), inverse_p_(inverse_p), flat_power_(flat_power(p_minus_1)), is_euclidean_(p == 2) {}
 
 PowerNorm PowerNorm::of_exponent(double exponent) { return {exponent, exponent - 1, 1 / exponent}; }
 
@@ -36,28 +30,33 @@ PowerNorm PowerNorm::dual_to_exponent(double exponent) {
 
 template <std::size_t kCount>
 void PowerNorm::evaluate_requests(std::array<PowerNormRequest, kCount>& requests, Order order) {
-  std::array<Ratio, kCount> f;
-  for (std::size_t i = 0; i < kCount; ++i) {
-    const auto& [norm, x, y, jet] = requests[i];
-    f[i].x_is_larger = x > y;
-    f[i].larger = x > y ? x : y;
-    f[i].k = f[i].larger > 0 ? (x > y ? y : x) / f[i].larger : 1;
-  }
+  std::array<Ratio<Real<1>>, kCount> ratio;
+  std::array<Real<1>, kCount> sum, root;
+  for (std::size_t i = 0; i < kCount; ++i) ratio[i] = ratio_of(Real<1>(requests[i].x), Real<1>(requests[i].y));
   // Each step of all norms before the next step of one: the steps of a norm wait for each other.
   for (std::size_t i = 0; i < kCount; ++i) {
     const PowerNorm& norm = *requests[i].norm;
-    f[i].power_1 = norm.is_euclidean_ ? f[i].k : power_of(f[i].k, norm.p_minus_1_);
-    f[i].sum = 1 + f[i].power_1 * f[i].k;
+    ratio[i].power_1 = norm.is_euclidean_ ? ratio[i].k : ratio_power(ratio[i].k, Real<1>(norm.p_minus_1_));
+    sum[i] = ratio[i].power_1 * ratio[i].k + 1.0;
   }
   for (std::size_t i = 0; i < kCount; ++i) {
     const PowerNorm& norm = *requests[i].norm;
-    f[i].root = norm.is_euclidean_ ? std::sqrt(f[i].sum) : root_of(f[i].sum, norm.inverse_p_);
+    root[i] = norm.is_euclidean_ ? std::sqrt(sum[i].v) : root_of(sum[i].v, norm.inverse_p_);
   }
   for (std::size_t i = 0; i < kCount; ++i) {
-    PowerNormRequest& request = requests[i];
-    request.jet.value = f[i].larger * f[i].root;
-    if (order == Order::Point) request.norm->differentiate(f[i], request.jet);
-    if (order == Order::Hessian) request.norm->differentiate_twice(f[i], request.jet);
+    const auto& [norm, x, y, result] = requests[i];
+    PowerNormJet& jet = requests[i].jet;
+    const NormJet<Real<1>> found = norm_from(ratio[i], sum[i], root[i]);
+    jet.value = found.value.v;
+    if (order == Order::Value) continue;
+    jet.dx = found.dx.v;
+    jet.dy = found.dy.v;
+    if (order == Order::Point) continue;
+    const NormBends<Real<1>> bends = norm_bends(found, {norm->p_minus_1_, norm->inverse_p_}, Real<1>(norm->flat_power_));
+    jet.dx_over_x = bends.dx_over_x.v;
+    jet.xx = bends.xx.v;
+    jet.xy = bends.xy.v;
+    jet.yy = bends.yy.v;
   }
 }
 
@@ -103,29 +102,6 @@ void PowerNorm::evaluate_requests(std::array<PowerNorm3Request, kCount>& request
 template void PowerNorm::evaluate_requests(std::array<PowerNorm3Request, 1>& requests, Order order);
 template void PowerNorm::evaluate_requests(std::array<PowerNorm3Request, 2>& requests, Order order);
 template void PowerNorm::evaluate_requests(std::array<PowerNorm3Request, 4>& requests, Order order);
-
-void PowerNorm::differentiate(const Ratio& f, PowerNormJet& jet) const {
-  jet.dx = f.root / f.sum;
-  jet.dy = jet.dx * f.power_1;
-  if (!f.x_is_larger) std::swap(jet.dx, jet.dy);
-}
-
-void PowerNorm::differentiate_twice(const Ratio& f, PowerNormJet& jet) const {
-  // The derivatives are in the order (larger, smaller). power_2 is k^(p-2).
-  const double d_larger = f.root / f.sum;
-  const double power_2 = f.k > kFlatRatio ? f.power_1 / f.k : power(Real<1>(kFlatRatio), Real<1>(p_minus_1_ - 1)).v;
-  jet.dx = d_larger;
-  jet.dy = d_larger * f.power_1;
-  jet.dx_over_x = d_larger * f.root * (f.x_is_larger ? 1 : power_2);
-  const double scale = p_minus_1_ * d_larger * d_larger;
-  jet.xx = scale * f.power_1 * f.k;
-  jet.xy = -scale * f.power_1;
-  jet.yy = scale * power_2;
-  if (!f.x_is_larger) {
-    std::swap(jet.dx, jet.dy);
-    std::swap(jet.xx, jet.yy);
-  }
-}
 
 double PowerNorm::value(double x, double y) const {
   std::array<PowerNormRequest, 1> request = {{{this, x, y, {}}}};

@@ -79,15 +79,8 @@ class PowerNorm {
  private:
   PowerNorm(double p, double p_minus_1, double inverse_p);
 
-  /// value = larger * root; the derivative with respect to the larger number is root / sum.
-  struct Ratio {
-    bool x_is_larger;
-    double larger, k, power_1, sum, root;  // k = smaller/larger, k^(p-1), 1 + k^p, sum^(1/p)
-  };
-  void differentiate(const Ratio& f, PowerNormJet& jet) const;
-  void differentiate_twice(const Ratio& f, PowerNormJet& jet) const;
-
   double p_minus_1_, inverse_p_;
+  double flat_power_;  // k^(p-2) at the ratio below which the second derivative stays constant
   bool is_euclidean_;
 };
 

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "proximity/lanes/pair_query.hpp"
+#include "proximity/limits.hpp"
 #include "proximity/tuning.hpp"
 #include "shapes/lanes/superellipsoid_jet.hpp"
 
@@ -18,12 +19,6 @@ namespace supernormal {
 namespace {  // NOLINT(google-build-namespaces): real.hpp
 
 constexpr double kLaneEpsilon = 0x1p-52;
-
-// The constants of gap_function.cpp, stopping_rule.cpp, first_guess.cpp, certified_newton.cpp, regular_hessian.hpp, tuning.hpp and
-// contact_point.cpp, where their reasons stand.
-constexpr double kLaneRoundingUnits = 8, kLaneFloor = 4, kLaneConcentric = 1e-12, kLaneSingularGuess = 1e-150;
-constexpr double kLaneFlattest = 1e8, kLaneFlatContact = 1e4, kLaneSingular = 1e-12, kLaneNothing = 1e-30, kLaneGrazing = 1e-6;
-constexpr double kLaneNear = 1e-7;
 
 /// The columns of a table of pairs. Of ellipsoids only the first kEllipsoidFields are in use.
 constexpr int kHalf1 = 0;
@@ -86,7 +81,7 @@ struct LaneSearch {
     M is_regular;
     SUPERNORMAL_INLINE Regular(const S& H, R s, V n, R unit_length, double flattest) {
       const R t = trace(H) + abs(s);
-      is_regular = (t < unit_length * flattest) & (unit_length * kLaneNothing < t);
+      is_regular = (t < unit_length * flattest) & (unit_length * limits::kNothing < t);
       const S identity = {R(1.0), R(1.0), R(1.0), R(0.0), R(0.0), R(0.0)};
       // In units of the trace, so that no product is out of range.
       const R scale = R(1.0) / select(is_regular, t, R(1.0));
@@ -97,7 +92,8 @@ struct LaneSearch {
       const S C = cofactors(A);
       const R determinant = A.xx * C.xx + (A.xy * C.xy + A.xz * C.xz);
       // The three pivots of the elimination: xx, C.zz / xx and determinant / C.zz.
-      is_regular = is_regular & (R(kLaneSingular) < A.xx) & (A.xx * kLaneSingular < C.zz) & (C.zz * kLaneSingular < determinant);
+      is_regular = is_regular & (R(limits::kSingularHessian) < A.xx) & (A.xx * limits::kSingularHessian < C.zz) &
+                   (C.zz * limits::kSingularHessian < determinant);
       inverse = C * (scale / select(is_regular, determinant, R(1.0)));
     }
     SUPERNORMAL_INLINE V solve(V b) const { return inverse * b; }
@@ -166,7 +162,7 @@ struct LaneSearch {
     A = {A.xx + squares1.x, A.yy + squares1.y, A.zz + squares1.z, A.xy, A.xz, A.yz};
     const S C = cofactors(A);
     const R determinant = A.xx * C.xx + (A.xy * C.xy + A.xz * C.xz);
-    return select(R(kLaneSingularGuess) < determinant, C * direction, direction);
+    return select(R(limits::kSingularGuess) < determinant, C * direction, direction);
   }
 
   SUPERNORMAL_INLINE static void prepare(const LanePair* pairs, int count, bool of_ellipsoids, const LaneSettings& settings,
@@ -186,15 +182,15 @@ struct LaneSearch {
     const V half1 = out.vec(kHalf1, column), half2 = out.vec(kHalf2, column);
     const R unit_length = min(smallest(half1), smallest(half2));
     const R rounding = (distance + number(false, &LaneBody::bounding_radius) + number(true, &LaneBody::bounding_radius)) *
-                       R(kLaneRoundingUnits * kLaneEpsilon);
-    const R tolerance = max(unit_length * settings.tolerance - rounding, rounding * kLaneFloor);
+                       R(limits::kRoundingUnits * kLaneEpsilon);
+    const R tolerance = max(unit_length * settings.tolerance - rounding, rounding * limits::kFloor);
     const R is_tracked = gather(pairs, count, [](const LanePair& pair) { return pair.first_normal != nullptr ? 1.0 : 0.0; });
     const M is_given = R(0.5) < is_tracked;
     static constexpr double kNone[3] = {1, 0, 0};
     V normal = gather3(pairs, count, [](const LanePair& pair) { return pair.first_normal != nullptr ? pair.first_normal : kNone; });
     if (any(~is_given)) {
       const R size1 = number(false, &LaneBody::size), size2 = number(true, &LaneBody::size);
-      const M is_concentric = distance <= (size1 + size2) * kLaneConcentric;
+      const M is_concentric = distance <= (size1 + size2) * limits::kConcentric;
       const V direction =
           select(is_concentric, V{R(1.0), R(0.0), R(0.0)}, offset * (R(1.0) / select(is_concentric, R(1.0), distance)));
       V guessed = guess(rotation, half1, half2, size1, size2, direction);
@@ -323,7 +319,7 @@ struct LaneSearch {
       const Vec<P> gradient = {with_sign(inner.dx * along * inverse.x, target.x), with_sign(inner.dy * along * inverse.y, target.y),
                                with_sign(z * inverse.z, target.z)};
       const P height = dot(gradient, normal);
-      const typename P::Mask is_ahead = length(gradient) * kLaneGrazing < height;
+      const typename P::Mask is_ahead = length(gradient) * limits::kGrazing < height;
       const Vec<P> tilt = gradient * (P(1.0) / select(is_ahead, height, P(1.0))) - normal - dn;
       const V none = {R(0.0), R(0.0), R(0.0)};
       tilt1 = select(is_flat(kGauges1) & is_ahead.a, V{tilt.x.a, tilt.y.a, tilt.z.a}, none);
@@ -438,7 +434,7 @@ struct LaneSearch {
     bodies.put_body2(lanes.found);
     if (!any(goes_on)) return round;
 
-    const Regular regular(H, now.s, n, state.at(kUnit), kLaneFlattest);
+    const Regular regular(H, now.s, n, state.at(kUnit), limits::kFlattest);
     V step = regular.solve(now.d - n * now.s);
     // The model's gain is half of this product.
     const R twice_gain = dot(now.d, step);
@@ -524,8 +520,7 @@ struct LaneSearch {
   // -------------------------------------------------------------------------------------------------------------------- finish
 
   /// Whether the bodies contain a point of body 1's frame, by their equations (Shape::surely_contains).
-  template <typename PairTable>
-  SUPERNORMAL_INLINE static M both_contain(const PairTable& pairs, int column, bool of_ellipsoids, V point, V from2) {
+  SUPERNORMAL_INLINE static M both_contain(const Pairs& pairs, int column, bool of_ellipsoids, V point, V from2) {
     const V half1 = pairs.vec(kHalf1, column), half2 = pairs.vec(kHalf2, column);
     const V x1 = {point.x / half1.x, point.y / half1.y, point.z / half1.z},
             x2 = {from2.x / half2.x, from2.y / half2.y, from2.z / half2.z};
@@ -555,7 +550,7 @@ struct LaneSearch {
                                             const Radii& radii, M wanted, M is_followed, V& contact) {
     const V n = ends.vec(kFoundNormal, column), d = ends.vec(kFoundD, column), r1 = ends.vec(kFoundR, column);
     const R s = ends.at(kFoundS, column), unit_length = pairs.at(kUnit, column);
-    const Regular sum(ends.sym(kFoundHessian, column), R(0.0), n, unit_length, kLaneFlatContact);
+    const Regular sum(ends.sym(kFoundHessian, column), R(0.0), n, unit_length, limits::kFlatContact);
     const V across = d - n * s;
     // Where the sum is not regular, the radii may be of any size, and a product with them out of range.
     const V along = select(sum.is_regular, across, V{R(0.0), R(0.0), R(0.0)});
@@ -566,7 +561,7 @@ struct LaneSearch {
     const M is_far = limit < distance;
     contact = r1 + d * R(0.5) + shift * select(is_far, limit / select(is_far, distance, R(1.0)), R(1.0));
 
-    const R near = max(unit_length * R(kLaneNear), pairs.at(kTolerance, column));
+    const R near = max(unit_length * R(limits::kNear), pairs.at(kTolerance, column));
     const auto is_near_both = [&](V point) {
       const V from1 = point - r1, from2 = from1 - d;
       const auto is_near = [&](V from, R radius) {

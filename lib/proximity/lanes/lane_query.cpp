@@ -108,27 +108,28 @@ Proximity find_in_one_lane(const ProximityQuery& pair, const Settings& settings)
   return answer_of(pair, settings, lane);
 }
 
-void find_in_lanes(std::span<const ProximityQuery> pairs, const Settings& settings, const LaneKernel& kernel,
-                   std::span<Proximity> results) {
-  constexpr std::size_t kAtOnce = 64;
-  std::array<LanePair, kAtOnce> inputs;
-  std::array<LaneAnswer, kAtOnce> lanes;
-  std::array<std::size_t, kAtOnce> which;
-  for (const bool of_ellipsoids : {true, false}) {
-    std::size_t count = 0;
-    const auto run = [&] {
-      kernel.query(inputs.data(), static_cast<int>(count), of_ellipsoids, lane_settings(settings), lanes.data());
-      for (std::size_t k = 0; k < count; ++k) results[which[k]] = answer_of(pairs[which[k]], settings, lanes[k]);
-      count = 0;
-    };
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      const LanePair input = lane_pair(pairs[k]);
-      if (is_of_ellipsoids(input) != of_ellipsoids) continue;
-      which[count] = k;
-      inputs[count++] = input;
-      if (count == kAtOnce) run();
-    }
-    if (count > 0) run();
+void LaneBatch::add(const ProximityQuery& query, std::size_t index) {
+  const LanePair pair = lane_pair(query);
+  Group& group = groups_[is_of_ellipsoids(pair) ? 0 : 1];
+  group.pairs[group.count] = pair;
+  group.queries[group.count] = query;
+  group.indices[group.count] = index;
+  if (++group.count == kAtOnce) solve(group);
+}
+
+void LaneBatch::solve(Group& group) {
+  std::array<LaneAnswer, kAtOnce> answers;
+  kernel_.query(group.pairs.data(), static_cast<int>(group.count), &group == groups_.data(), lane_settings(settings_),
+                answers.data());
+  for (std::size_t k = 0; k < group.count; ++k) {
+    results_[group.indices[k]] = answer_of(group.queries[k], settings_, answers[k]);
+  }
+  group.count = 0;
+}
+
+void LaneBatch::solve_rest() {
+  for (Group& group : groups_) {
+    if (group.count > 0) solve(group);
   }
 }
 

@@ -1,6 +1,8 @@
 // Queries of ellipsoids and superellipsoids by the kernels in lanes, and what they leave to the scalar search.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 
 #include "proximity/lanes/pair_query.hpp"
@@ -17,8 +19,35 @@ bool is_for_lanes(const Shape& shape1, const Shape& shape2, const Settings& sett
 /// The answer of one pair for which is_for_lanes(). The poses are usable, and `first_normal` is too, or null.
 Proximity find_in_one_lane(const ProximityQuery& pair, const Settings& settings);
 
-/// The same answers, to the bit, of many pairs. `kernel`: of lane_kernels(). Writes results[k] for pairs[k].
-void find_in_lanes(std::span<const ProximityQuery> pairs, const Settings& settings, const LaneKernel& kernel,
-                   std::span<Proximity> results);
+/// The same answers, to the bit, of many pairs. Ellipsoids take a kernel without powers, so there are two groups, and each is
+/// solved as soon as it is full.
+class LaneBatch {
+ public:
+  /// Keeps references. `kernel`: of lane_kernels(). The answer of a pair goes to results[index].
+  LaneBatch(const Settings& settings, const LaneKernel& kernel, std::span<Proximity> results)
+      : settings_(settings), kernel_(kernel), results_(results) {}
+
+  /// Adds a pair as for find_in_one_lane().
+  void add(const ProximityQuery& query, std::size_t index);
+
+  /// Solves the pairs that have not filled a group.
+  void solve_rest();
+
+ private:
+  static constexpr std::size_t kAtOnce = 64;
+  struct Group {
+    std::array<LanePair, kAtOnce> pairs;
+    std::array<ProximityQuery, kAtOnce> queries;
+    std::array<std::size_t, kAtOnce> indices;
+    std::size_t count = 0;
+  };
+
+  void solve(Group& group);
+
+  const Settings& settings_;
+  const LaneKernel& kernel_;
+  std::span<Proximity> results_;
+  std::array<Group, 2> groups_;  // of ellipsoids, of all others
+};
 
 }  // namespace supernormal

@@ -5,19 +5,10 @@
 
 #include "proximity/answer.hpp"
 #include "proximity/bounds/minimum_norm_point.hpp"
+#include "proximity/limits.hpp"
 #include "proximity/tuning.hpp"
 
 namespace supernormal {
-namespace {
-
-// In units of the pair's length: beyond this, a radius of curvature belongs to a flat face, and a step in the normal is only
-// rounding error.
-constexpr double kFlattest = 1e8;
-
-// Cosine: a normal this nearly perpendicular to another has no useful gnomonic coordinates.
-constexpr double kGrazing = 1e-6;
-
-}  // namespace
 
 CertifiedNewton::CertifiedNewton(GapFunction& gap, CuttingPlanes& cuts, const StoppingRule& rule)
     : gap_(gap),
@@ -60,7 +51,7 @@ bool CertifiedNewton::evaluate(const Vector3& n) {
 bool CertifiedNewton::propose(Vector3& step) const {
   const GapJet& jet = best();
   const Matrix3 H2 = gap_.rotation() * jet.jet2.H * gap_.rotation().transpose();
-  const RegularHessian hessian(jet.jet1.H + H2, jet.s, jet.n, gap_.length_unit(), kFlattest);
+  const RegularHessian hessian(jet.jet1.H + H2, jet.s, jet.n, gap_.length_unit(), limits::kFlattest);
   if (!hessian.is_regular()) return false;
   step = hessian.solve(jet.d - jet.s * jet.n);
   if (has_flat_faces_ && !parametrizations_agree(step) && !through_boundary_points(hessian, H2, step)) return false;
@@ -86,7 +77,7 @@ bool CertifiedNewton::through_boundary_points(const RegularHessian& hessian, con
   const GapJet& jet = best();
   const auto tilt_beyond_step = [&](const Vector3& normal, Vector3& tilt) {
     const double height = normal.dot(jet.n);
-    if (!(height > kGrazing * normal.norm())) return false;
+    if (!(height > limits::kGrazing * normal.norm())) return false;
     tilt = normal / height - jet.n - step;
     return true;
   };

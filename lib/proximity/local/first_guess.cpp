@@ -2,14 +2,10 @@
 
 #include <Eigen/Geometry>
 
+#include "proximity/limits.hpp"
+
 namespace supernormal {
 namespace {
-
-// Relative to the size of the bodies: nearer centres have no direction from one to the other.
-constexpr double kConcentric = 1e-12;
-
-// Relative to the cube of the trace: a smaller determinant counts as zero.
-constexpr double kSingular = 1e-150;
 
 /// The axis along which the body is thinnest. Along it the shortest translation separates concentric bodies.
 Vector3 thinnest_axis(const Vector3& half_extents) {
@@ -26,7 +22,7 @@ Vector3 first_guess(const GapFunction& gap) {
   const Matrix3& R = gap.rotation();
   const double size1 = half1.norm(), size2 = half2.norm(), sum = size1 + size2;
   const double distance = gap.offset().norm();
-  if (distance <= kConcentric * sum) {
+  if (distance <= limits::kConcentric * sum) {
     return half1.minCoeff() <= half2.minCoeff() ? thinnest_axis(half1) : Vector3(R * thinnest_axis(half2));
   }
   const Vector3 direction = gap.offset() / distance;
@@ -41,7 +37,7 @@ Vector3 first_guess(const GapFunction& gap) {
   M.diagonal() += squares_over_size(half1, size1);
   // The inverse up to the determinant, which vanishes for a segment and a point.
   const Vector3 column = M.col(1).cross(M.col(2));
-  if (!(M.col(0).dot(column) > kSingular)) return direction;
+  if (!(M.col(0).dot(column) > limits::kSingularGuess)) return direction;
   return Vector3(column.dot(direction), M.col(2).cross(M.col(0)).dot(direction), M.col(0).cross(M.col(1)).dot(direction))
       .normalized();
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "proximity/limits.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {
@@ -16,9 +17,9 @@ class RegularHessian {
   /// (m), is neither zero nor larger than `flattest`.
   RegularHessian(const Matrix3& H, double s, const Vector3& n, double length_unit, double flattest) {
     const double trace = H.trace() + std::abs(s);
-    if (!(trace < flattest * length_unit && trace > kNothing * length_unit)) return;
+    if (!(trace < flattest * length_unit && trace > limits::kNothing * length_unit)) return;
     const Vector3 lift = trace * n;
-    const double least = kSingular * trace;
+    const double least = limits::kSingularHessian * trace;
     const double xx = H(0, 0) + s + lift.x() * n.x();
     if (!(xx > least)) return;
     const double xy = H(1, 0) + lift.y() * n.x(), xz = H(2, 0) + lift.z() * n.x();
@@ -47,12 +48,6 @@ class RegularHessian {
   }
 
  private:
-  // Relative to the trace: a smaller pivot is only rounding error, or nearly.
-  static constexpr double kSingular = 1e-12;
-
-  // Relative to the pair's length: two vertices, whose radii of curvature vanish. The inverse of a smaller trace might overflow.
-  static constexpr double kNothing = 1e-30;
-
   Vector3 inverse_;      // 1/m; of D
   double yx_, zx_, zy_;  // of L, below its diagonal of ones
   bool is_regular_ = false;

@@ -3,13 +3,6 @@
 #include "shapes/lanes/superellipsoid_jet.hpp"
 
 namespace supernormal {
-namespace {
-
-/// k^(p-2) at the smallest ratio k of plain numbers.
-double flat_power(double p_minus_1) { return power(Real<1>(kLanesFlatRatio), Real<1>(p_minus_1 - 1)).v; }
-
-}  // namespace
-
 LaneBody make_lane_body(const Shape& shape, const Vector3& half_axes, double delta, double epsilon) {
   const double p_minus_1 = 1 / (delta - 1), q_minus_1 = 1 / (epsilon - 1);
   return {.half = {half_axes.x(), half_axes.y(), half_axes.z()},

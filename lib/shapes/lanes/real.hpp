@@ -46,7 +46,6 @@ struct Real;
   struct Real<W> {                                                        \
     using Raw = double __attribute__((vector_size(8 * (W))));             \
     using Mask = supernormal::Mask<W>;                                    \
-    static constexpr int kWidth = W;                                      \
     Raw v;                                                                \
     Real() = default;                                                     \
     SUPERNORMAL_INLINE Real(Raw raw) : v(raw) {}                          \
@@ -72,7 +71,6 @@ template <>
 struct Real<1> {
   using Raw = double;
   using Mask = supernormal::Mask<1>;
-  static constexpr int kWidth = 1;
   double v;
   Real() = default;
   SUPERNORMAL_INLINE Real(double x) : v(x) {}
@@ -92,7 +90,6 @@ SUPERNORMAL_LANES Real<W> operator-(Real<W> a, double b) { return a - Real<W>(b)
 SUPERNORMAL_LANES Real<W> operator*(Real<W> a, double b) { return a * Real<W>(b); }
 SUPERNORMAL_LANES Mask<W> operator<(Real<W> a, Real<W> b) { return {a.v < b.v}; }
 SUPERNORMAL_LANES Mask<W> operator<=(Real<W> a, Real<W> b) { return {a.v <= b.v}; }
-SUPERNORMAL_LANES Mask<W> operator==(Real<W> a, Real<W> b) { return {a.v == b.v}; }
 
 SUPERNORMAL_LANES Mask<W> operator&(Mask<W> a, Mask<W> b) { return {a.v & b.v}; }
 SUPERNORMAL_LANES Mask<W> operator|(Mask<W> a, Mask<W> b) { return {a.v | b.v}; }
@@ -204,23 +201,6 @@ template <typename M>
 struct TwoMasks {
   M a, b;
 };
-template <typename M>
-SUPERNORMAL_INLINE TwoMasks<M> operator&(TwoMasks<M> x, TwoMasks<M> y) {
-  return {x.a & y.a, x.b & y.b};
-}
-template <typename M>
-SUPERNORMAL_INLINE TwoMasks<M> operator|(TwoMasks<M> x, TwoMasks<M> y) {
-  return {x.a | y.a, x.b | y.b};
-}
-template <typename M>
-SUPERNORMAL_INLINE TwoMasks<M> operator~(TwoMasks<M> x) {
-  return {~x.a, ~x.b};
-}
-template <typename M>
-SUPERNORMAL_INLINE bool any(TwoMasks<M> x) {
-  return any(x.a | x.b);
-}
-
 /// Two numbers side by side, for the two bodies of a pair. Their operations alternate, so that one body's do not wait for each
 /// other.
 template <typename Real>
@@ -241,11 +221,8 @@ SUPERNORMAL_TWO Two<R> operator*(Two<R> x, Two<R> y) { return {x.a * y.a, x.b * 
 SUPERNORMAL_TWO Two<R> operator/(Two<R> x, Two<R> y) { return {x.a / y.a, x.b / y.b}; }
 SUPERNORMAL_TWO Two<R> operator-(Two<R> x) { return {-x.a, -x.b}; }
 SUPERNORMAL_TWO Two<R> operator+(Two<R> x, double y) { return {x.a + y, x.b + y}; }
-SUPERNORMAL_TWO Two<R> operator-(Two<R> x, double y) { return {x.a - y, x.b - y}; }
 SUPERNORMAL_TWO Two<R> operator*(Two<R> x, double y) { return {x.a * y, x.b * y}; }
 SUPERNORMAL_TWO typename Two<R>::Mask operator<(Two<R> x, Two<R> y) { return {x.a < y.a, x.b < y.b}; }
-SUPERNORMAL_TWO typename Two<R>::Mask operator<=(Two<R> x, Two<R> y) { return {x.a <= y.a, x.b <= y.b}; }
-SUPERNORMAL_TWO typename Two<R>::Mask operator==(Two<R> x, Two<R> y) { return {x.a == y.a, x.b == y.b}; }
 SUPERNORMAL_TWO Two<R> select(typename Two<R>::Mask mask, Two<R> x, Two<R> y) {
   return {select(mask.a, x.a, y.a), select(mask.b, x.b, y.b)};
 }

@@ -7,8 +7,9 @@
 namespace supernormal {
 namespace {  // NOLINT(google-build-namespaces): real.hpp
 
-// The same limits as in power_norm.cpp. A ratio below kFlatRatio has a second derivative that stays constant. Below kLeastRatio the
-// power is constant as well: the logarithm takes normal numbers.
+// For p < 2 the second derivative is unbounded as k -> 0 (a flat face). Below this ratio it stays constant. That value exceeds any
+// relevant radius of curvature, and a product of two such numbers is still in range. Below the least ratio the power is constant as
+// well: the logarithm takes normal numbers.
 constexpr double kLanesFlatRatio = 1e-60;
 constexpr double kLanesLeastRatio = 1e-300;
 
@@ -19,54 +20,84 @@ struct NormExponents {
   T inverse;  ///< 1/p
 };
 
+/// Two numbers that are not negative, by the larger and their ratio.
+template <typename T>
+struct Ratio {
+  typename T::Mask x_is_larger;
+  T larger, k, power_1;  // k = smaller/larger; power_1 = k^(p-1)
+};
+
+/// k^e of a ratio in [0, 1], for e > 0.
+template <typename T>
+SUPERNORMAL_INLINE T ratio_power(T k, T e) {
+  return select(T(0.0) < k, power(max(k, T(kLanesLeastRatio)), e), T(0.0));
+}
+
+/// The ratio without its power.
+template <typename T>
+SUPERNORMAL_INLINE Ratio<T> ratio_of(T x, T y) {
+  Ratio<T> out;
+  out.x_is_larger = y < x;
+  out.larger = max(x, y);
+  // At the origin the direction is undefined. The values are then the values for x = y.
+  const auto is_positive = T(0.0) < out.larger;
+  out.k = select(is_positive, min(x, y), T(1.0)) / select(is_positive, out.larger, T(1.0));
+  return out;
+}
+
+template <typename T>
+SUPERNORMAL_INLINE Ratio<T> ratio_of(T x, T y, T p_minus_1) {
+  Ratio<T> out = ratio_of(x, y);
+  out.power_1 = ratio_power(out.k, p_minus_1);
+  return out;
+}
+
 /// A norm and its first derivatives, with what the second derivatives need.
 template <typename T>
 struct NormJet {
+  Ratio<T> ratio;
   T value, dx, dy;
-  T k, power_1, root, d_larger;  // k = smaller/larger; power_1 = k^(p-1)
-  typename T::Mask x_is_larger;
+  T root, d_larger;
 };
+
+/// `sum` is 1 + k^p, and `root` is sum^(1/p).
+template <typename T>
+SUPERNORMAL_INLINE NormJet<T> norm_from(const Ratio<T>& ratio, T sum, T root) {
+  NormJet<T> out;
+  out.ratio = ratio;
+  out.root = root;
+  out.value = ratio.larger * root;
+  out.d_larger = root / sum;
+  const T d_smaller = out.d_larger * ratio.power_1;
+  out.dx = select(ratio.x_is_larger, out.d_larger, d_smaller);
+  out.dy = select(ratio.x_is_larger, d_smaller, out.d_larger);
+  return out;
+}
 
 template <typename T>
 SUPERNORMAL_INLINE NormJet<T> norm_jet(T x, T y, const NormExponents<T>& p) {
-  NormJet<T> out;
-  out.x_is_larger = y < x;
-  const T larger = max(x, y), smaller = min(x, y);
-  // At the origin the direction is undefined. The values are then the values for x = y.
-  const auto is_positive = T(0.0) < larger;
-  out.k = select(is_positive, smaller, T(1.0)) / select(is_positive, larger, T(1.0));
-  out.power_1 = select(T(0.0) < out.k, power(max(out.k, T(kLanesLeastRatio)), p.power_1), T(0.0));
-  const T sum = out.power_1 * out.k + 1.0;
-  out.root = root(sum, p.inverse);
-  out.value = larger * out.root;
-  out.d_larger = out.root / sum;
-  const T d_smaller = out.d_larger * out.power_1;
-  out.dx = select(out.x_is_larger, out.d_larger, d_smaller);
-  out.dy = select(out.x_is_larger, d_smaller, out.d_larger);
-  return out;
+  const Ratio<T> ratio = ratio_of(x, y, p.power_1);
+  const T sum = ratio.power_1 * ratio.k + 1.0;
+  return norm_from(ratio, sum, root(sum, p.inverse));
 }
 
 /// The value alone.
 template <typename T>
 SUPERNORMAL_INLINE T norm_value(T x, T y, const NormExponents<T>& p) {
-  const T larger = max(x, y), smaller = min(x, y);
-  const auto is_positive = T(0.0) < larger;
-  const T k = select(is_positive, smaller, T(1.0)) / select(is_positive, larger, T(1.0));
-  const T power_1 = select(T(0.0) < k, power(max(k, T(kLanesLeastRatio)), p.power_1), T(0.0));
-  return larger * root(power_1 * k + 1.0, p.inverse);
+  const Ratio<T> ratio = ratio_of(x, y, p.power_1);
+  return ratio.larger * root(ratio.power_1 * ratio.k + 1.0, p.inverse);
 }
 
 /// Two numbers with the ratio of the norm's first derivatives; the larger is 1.
 template <typename T>
 SUPERNORMAL_INLINE void gradient_direction(T x, T y, T p_minus_1, T& dx, T& dy) {
-  const auto x_is_larger = y < x;
-  const T larger = max(x, y), smaller = min(x, y);
-  const auto is_positive = T(0.0) < larger;
-  const T k = select(is_positive, smaller, T(1.0)) / select(is_positive, larger, T(1.0));
-  const T power_1 = select(T(0.0) < k, power(max(k, T(kLanesLeastRatio)), p_minus_1), T(0.0));
-  dx = select(x_is_larger, T(1.0), power_1);
-  dy = select(x_is_larger, power_1, T(1.0));
+  const Ratio<T> ratio = ratio_of(x, y, p_minus_1);
+  dx = select(ratio.x_is_larger, T(1.0), ratio.power_1);
+  dy = select(ratio.x_is_larger, ratio.power_1, T(1.0));
 }
+
+/// k^(p-2) at the ratio below which it stays constant.
+SUPERNORMAL_INLINE double flat_power(double p_minus_1) { return power(Real<1>(kLanesFlatRatio), Real<1>(p_minus_1 - 1)).v; }
 
 /// The second derivatives times the value, and value * dx / x.
 template <typename T>
@@ -77,12 +108,13 @@ struct NormBends {
 /// `flat` is kFlatRatio^(p-2).
 template <typename T>
 SUPERNORMAL_INLINE NormBends<T> norm_bends(const NormJet<T>& norm, const NormExponents<T>& p, T flat) {
-  const auto is_plain = T(kLanesFlatRatio) < norm.k;
-  const T power_2 = select(is_plain, norm.power_1 / select(is_plain, norm.k, T(1.0)), flat);
+  const Ratio<T>& ratio = norm.ratio;
+  const auto is_plain = T(kLanesFlatRatio) < ratio.k;
+  const T power_2 = select(is_plain, ratio.power_1 / select(is_plain, ratio.k, T(1.0)), flat);
   const T scale = p.power_1 * norm.d_larger * norm.d_larger;
-  const T small = scale * norm.power_1 * norm.k, large = scale * power_2;
-  return {select(norm.x_is_larger, small, large), -(scale * norm.power_1), select(norm.x_is_larger, large, small),
-          norm.d_larger * norm.root * select(norm.x_is_larger, T(1.0), power_2)};
+  const T small = scale * ratio.power_1 * ratio.k, large = scale * power_2;
+  return {select(ratio.x_is_larger, small, large), -(scale * ratio.power_1), select(ratio.x_is_larger, large, small),
+          norm.d_larger * norm.root * select(ratio.x_is_larger, T(1.0), power_2)};
 }
 
 /// The numbers of a body that an evaluation needs.

@@ -35,7 +35,6 @@ SUPERNORMAL_VEC T length(Vec<T> a) { return sqrt(dot(a, a)); }
 SUPERNORMAL_VEC Vec<T> unit(Vec<T> a) { return a * (T(1.0) / length(a)); }
 SUPERNORMAL_VEC Vec<T> times(Vec<T> a, Vec<T> b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 SUPERNORMAL_VEC T smallest(Vec<T> a) { return min(min(a.x, a.y), a.z); }
-SUPERNORMAL_VEC T largest(Vec<T> a) { return max(max(a.x, a.y), a.z); }
 template <typename T, typename M>
 SUPERNORMAL_INLINE Vec<T> select(M mask, Vec<T> a, Vec<T> b) {
   return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
