@@ -51,7 +51,7 @@ struct Scene {
 
 }  // namespace
 
-TEST_CASE("warm start with every collider: a separated pair costs one evaluation from the second time on") {
+TEST_CASE("warm start with every collider: a separated pair costs at most one evaluation from the second time on") {
   OdeSession session;
   Random random(62);
   for (const ColliderKind kind : kSolidKinds) {
@@ -67,7 +67,8 @@ TEST_CASE("warm start with every collider: a separated pair costs one evaluation
       CHECK(collide(body, collider).empty());
       if (statistics().queries_warm == 0) continue;  // its direction is now in another cell
       ++remembered;
-      CHECK(statistics().evaluations_warm == 1);
+      // Of two of our bodies the last gap is known, and the motion cannot have closed it.
+      CHECK(statistics().evaluations_warm == (kind == ColliderKind::Body ? 0 : 1));
     }
     CHECK(remembered > 40);
   }
