@@ -7,6 +7,7 @@
 ///     two bodies   find_proximity(): signed distance, common normal, witness points, contact point; certify_depth proves the
 ///                  depth. A Sphere of radius 0 is a point, a Polytope of three points a triangle
 ///     many pairs   find_proximities(): the same answers; many ellipsoids and superellipsoids together cost less
+///     over time    least_gap_after(): what a motion has left of a proved gap, without a query
 ///     others       find_plane_proximity(), find_ray_hit(), find_ray_proximity(), MeshContacts, find_nearest_triangle()
 ///     in motion    find_time_of_impact(), find_plane_time_of_impact(), find_mesh_time_of_impact(): when bodies meet; pose_at()
 ///     contacts     find_contact_manifold(), find_plane_contact_manifold(), draw_in_corners(), reduced_to(); hertz_correction(),
@@ -45,6 +46,7 @@
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/pose.hpp"
 #include "supernormal/proximity/proximity.hpp"
+#include "supernormal/proximity/separation.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/raycast/ray.hpp"
 #include "supernormal/shapes/bounding_box.hpp"
