@@ -302,48 +302,83 @@ struct LaneSearch {
     /// Bodies of which both norms are flat: delta and epsilon above 2.
     SUPERNORMAL_INLINE M is_flat(int gauges) const { return (R(1.0) < state.at(gauges)) & (R(1.0) < state.at(gauges + 2)); }
 
-    /// The tilts beyond n + step and m - step of the normals at the boundary points to which the step leads
-    /// (CertifiedNewton::through_boundary_points). Zero for a body that is not flat. For a body with one flat norm and one sharp
-    /// norm the step in the normal takes 8 % more evaluations, and each costs 20 % less. Returns the pairs that have no such step:
-    /// the normal of a flat body would rotate too far.
-    SUPERNORMAL_INLINE M tilts(V n, V m, V step1, V step2, V& tilt1, V& tilt2) const {
-      const Vec<P> normal = {{n.x, m.x}, {n.y, m.y}, {n.z, m.z}}, dn = {{step1.x, step2.x}, {step1.y, step2.y}, {step1.z, step2.z}};
+    /// Bodies without sharp edges: delta and epsilon at least 2. Their boundary has a curvature everywhere.
+    SUPERNORMAL_INLINE M is_curved(int gauges) const { return (R(1.0) <= state.at(gauges)) & (R(1.0) <= state.at(gauges + 2)); }
+
+    /// The bodies at the boundary points to which Newton's step leads, where they meet to first order.
+    struct Meeting {
+      Vec<P> normal;              // of each body in its own frame; its component along the evaluated normal is 1
+      Sym<P> curvature;           // 1/m: by how much this normal changes with the point
+      typename P::Mask is_ahead;  // whether there is such a normal
+    };
+
+    SUPERNORMAL_INLINE Meeting meet(const Vec<P>& normal, const Vec<P>& step) const {
       const Sym<P> H = {{H1.xx, H2.xx}, {H1.yy, H2.yy}, {H1.zz, H2.zz}, {H1.xy, H2.xy}, {H1.xz, H2.xz}, {H1.yz, H2.yz}};
-      const Vec<P> target = jets.r + H * dn;
+      const Vec<P> point = jets.r + H * step;
       const Vec<P> inverse = {P(1.0) / bodies.half.x, P(1.0) / bodies.half.y, P(1.0) / bodies.half.z};
-      // The gradient of the gauge function, by its two norms. Only its direction counts, so the outer norm takes no root.
-      const NormJet<P> inner = norm_jet(abs(target.x * inverse.x), abs(target.y * inverse.y),
-                                        {both(kGauges1, kGauges2), both(kGauges1 + 1, kGauges2 + 1)});
-      P along, z;
-      gradient_direction(inner.value, abs(target.z * inverse.z), both(kGauges1 + 2, kGauges2 + 2), along, z);
-      const Vec<P> gradient = {with_sign(inner.dx * along * inverse.x, target.x), with_sign(inner.dy * along * inverse.y, target.y),
-                               with_sign(z * inverse.z, target.z)};
-      const P height = dot(gradient, normal);
-      const typename P::Mask is_ahead = length(gradient) * limits::kGrazing < height;
-      const Vec<P> tilt = gradient * (P(1.0) / select(is_ahead, height, P(1.0))) - normal - dn;
-      const V none = {R(0.0), R(0.0), R(0.0)};
-      tilt1 = select(is_flat(kGauges1) & is_ahead.a, V{tilt.x.a, tilt.y.a, tilt.z.a}, none);
-      tilt2 = select(is_flat(kGauges2) & is_ahead.b, V{tilt.x.b, tilt.y.b, tilt.z.b}, none);
-      return (is_flat(kGauges1) & ~is_ahead.a) | (is_flat(kGauges2) & ~is_ahead.b);
+      const NormExponents<P> inner = {both(kGauges1, kGauges2), both(kGauges1 + 1, kGauges2 + 1)};
+      const LevelJet<P> level = level_jet(inverse, inner, both(kGauges1 + 2, kGauges2 + 2), point);
+      const P height = dot(level.gradient, normal);
+      Meeting out;
+      out.is_ahead = length(level.gradient) * limits::kGrazing < height;
+      const P scale = P(1.0) / select(out.is_ahead, height, P(1.0));
+      const Vec<P>& v = out.normal = level.gradient * scale;
+      // A point that moves by y along the plane across n moves by y - n (v . y) on the boundary. The same projection of the change
+      // of the gradient keeps n . v = 1.
+      const Vec<P> b = level.second * normal;
+      const P nb = dot(normal, b);
+      const Sym<P>& A = level.second;
+      out.curvature = Sym<P>{A.xx + v.x * (nb * v.x - b.x - b.x),
+                             A.yy + v.y * (nb * v.y - b.y - b.y),
+                             A.zz + v.z * (nb * v.z - b.z - b.z),
+                             A.xy + (nb * v.x * v.y - v.x * b.y - b.x * v.y),
+                             A.xz + (nb * v.x * v.z - v.x * b.z - b.x * v.z),
+                             A.yz + (nb * v.y * v.z - v.y * b.z - b.y * v.z)} *
+                      scale;
+      return out;
     }
 
     /// Replaces Newton's step in the normal by one through the boundary points, for the wanted pairs with flat faces. Returns the
-    /// pairs that have no such step.
+    /// pairs that have no such step: the normal of a flat body would rotate too far.
+    ///
+    /// The step leads both bodies to a common point. There their normals v1 and v2 differ. Two bodies with curvatures K1 and K2
+    /// have a common normal y further on, with v1 + K1 y = v2 - K2 y: Newton's method for the point. So each evaluation serves one
+    /// step in the normal and one in the point, and bricks on one another take half of the evaluations. A body with a sharp edge
+    /// has no curvature there. Its pair solves Newton's equation for the normal with the tilts of the normals beyond the step, as
+    /// CertifiedNewton::through_boundary_points does. A body with one flat norm and one sharp norm steps in the normal: through the
+    /// points it takes 8 % fewer evaluations, and each costs 20 % more.
     SUPERNORMAL_INLINE M improve(V n, V m, const Evaluation& now, const Regular& regular, M wanted, V& step) const {
       const auto is_less = [](V tilt, V normal) {
         return (abs(tilt.x) <= abs(normal.x) * kTuning.same_tilt) & (abs(tilt.y) <= abs(normal.y) * kTuning.same_tilt) &
                (abs(tilt.z) <= abs(normal.z) * kTuning.same_tilt);
       };
-      const V step2 = -transposed_times(rotation, step);
-      const M open = wanted & (is_flat(kGauges1) | is_flat(kGauges2)) & ~(is_less(step, n) & is_less(step2, m));
+      const V step_in_2 = -transposed_times(rotation, step);
+      const M open = wanted & (is_flat(kGauges1) | is_flat(kGauges2)) & ~(is_less(step, n) & is_less(step_in_2, m));
       if (!any(open)) return open;
       // A step that is not regular may be of any length.
       const V none = {R(0.0), R(0.0), R(0.0)};
-      V tilt1, tilt2;
-      const M is_lost = open & tilts(n, m, select(open, step, none), select(open, step2, none), tilt1, tilt2);
-      const V through = step + regular.solve(H1 * tilt1 - rotated2 * (rotation * tilt2));
+      const V step1 = select(open, step, none), step2 = select(open, step_in_2, none);
+      const Vec<P> normals = {{n.x, m.x}, {n.y, m.y}, {n.z, m.z}},
+                   steps = {{step1.x, step2.x}, {step1.y, step2.y}, {step1.z, step2.z}};
+      const Meeting meeting = meet(normals, steps);
+      const V v1 = {meeting.normal.x.a, meeting.normal.y.a, meeting.normal.z.a};
+      const V v2 = -(rotation * V{meeting.normal.x.b, meeting.normal.y.b, meeting.normal.z.b});
+      const M is_ahead1 = meeting.is_ahead.a, is_ahead2 = meeting.is_ahead.b;
+
+      const auto& K = meeting.curvature;
+      const S K1 = {K.xx.a, K.yy.a, K.zz.a, K.xy.a, K.xz.a, K.yz.a}, K2 = {K.xx.b, K.yy.b, K.zz.b, K.xy.b, K.xz.b, K.yz.b};
+      const Regular curvatures(K1 + rotated(rotation, K2), R(0.0), n, R(1.0) / state.at(kUnit), limits::kSharpest);
+      const M meets = is_curved(kGauges1) & is_curved(kGauges2) & is_ahead1 & is_ahead2 & curvatures.is_regular;
+      const V apart = select(meets, v2 - v1, none);
+      const V to_meeting = v1 + K1 * curvatures.solve(apart) - n;
+
+      const V tilt1 = select(is_flat(kGauges1) & is_ahead1, v1 - n - step, none);
+      const V tilt2 = select(is_flat(kGauges2) & is_ahead2, v2 - n - step, none);
+      const V tilted = step + regular.solve(H1 * tilt1 + rotated2 * tilt2);
+
+      const V through = select(meets, to_meeting, tilted);
       step = select(open & (R(0.0) < dot(now.d, through)), through, step);
-      return is_lost;
+      return open & ((is_flat(kGauges1) & ~is_ahead1) | (is_flat(kGauges2) & ~is_ahead2));
     }
   };
 
