@@ -353,7 +353,7 @@ struct LaneSearch {
                (abs(tilt.z) <= abs(normal.z) * kTuning.same_tilt);
       };
       const V step_in_2 = -transposed_times(rotation, step);
-      const M open = wanted & (is_flat(kGauges1) | is_flat(kGauges2)) & ~(is_less(step, n) & is_less(step_in_2, m));
+      const M open = wanted & ~(is_less(step, n) & is_less(step_in_2, m));
       if (!any(open)) return open;
       // A step that is not regular may be of any length.
       const V none = {R(0.0), R(0.0), R(0.0)};
@@ -368,7 +368,7 @@ struct LaneSearch {
       const auto& K = meeting.curvature;
       const S K1 = {K.xx.a, K.yy.a, K.zz.a, K.xy.a, K.xz.a, K.yz.a}, K2 = {K.xx.b, K.yy.b, K.zz.b, K.xy.b, K.xz.b, K.yz.b};
       const Regular curvatures(K1 + rotated(rotation, K2), R(0.0), n, R(1.0) / state.at(kUnit), limits::kSharpest);
-      const M meets = is_curved(kGauges1) & is_curved(kGauges2) & is_ahead1 & is_ahead2 & curvatures.is_regular;
+      const M meets = is_ahead1 & is_ahead2 & curvatures.is_regular;
       const V apart = select(meets, v2 - v1, none);
       const V to_meeting = v1 + K1 * curvatures.solve(apart) - n;
 
