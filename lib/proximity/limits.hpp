@@ -25,7 +25,7 @@ inline constexpr double kNothing = 1e-30;
 
 // In units of the pair's length: beyond this, a radius of curvature belongs to a flat face, and a step in the normal is only
 // rounding error.
-inline constexpr double kFlattest = 1e11;
+inline constexpr double kFlattest = 1e8;
 
 // The same for the curvatures of both bodies at a point, times this length. An edge of a body of exponent 1000 has 1e4.
 inline constexpr double kSharpest = 1e30;

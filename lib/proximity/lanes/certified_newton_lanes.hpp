@@ -221,6 +221,11 @@ struct LaneSearch {
     V d, r1;
   };
 
+  /// The pairs with another step than Newton's, and those that have none at all.
+  struct Improvement {
+    M is_improved, is_lost;
+  };
+
   /// Of two ellipsoids: h = |A n| with A = diag(half), r = A A n / h, and H = (A A - r r^T) / h.
   struct Ellipsoids {
     static constexpr bool kOfEllipsoids = true;
@@ -255,7 +260,9 @@ struct LaneSearch {
     }
     SUPERNORMAL_INLINE void put_body2(Table<kFoundFields, W>&) const {}  // evaluated anew where it is needed
     /// A step in the normal is the best for round bodies.
-    SUPERNORMAL_INLINE M improve(V, V, const Evaluation&, const Regular&, M, V&) const { return R(1.0) < R(0.0); }
+    SUPERNORMAL_INLINE Improvement improve(V, V, const Evaluation&, const Regular&, M, V&) const {
+      return {R(1.0) < R(0.0), R(1.0) < R(0.0)};
+    }
     SUPERNORMAL_INLINE M has_flat_faces() const { return R(1.0) < R(0.0); }
   };
 
@@ -302,19 +309,14 @@ struct LaneSearch {
     /// Bodies of which both norms are flat: delta and epsilon above 2.
     SUPERNORMAL_INLINE M is_flat(int gauges) const { return (R(1.0) < state.at(gauges)) & (R(1.0) < state.at(gauges + 2)); }
 
-    /// Bodies without sharp edges: delta and epsilon at least 2. Their boundary has a curvature everywhere.
-    SUPERNORMAL_INLINE M is_curved(int gauges) const { return (R(1.0) <= state.at(gauges)) & (R(1.0) <= state.at(gauges + 2)); }
-
-    /// The bodies at the boundary points to which Newton's step leads, where they meet to first order.
+    /// The bodies at boundary points where they meet to first order.
     struct Meeting {
       Vec<P> normal;              // of each body in its own frame; its component along the evaluated normal is 1
       Sym<P> curvature;           // 1/m: by how much this normal changes with the point
       typename P::Mask is_ahead;  // whether there is such a normal
     };
 
-    SUPERNORMAL_INLINE Meeting meet(const Vec<P>& normal, const Vec<P>& step) const {
-      const Sym<P> H = {{H1.xx, H2.xx}, {H1.yy, H2.yy}, {H1.zz, H2.zz}, {H1.xy, H2.xy}, {H1.xz, H2.xz}, {H1.yz, H2.yz}};
-      const Vec<P> point = jets.r + H * step;
+    SUPERNORMAL_INLINE Meeting meet(const Vec<P>& normal, const Vec<P>& point) const {
       const Vec<P> inverse = {P(1.0) / bodies.half.x, P(1.0) / bodies.half.y, P(1.0) / bodies.half.z};
       const NormExponents<P> inner = {both(kGauges1, kGauges2), both(kGauges1 + 1, kGauges2 + 1)};
       const LevelJet<P> level = level_jet(inverse, inner, both(kGauges1 + 2, kGauges2 + 2), point);
@@ -338,29 +340,30 @@ struct LaneSearch {
       return out;
     }
 
-    /// Replaces Newton's step in the normal by one through the boundary points, for the wanted pairs with flat faces. Returns the
-    /// pairs that have no such step: the normal of a flat body would rotate too far.
+    /// Replaces Newton's step in the normal by one through the boundary points, for the wanted pairs. Lost are those of which the
+    /// normal of a flat body would rotate too far.
     ///
     /// The step leads both bodies to a common point. There their normals v1 and v2 differ. Two bodies with curvatures K1 and K2
     /// have a common normal y further on, with v1 + K1 y = v2 - K2 y: Newton's method for the point. So each evaluation serves one
-    /// step in the normal and one in the point, and bricks on one another take half of the evaluations. A body with a sharp edge
-    /// has no curvature there. Its pair solves Newton's equation for the normal with the tilts of the normals beyond the step, as
-    /// CertifiedNewton::through_boundary_points does. A body with one flat norm and one sharp norm steps in the normal: through the
-    /// points it takes 8 % fewer evaluations, and each costs 20 % more.
-    SUPERNORMAL_INLINE M improve(V n, V m, const Evaluation& now, const Regular& regular, M wanted, V& step) const {
+    /// step in the normal and one in the point, and bricks on one another take half of the evaluations. On faces so flat that there
+    /// is no step in the normal, the bodies meet halfway. Where the curvatures are singular, Newton's equation for the normal is
+    /// solved with the tilts of the normals beyond the step, as CertifiedNewton::through_boundary_points does.
+    SUPERNORMAL_INLINE Improvement improve(V n, V m, const Evaluation& now, const Regular& regular, M wanted, V& step) const {
       const auto is_less = [](V tilt, V normal) {
         return (abs(tilt.x) <= abs(normal.x) * kTuning.same_tilt) & (abs(tilt.y) <= abs(normal.y) * kTuning.same_tilt) &
                (abs(tilt.z) <= abs(normal.z) * kTuning.same_tilt);
       };
       const V step_in_2 = -transposed_times(rotation, step);
-      const M open = wanted & ~(is_less(step, n) & is_less(step_in_2, m));
-      if (!any(open)) return open;
-      // A step that is not regular may be of any length.
+      const M open = wanted & ~(regular.is_regular & is_less(step, n) & is_less(step_in_2, m));
+      if (!any(open)) return {open, open};
       const V none = {R(0.0), R(0.0), R(0.0)};
-      const V step1 = select(open, step, none), step2 = select(open, step_in_2, none);
+      const M has_step = open & regular.is_regular;
+      const V normal_step = select(has_step, step, none), half_across = (now.d - n * now.s) * R(0.5);
+      const V move1 = select(has_step, H1 * normal_step, half_across);
+      const V move2 = transposed_times(rotation, select(has_step, -(rotated2 * normal_step), -half_across));
       const Vec<P> normals = {{n.x, m.x}, {n.y, m.y}, {n.z, m.z}},
-                   steps = {{step1.x, step2.x}, {step1.y, step2.y}, {step1.z, step2.z}};
-      const Meeting meeting = meet(normals, steps);
+                   moves = {{move1.x, move2.x}, {move1.y, move2.y}, {move1.z, move2.z}};
+      const Meeting meeting = meet(normals, jets.r + moves);
       const V v1 = {meeting.normal.x.a, meeting.normal.y.a, meeting.normal.z.a};
       const V v2 = -(rotation * V{meeting.normal.x.b, meeting.normal.y.b, meeting.normal.z.b});
       const M is_ahead1 = meeting.is_ahead.a, is_ahead2 = meeting.is_ahead.b;
@@ -374,11 +377,12 @@ struct LaneSearch {
 
       const V tilt1 = select(is_flat(kGauges1) & is_ahead1, v1 - n - step, none);
       const V tilt2 = select(is_flat(kGauges2) & is_ahead2, v2 - n - step, none);
-      const V tilted = step + regular.solve(H1 * tilt1 + rotated2 * tilt2);
+      const V tilted = step + regular.solve(H1 * select(has_step, tilt1, none) + rotated2 * select(has_step, tilt2, none));
 
       const V through = select(meets, to_meeting, tilted);
-      step = select(open & (R(0.0) < dot(now.d, through)), through, step);
-      return open & ((is_flat(kGauges1) & ~is_ahead1) | (is_flat(kGauges2) & ~is_ahead2));
+      const M is_improved = open & (meets | has_step) & (R(0.0) < dot(now.d, through));
+      step = select(is_improved, through, step);
+      return {is_improved, open & ((is_flat(kGauges1) & ~is_ahead1) | (is_flat(kGauges2) & ~is_ahead2))};
     }
   };
 
@@ -476,13 +480,14 @@ struct LaneSearch {
     round.is_followed =
         goes_on & is_better & may_follow & regular.is_regular & (twice_gain * R(0.5 * kTuning.gain_safety) <= tolerance);
     goes_on = goes_on & ~round.is_followed;
-    const M is_lost = bodies.improve(n, m, now, regular, goes_on & is_better & regular.is_regular, step);
+    const Improvement improvement = bodies.improve(n, m, now, regular, goes_on & is_better, step);
+    const M has_step = regular.is_regular | improvement.is_improved;
     const M gains = tolerance < dot(now.d, step);
     // A face is level: no shorter step leads higher.
     const M is_level = bodies.has_flat_faces() & (best_s - state.at(kRounding) <= now.s);
     const M is_last = R(settings.most_evaluations - 1.5) < evaluations;
     const M is_stuck =
-        is_lost | (is_better & (~regular.is_regular | ~(is_provable | may_follow | gains))) | (~is_better & is_level) | is_last;
+        improvement.is_lost | (is_better & (~has_step | ~(is_provable | may_follow | gains))) | (~is_better & is_level) | is_last;
     round.is_open = round.is_open | (goes_on & is_stuck);
     goes_on = goes_on & ~is_stuck;
 

@@ -130,7 +130,9 @@ bool CertifiedNewton::prove_by_tilts() {
     if (!(distance > 0)) return false;
     const double least_tilt = rule.tolerance() / std::max(distance, gap_.length_unit());
     const double tilt = std::min(growth * least_tilt, rule.tolerance() / distance);
-    if (!evaluate((n + tilt / distance * beside).normalized())) return false;
+    gap_.evaluate((n + tilt / distance * beside).normalized(), Order::Point, next());
+    if (!next().is_finite()) return false;
+    cuts_.add(next().d + rolling_radius_ * next().n);
     beside_[beside_count_++] = {next().n, next().jet1.r, next().d};
     // If the body is round in this direction, the point has only moved a part of the distance. With a larger tilt it is as far on
     // the other side.
