@@ -30,6 +30,9 @@ inline constexpr double kFlattest = 1e8;
 // The same for the curvatures of both bodies at a point, times this length. An edge of a body of exponent 1000 has 1e4.
 inline constexpr double kSharpest = 1e30;
 
+// Of the tolerance: a meeting halfway that gains less is on faces so flat that rounding moves the points. The proof takes tilts.
+inline constexpr double kLeastGain = 0.01;
+
 // Cosine: a normal this nearly perpendicular to another has no useful gnomonic coordinates.
 inline constexpr double kGrazing = 1e-6;
 

@@ -358,9 +358,13 @@ struct LaneSearch {
       if (!any(open)) return {open, open};
       const V none = {R(0.0), R(0.0), R(0.0)};
       const M has_step = open & regular.is_regular;
-      const V normal_step = select(has_step, step, none), half_across = (now.d - n * now.s) * R(0.5);
-      const V move1 = select(has_step, H1 * normal_step, half_across);
-      const V move2 = transposed_times(rotation, select(has_step, -(rotated2 * normal_step), -half_across));
+      const V normal_step = select(has_step, step, none), across = now.d - n * now.s;
+      // Of two flat bodies each moves half of the way, beside a flat body the other hardly moves.
+      const R flattest = state.at(kUnit) * R(limits::kFlatContact);
+      const R flatness1 = min(trace(H1), flattest), flatness2 = min(trace(rotated2), flattest), flatness = flatness1 + flatness2;
+      const V share1 = across * (flatness1 / select(R(0.0) < flatness, flatness, R(1.0)));
+      const V move1 = select(has_step, H1 * normal_step, share1);
+      const V move2 = transposed_times(rotation, select(has_step, -(rotated2 * normal_step), share1 - across));
       const Vec<P> normals = {{n.x, m.x}, {n.y, m.y}, {n.z, m.z}},
                    moves = {{move1.x, move2.x}, {move1.y, move2.y}, {move1.z, move2.z}};
       const Meeting meeting = meet(normals, jets.r + moves);
@@ -372,15 +376,17 @@ struct LaneSearch {
       const S K1 = {K.xx.a, K.yy.a, K.zz.a, K.xy.a, K.xz.a, K.yz.a}, K2 = {K.xx.b, K.yy.b, K.zz.b, K.xy.b, K.xz.b, K.yz.b};
       const Regular curvatures(K1 + rotated(rotation, K2), R(0.0), n, R(1.0) / state.at(kUnit), limits::kSharpest);
       const M meets = is_ahead1 & is_ahead2 & curvatures.is_regular;
-      const V apart = select(meets, v2 - v1, none);
-      const V to_meeting = v1 + K1 * curvatures.solve(apart) - n;
+      const V further = curvatures.solve(select(meets, v2 - v1, none));
+      const V to_meeting = v1 + K1 * further - n;
 
       const V tilt1 = select(is_flat(kGauges1) & is_ahead1, v1 - n - step, none);
       const V tilt2 = select(is_flat(kGauges2) & is_ahead2, v2 - n - step, none);
       const V tilted = step + regular.solve(H1 * select(has_step, tilt1, none) + rotated2 * select(has_step, tilt2, none));
 
       const V through = select(meets, to_meeting, tilted);
-      const M is_improved = open & (meets | has_step) & (R(0.0) < dot(now.d, through));
+      const R twice_gain = dot(now.d, through);
+      const M meets_halfway = meets & (state.at(kTolerance) * limits::kLeastGain < twice_gain);
+      const M is_improved = open & (R(0.0) < twice_gain) & (has_step | meets_halfway);
       step = select(is_improved, through, step);
       return {is_improved, open & ((is_flat(kGauges1) & ~is_ahead1) | (is_flat(kGauges2) & ~is_ahead2))};
     }
@@ -392,7 +398,8 @@ struct LaneSearch {
     alignas(8 * W) double best_s[W];
     alignas(8 * W) double best_at[W];  // the evaluation of the best normal
     alignas(8 * W) double evaluations[W];
-    alignas(8 * W) double is_active[W];  // 1 or 0
+    alignas(8 * W) double is_active[W];   // 1 or 0
+    alignas(8 * W) double is_halfway[W];  // 1 or 0: the last step was without a step in the normal
     double cuts[W][kMostLaneEvaluations][3];
     Table<kFields, W>& state;
     Table<kFoundFields, W>& found;
@@ -485,12 +492,15 @@ struct LaneSearch {
     const M gains = tolerance < dot(now.d, step);
     // A face is level: no shorter step leads higher.
     const M is_level = bodies.has_flat_faces() & (best_s - state.at(kRounding) <= now.s);
+    // Nor does half of a step to a meeting that was not there.
+    const M was_halfway = R(0.5) < load<W>(lanes.is_halfway);
     const M is_last = R(settings.most_evaluations - 1.5) < evaluations;
-    const M is_stuck =
-        improvement.is_lost | (is_better & (~has_step | ~(is_provable | may_follow | gains))) | (~is_better & is_level) | is_last;
+    const M is_stuck = improvement.is_lost | (is_better & (~has_step | ~(is_provable | may_follow | gains))) |
+                       (~is_better & (is_level | was_halfway)) | is_last;
     round.is_open = round.is_open | (goes_on & is_stuck);
     goes_on = goes_on & ~is_stuck;
 
+    store(lanes.is_halfway, select(is_better & ~regular.is_regular, R(1.0), R(0.0)));
     step = select(goes_on & is_better, step, lanes.step.vec(0) * R(0.5));
     const R squared = dot(step, step);
     const M is_long = R(kTuning.longest_step * kTuning.longest_step) < squared;
@@ -510,10 +520,10 @@ struct LaneSearch {
     Table<kFoundFields, W> own_found;
     Lanes lanes = [&]() -> Lanes {
       if constexpr (W == 1) {
-        return {{}, {}, {}, {}, {}, {}, {}, pairs, ends, {}};
+        return {{}, {}, {}, {}, {}, {}, {}, {}, pairs, ends, {}};
       } else {
         own_found = {};
-        return {{}, {}, {}, {}, {}, {}, {}, own_state, own_found, {}};
+        return {{}, {}, {}, {}, {}, {}, {}, {}, own_state, own_found, {}};
       }
     }();
     int next = 0, active = 0;
