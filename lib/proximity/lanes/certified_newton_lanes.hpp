@@ -377,7 +377,9 @@ struct LaneSearch {
       const Regular curvatures(K1 + rotated(rotation, K2), R(0.0), n, R(1.0) / state.at(kUnit), limits::kSharpest);
       const M meets = is_ahead1 & is_ahead2 & curvatures.is_regular;
       const V further = curvatures.solve(select(meets, v2 - v1, none));
-      const V to_meeting = v1 + K1 * further - n;
+      // Rounding of large curvatures must not leave the plane across n.
+      const V turned = K1 * further;
+      const V to_meeting = v1 - n + (turned - n * dot(turned, n));
 
       const V tilt1 = select(is_flat(kGauges1) & is_ahead1, v1 - n - step, none);
       const V tilt2 = select(is_flat(kGauges2) & is_ahead2, v2 - n - step, none);
