@@ -36,4 +36,8 @@ inline constexpr double kGrazing = 1e-6;
 inline constexpr double kFlatContact = 1e4;
 inline constexpr double kNear = 1e-7;
 
+// Curvatures, in smallest half-extents. Edges have no smaller radius, and a larger radius counts as flat.
+inline constexpr double kSharpest = 1e-9;
+inline constexpr double kFlat = 1e12;
+
 }  // namespace supernormal::limits
