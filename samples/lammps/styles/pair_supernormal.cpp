@@ -187,12 +187,14 @@ void PairSupernormal::solve_pending(double step) {
   std::array<supernormal::ProximityQuery, std::tuple_size_v<decltype(pending_)>> queries{};
   std::array<supernormal::Proximity, std::tuple_size_v<decltype(pending_)>> found;
   for (std::size_t k = 0; k < pending_count_; ++k) queries[k] = pending_[k].query.query;
-  supernormal::find_proximities({queries.data(), pending_count_}, query_settings_, {found.data(), pending_count_});
+  std::array<supernormal::ContactCurvature, std::tuple_size_v<decltype(pending_)>> curvatures;
+  supernormal::find_proximities({queries.data(), pending_count_}, query_settings_, {found.data(), pending_count_},
+                                {curvatures.data(), pending_count_});
   for (std::size_t k = 0; k < pending_count_; ++k) {
     Pending& pending = pending_[k];
     const auto [first, second] = by_tag(pending.i, pending.j);
     const PairContact pair =
-        require_finite(contact_of(found[k], bodies_->body(first), bodies_->body(second),
+        require_finite(contact_of(found[k], curvatures[k], bodies_->body(first), bodies_->body(second),
                                   material(atom->type[pending.i], atom->type[pending.j]), step, pending.history),
                        first, second);
     if (step > 0) {
