@@ -33,7 +33,9 @@ PairContact contact_of(const supernormal::Proximity& found, const supernormal::C
   if (found.gap >= 0) {
     if (step > 0) {
       history.release_springs();
-      history.normal = found.normal;
+      // A normal that still proves the separation stays as it is, to the bit. So queries may be skipped while it does.
+      const bool is_proved_by_last = found.status == supernormal::Status::Apart && found.evaluations == 1 && history.has_normal();
+      if (!is_proved_by_last) history.normal = found.normal;
     }
     return pair;
   }
