@@ -88,7 +88,7 @@ double hertz_correction(double ratio) {
   constexpr double kLargest = std::uint64_t{1} << (2 * kHertzOctaves);
   if (!(ratio < kLargest)) return solve_correction(ratio);
   const auto bits = std::bit_cast<std::uint64_t>(std::sqrt(ratio));
-  constexpr std::uint64_t kOne = std::bit_cast<std::uint64_t>(1.0);
+  constexpr auto kOne = std::bit_cast<std::uint64_t>(1.0);
   constexpr std::uint64_t kMantissa = (std::uint64_t{1} << 52) - 1;
   const HertzOctave& octave = kHertzTable[(bits - kOne) >> 52];
   const double t = std::bit_cast<double>((bits & kMantissa) | kOne) - 1;
