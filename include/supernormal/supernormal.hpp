@@ -46,6 +46,7 @@
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/pose.hpp"
 #include "supernormal/proximity/proximity.hpp"
+#include "supernormal/proximity/relative_curvature.hpp"
 #include "supernormal/proximity/separation.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/raycast/ray.hpp"

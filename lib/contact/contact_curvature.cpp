@@ -2,14 +2,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
+#include "proximity/lanes/lane_query.hpp"
+#include "proximity/limits.hpp"
 #include "proximity/tangent_plane.hpp"
 
 namespace supernormal {
 namespace {
 
-constexpr double kSharpest = 1e-9;    // smallest radius of curvature of an edge, in smallest half-extents
-constexpr double kFlattest = 1e12;    // a larger radius of curvature counts as flat, in smallest half-extents
 constexpr double kDifference = 1e-4;  // rad; boundary points are exact to rounding, so the differences are good to about 1e-8
 
 /// The tangent plane at m, with one basis vector along the flattest axis of the body. So the large radius of curvature of a face
@@ -39,7 +41,9 @@ Matrix3 find_curvature(const Shape& shape, const Pose& pose, const Vector3& n) {
   const TangentPlane plane = plane_along(m, H.diagonal());
   const Eigen2 radii(shape.traits().has_hessian ? Symmetric2::project(plane, H) : find_radii(shape, plane));
   const double size = shape.half_extents().minCoeff();
-  const auto curvature = [&](double radius) { return radius < kFlattest * size ? 1 / std::max(radius, kSharpest * size) : 0.0; };
+  const auto curvature = [&](double radius) {
+    return radius < limits::kFlat * size ? 1 / std::max(radius, limits::kSharpest * size) : 0.0;
+  };
   const Vector3 first = pose.rotation * plane.lift(radii.high_vector);
   const Vector3 second = pose.rotation * plane.lift(radii.low_vector);
   return curvature(radii.high) * first * first.transpose() + curvature(radii.low) * second * second.transpose();
@@ -49,6 +53,25 @@ ContactCurvature find_contact_curvature(const Matrix3& sum, const Vector3& n) {
   const TangentPlane plane(n, n.unitOrthogonal());
   const Eigen2 curvature(Symmetric2::project(plane, sum));
   return {std::max(0.0, curvature.low), std::max(0.0, curvature.high)};
+}
+
+void find_proximities(std::span<const ProximityQuery> queries, const Settings& settings, std::span<Proximity> results,
+                      std::span<ContactCurvature> curvatures) {
+  if (curvatures.size() != queries.size()) {
+    throw std::invalid_argument("curvatures has " + std::to_string(curvatures.size()) + " elements, and there are " +
+                                std::to_string(queries.size()) + " queries");
+  }
+  find_in_lanes(queries, settings, results, curvatures);
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    if (curvatures[k].larger != kUnknownCurvature) continue;
+    const Proximity& found = results[k];
+    const ProximityQuery& query = queries[k];
+    const bool overlap = found.status != Status::InvalidInput && found.gap < 0;
+    curvatures[k] = overlap ? find_contact_curvature(find_curvature(*query.shape1, *query.pose1, found.normal) +
+                                                         find_curvature(*query.shape2, *query.pose2, -found.normal),
+                                                     found.normal)
+                            : ContactCurvature();
+  }
 }
 
 }  // namespace supernormal

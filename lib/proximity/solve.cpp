@@ -85,13 +85,18 @@ Proximity find_proximity(const ProximityQuery& query, const Settings& settings) 
 }
 
 void find_proximities(std::span<const ProximityQuery> queries, const Settings& settings, std::span<Proximity> results) {
+  find_in_lanes(queries, settings, results, {});
+}
+
+void find_in_lanes(std::span<const ProximityQuery> queries, const Settings& settings, std::span<Proximity> results,
+                   std::span<ContactCurvature> curvatures) {
   check(settings);
   if (results.size() != queries.size()) {
     throw std::invalid_argument("results has " + std::to_string(results.size()) + " elements, and there are " +
                                 std::to_string(queries.size()) + " queries");
   }
   const LaneKernels& kernels = lane_kernels();
-  LaneBatch in_lanes(settings, *kernels.kernels[kernels.count - 1], results);
+  LaneBatch in_lanes(settings, *kernels.kernels[kernels.count - 1], results, curvatures);
   for (std::size_t k = 0; k < queries.size(); ++k) {
     ProximityQuery query = queries[k];
     const bool is_usable_pair = is_usable(*query.pose1) && is_usable(*query.pose2);
@@ -100,6 +105,7 @@ void find_proximities(std::span<const ProximityQuery> queries, const Settings& s
       in_lanes.add(query, k);
     } else {
       results[k] = find_proximity(query, settings);
+      if (!curvatures.empty()) curvatures[k] = {kUnknownCurvature, kUnknownCurvature};
     }
   }
   in_lanes.solve_rest();

@@ -29,7 +29,8 @@ constexpr int kRho = 18;
 constexpr int kUnit = kRho + 1;
 constexpr int kTolerance = kUnit + 1;
 constexpr int kRounding = kTolerance + 1;
-constexpr int kIsTracked = kRounding + 1;  // 1 if a first normal was given
+constexpr int kFollowed = kRounding + 1;   // the depth up to which a maximum is followed
+constexpr int kIsTracked = kFollowed + 1;  // 1 if a first normal was given
 constexpr int kNormal = kIsTracked + 1;
 constexpr int kEllipsoidFields = kNormal + 3;
 constexpr int kNorms1 = kEllipsoidFields;  // inner p - 1, inner 1/p, outer p - 1, outer 1/p
@@ -209,6 +210,8 @@ struct LaneSearch {
     out.put(kUnit, unit_length, column);
     out.put(kTolerance, tolerance, column);
     out.put(kRounding, rounding, column);
+    const R radii = number(false, &LaneBody::curvature_radius) + number(true, &LaneBody::curvature_radius);
+    out.put(kFollowed, max(unit_length * settings.followed_depth, radii * settings.followed_per_radius), column);
     out.put(kIsTracked, is_tracked, column);
     out.put(kNormal, normal, column);
   }
@@ -225,6 +228,14 @@ struct LaneSearch {
   struct Improvement {
     M is_improved, is_lost;
   };
+
+  /// (A A - r r^T) / h of an ellipsoid, as below.
+  SUPERNORMAL_INLINE static S ellipsoid_hessian(V half, V n, R inverse_h) {
+    const V w = times(half, n) * inverse_h, a = times(half, w), squares = times(half, half) * inverse_h, w2 = times(w, w);
+    // 1 - w_x^2 = w_y^2 + w_z^2 keeps the digits of a needle's small radii (ellipsoid.cpp).
+    return {squares.x * (w2.y + w2.z), squares.y * (w2.z + w2.x), squares.z * (w2.x + w2.y),
+            -(a.x * a.y * inverse_h),  -(a.x * a.z * inverse_h),  -(a.y * a.z * inverse_h)};
+  }
 
   /// Of two ellipsoids: h = |A n| with A = diag(half), r = A A n / h, and H = (A A - r r^T) / h.
   struct Ellipsoids {
@@ -248,11 +259,7 @@ struct LaneSearch {
       return {dot(n, offset) - h1 - h2, h1, offset - r2 - r1, r1};
     }
     SUPERNORMAL_INLINE void hessians(V n, S& H1, S& H) const {
-      // 1 - w_x^2 = w_y^2 + w_z^2 keeps the digits of a needle's small radii (ellipsoid.cpp).
-      const V w = times(half1, n) * inverse1, a = times(half1, w), squares = times(half1, half1) * inverse1;
-      const V w2 = times(w, w);
-      H1 = {squares.x * (w2.y + w2.z), squares.y * (w2.z + w2.x), squares.z * (w2.x + w2.y),
-            -(a.x * a.y * inverse1),   -(a.x * a.z * inverse1),   -(a.y * a.z * inverse1)};
+      H1 = ellipsoid_hessian(half1, n, inverse1);
       const S B = rotated_diagonal(rotation, times(half2, half2) * inverse2);
       const V b = r2 * inverse2;
       H = {H1.xx + (B.xx - r2.x * b.x), H1.yy + (B.yy - r2.y * b.y), H1.zz + (B.zz - r2.z * b.z),
@@ -374,7 +381,7 @@ struct LaneSearch {
 
       const auto& K = meeting.curvature;
       const S K1 = {K.xx.a, K.yy.a, K.zz.a, K.xy.a, K.xz.a, K.yz.a}, K2 = {K.xx.b, K.yy.b, K.zz.b, K.xy.b, K.xz.b, K.yz.b};
-      const Regular curvatures(K1 + rotated(rotation, K2), R(0.0), n, R(1.0) / state.at(kUnit), limits::kSharpest);
+      const Regular curvatures(K1 + rotated(rotation, K2), R(0.0), n, R(1.0) / state.at(kUnit), limits::kLargestCurvature);
       const M meets = is_ahead1 & is_ahead2 & curvatures.is_regular;
       const V further = curvatures.solve(select(meets, v2 - v1, none));
       // Rounding of large curvatures must not leave the plane across n.
@@ -469,7 +476,7 @@ struct LaneSearch {
     // Deeper than rho there may be several maxima, and Newton's steps may lead away from the one that is tracked.
     // A shallow one is followed to its top.
     const M is_deep = (R(0.5) < state.at(kIsTracked)) & ~is_provable;
-    const M may_follow = is_deep & (-now.s <= state.at(kUnit) * R(settings.followed_depth));
+    const M may_follow = is_deep & (-now.s <= state.at(kFollowed));
     const M is_left = is_first & is_deep & ~may_follow;
     round.is_followed = R(1.0) < R(0.0);
     round.is_open = is_active & is_left & ~(round.is_apart | round.is_proved);
@@ -644,8 +651,75 @@ struct LaneSearch {
     return is_good;
   }
 
+  /// The curvature tensor of a body in a basis of the plane perpendicular to the normal.
+  struct Curvature {
+    V t1, t2;
+    R xx, xy, yy;  // 1/m
+    M is_known;
+  };
+
+  /// find_curvature() (contact_curvature.cpp) of radii that are neither sharp nor flat, by the cofactors of H.
+  SUPERNORMAL_INLINE static Curvature curvature_of(const S& hessian, V n, R size) {
+    const R total = trace(hessian);
+    Curvature out;
+    out.is_known = (total < size * limits::kFlat) & (size * limits::kSharpest < total);
+    const S H = select(out.is_known, hessian, S{R(1.0), R(1.0), R(1.0), R(0.0), R(0.0), R(0.0)});
+    // Along the flattest axis, as there. It is far from the normal, since H n = 0.
+    const M is_x = (H.yy <= H.xx) & (H.zz <= H.xx), is_y = ~is_x & (H.zz <= H.yy);
+    const R x = select(is_x, R(1.0), R(0.0)), y = select(is_y, R(1.0), R(0.0));
+    const V axis = {x, y, R(1.0) - x - y};
+    const V along = axis - n * dot(n, axis);
+    const R squared = dot(along, along);
+    const M is_plane = R(limits::kGrazing) < squared;
+    out.is_known = out.is_known & is_plane;
+    out.t1 = along * (R(1.0) / sqrt(select(is_plane, squared, R(1.0))));
+    out.t2 = cross(n, out.t1);
+    const V H1 = H * out.t1, H2 = H * out.t2;
+    const R xx = dot(out.t1, H1), xy = dot(out.t2, H1), yy = dot(out.t2, H2);
+    const Principal radii(xx, xy, yy);
+    out.is_known = out.is_known & (size * limits::kSharpest < radii.low);
+    const R inverse = R(1.0) / select(out.is_known, radii.high * radii.low, R(1.0));
+    out.xx = yy * inverse;
+    out.xy = -(xy * inverse);
+    out.yy = xx * inverse;
+    return out;
+  }
+
+  /// The eigenvalues of a symmetric 2 x 2 matrix with a positive trace (Eigen2 in tangent_plane.hpp).
+  struct Principal {
+    R low, high;
+    SUPERNORMAL_INLINE Principal(R xx, R xy, R yy) {
+      const R half_difference = (xx - yy) * R(0.5);
+      high = (xx + yy) * R(0.5) + sqrt(half_difference * half_difference + xy * xy);
+      const M is_positive = R(0.0) < high;
+      const R inverse = R(1.0) / select(is_positive, high, R(1.0));
+      low = xx * (yy * inverse) - xy * (xy * inverse);
+    }
+  };
+
+  /// The curvatures of the bodies together at their contacts.
+  SUPERNORMAL_INLINE static void find_curvatures(const Pairs& pairs, const Ends& ends, int column, bool of_ellipsoids, M wanted,
+                                                 R& smaller, R& larger) {
+    const Mat<R> rotation = {pairs.vec(kRotation, column), pairs.vec(kRotation + 3, column), pairs.vec(kRotation + 6, column)};
+    const V half1 = pairs.vec(kHalf1, column), half2 = pairs.vec(kHalf2, column);
+    const V n = ends.vec(kFoundNormal, column), m = -transposed_times(rotation, n);
+    const S H2 = of_ellipsoids ? ellipsoid_hessian(half2, m, R(1.0) / length(times(half2, m))) : ends.sym(kFoundHessian2, column);
+    const Curvature K1 = curvature_of(ends.sym(kFoundHessian1, column), n, smallest(half1));
+    const Curvature K2 = curvature_of(H2, m, smallest(half2));
+    // The first axis of the second basis in the first; the second axis is (s, -c), because m = -n.
+    const V t = rotation * K2.t1;
+    const R c = dot(K1.t1, t), s = dot(K1.t2, t);
+    const R mixed = c * s * K2.xy * R(2.0);
+    const Principal sum(K1.xx + (c * c * K2.xx + s * s * K2.yy + mixed),
+                        K1.xy + (c * s * (K2.xx - K2.yy) + (s * s - c * c) * K2.xy),
+                        K1.yy + (s * s * K2.xx + c * c * K2.yy - mixed));
+    const M is_known = wanted & K1.is_known & K2.is_known;
+    smaller = select(is_known, max(sum.low, R(0.0)), R(kUnknownCurvature));
+    larger = select(is_known, sum.high, R(kUnknownCurvature));
+  }
+
   SUPERNORMAL_INLINE static void finish(const LanePair* inputs, const Pairs& pairs, const Ends& ends, int column, int count,
-                                        bool of_ellipsoids, LaneAnswer* answers) {
+                                        bool of_ellipsoids, bool wants_curvature, LaneAnswer* answers) {
     const Place place1(inputs, count, false);
     const auto find = [&](auto&& has) {
       return R(0.5) < lanes_from<W>([&](int lane) { return lane < count && has(answers[lane]) ? 1.0 : 0.0; });
@@ -663,7 +737,12 @@ struct LaneSearch {
     }
     const auto to_world = [&place1](V point) { return place1.rotation * point + place1.position; };
     const V normal = unit(place1.rotation * n), point1 = to_world(r1), point2 = to_world(r1 + d), point = to_world(contact);
-    alignas(8 * W) double out[19][W];
+    R smaller = kUnknownCurvature, larger = kUnknownCurvature;
+    if (wants_curvature) {
+      const M wanted = is_complete & (ends.at(kFoundS, column) < R(0.0));
+      if (any(wanted)) find_curvatures(pairs, ends, column, of_ellipsoids, wanted, smaller, larger);
+    }
+    alignas(8 * W) double out[21][W];
     const auto put = [&out](int i, V v) {
       store(out[i], v.x);
       store(out[i + 1], v.y);
@@ -678,6 +757,8 @@ struct LaneSearch {
     put(10, point2);
     put(13, point);
     put(16, n);
+    store(out[19], smaller);
+    store(out[20], larger);
     const unsigned complete = lanes_of(is_complete);
     for (int lane = 0; lane < count; ++lane) {
       LaneAnswer& answer = answers[lane];
@@ -698,6 +779,7 @@ struct LaneSearch {
         answer.point2[i] = out[10 + i][lane];
         answer.contact[i] = out[13 + i][lane];
       }
+      for (int i = 0; i < 2; ++i) answer.curvature[i] = out[19 + i][lane];
     }
   }
 
@@ -720,7 +802,7 @@ struct LaneSearch {
           for (auto& row : ends.rows) row[column + lane] = row[here - 1];
         }
         finish(pairs + first + column, prepared, ends, column, here - column < W ? here - column : W, of_ellipsoids,
-               answers + first + column);
+               settings.wants_curvature, answers + first + column);
       }
     }
   }
