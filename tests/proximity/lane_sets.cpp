@@ -68,7 +68,7 @@ constexpr std::size_t kBatch = 251;  // a prime number, so that no width fills i
 struct Pair {
   std::unique_ptr<Shape> shape1, shape2;
   Pose pose1, pose2;
-  double placed;  // m; s at the normal at which the bodies were placed
+  double placed = 0;  // m; s at the normal at which the bodies were placed
   Vector3 first_normal;
 };
 
@@ -77,7 +77,9 @@ class Drawing {
   explicit Drawing(unsigned seed) : engine_(seed) {}
 
   Pair draw(const Class& kind, double gap) {
-    Pair pair{body(kind, 1), body(kind, std::pow(kind.least_size, uniform(0, 1))), {}, {}, 0, {}};
+    Pair pair;
+    pair.shape1 = body(kind, 1);
+    pair.shape2 = body(kind, std::pow(kind.least_size, uniform(0, 1)));
     pair.pose1 = {Vector3{uniform(-10, 10), uniform(-10, 10), uniform(-10, 10)}, rotation()};
     const double unit = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
     pair.placed = gap * unit;

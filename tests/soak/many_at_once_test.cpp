@@ -20,10 +20,11 @@ constexpr double kSampledTolerances[] = {1e-9, 1e-3, 1e-6, 1e-12, 1e-15};
 
 /// Asks each case cold (or from its own normal), and from the normal of a rough answer.
 void check_among_many(const std::vector<samples::HardCase>& cases, const Settings& settings) {
-  std::vector<Vector3> normals;
-  for (const samples::HardCase& one : cases) {
-    normals.push_back(one.pose1.rotation.transpose() *
-                      find_proximity(*one.shape1, one.pose1, *one.shape2, one.pose2, {.tolerance = 1e-2}).normal);
+  std::vector<Vector3> normals(cases.size());
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const samples::HardCase& one = cases[k];
+    const Proximity rough = find_proximity(*one.shape1, one.pose1, *one.shape2, one.pose2, {.tolerance = 1e-2});
+    normals[k] = one.pose1.rotation.transpose() * rough.normal;
   }
   std::vector<ProximityQuery> queries;
   for (std::size_t k = 0; k < cases.size(); ++k) {
@@ -33,8 +34,8 @@ void check_among_many(const std::vector<samples::HardCase>& cases, const Setting
       queries.push_back({one.shape1.get(), &one.pose1, one.shape2.get(), &one.pose2, first});
     }
   }
-  std::vector<Proximity> alone, among(queries.size());
-  for (const ProximityQuery& query : queries) alone.push_back(find_proximity(query, settings));
+  std::vector<Proximity> alone(queries.size()), among(queries.size());
+  for (std::size_t k = 0; k < queries.size(); ++k) alone[k] = find_proximity(queries[k], settings);
   for (const WayAmongMany& way : ways_among_many()) {
     {
       const Traps traps(way.name.c_str());
