@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "proximity/lanes/lane_query.hpp"
+#include "proximity/among_many.hpp"
 #include "shapes/lanes/powers.hpp"
 #include "supernormal/proximity/batch.hpp"
 #include "supernormal/proximity/solve.hpp"
@@ -65,13 +65,6 @@ std::vector<Settings> all_settings() {
   all[4].certify_depth = true;
   all[5].tolerance = 1e-3;
   return all;
-}
-
-void find_in_lanes(std::span<const ProximityQuery> queries, const Settings& settings, const LaneKernel& kernel,
-                   std::span<Proximity> answers) {
-  LaneBatch batch(settings, kernel, answers);
-  for (std::size_t k = 0; k < queries.size(); ++k) batch.add(queries[k], k);
-  batch.solve_rest();
 }
 
 int count_different(const std::vector<ProximityQuery>& queries, const Settings& settings, const std::vector<Proximity>& answers) {
