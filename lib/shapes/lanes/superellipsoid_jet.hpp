@@ -120,7 +120,9 @@ struct LevelJet {
 /// larger of the two to the power epsilon - 1. So the outer norm takes no root. `inverse`: 1/half-axes.
 template <typename T>
 SUPERNORMAL_INLINE LevelJet<T> level_jet(Vec<T> inverse, const NormExponents<T>& delta, T epsilon_minus_1, Vec<T> point) {
-  const auto at_zero = [](T power_1) { return select(T(1.0) < power_1, T(0.0), select(power_1 < T(1.0), T(1e40), T(1.0))); };  // k^(p-2), k = 0, p >= 2
+  const auto at_zero = [](T power_1) {
+    return select(T(1.0) < power_1, T(0.0), select(power_1 < T(1.0), T(1e40), T(1.0)));
+  };  // k^(p-2), k = 0, p >= 2
   const NormJet<T> rho = norm_jet(abs(point.x * inverse.x), abs(point.y * inverse.y), delta);
   const Ratio<T> outer = ratio_of(rho.value, abs(point.z * inverse.z), epsilon_minus_1);
   const auto is_plain = T(kLanesFlatRatio) < outer.k;
