@@ -2,25 +2,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
 #include "proximity/lanes/lane_query.hpp"
 #include "proximity/limits.hpp"
 #include "proximity/tangent_plane.hpp"
+#include "shapes/validation.hpp"
 
 namespace supernormal {
 namespace {
 
 constexpr double kDifference = 1e-4;  // rad; boundary points are exact to rounding, so the differences are good to about 1e-8
-
-/// The tangent plane at m, with one basis vector along the flattest axis of the body. So the large radius of curvature of a face
-/// does not swamp the radius across it.
-TangentPlane plane_along(const Vector3& m, const Vector3& flatness) {
-  int axis = 0;
-  if (flatness.maxCoeff(&axis) > 0) return {m, Vector3::Unit(axis)};
-  return {m, m.unitOrthogonal()};
-}
 
 /// Estimates the radii of curvature by finite differences of boundary points.
 Symmetric2 find_radii(const Shape& shape, const TangentPlane& plane) {
@@ -38,7 +29,7 @@ Symmetric2 find_radii(const Shape& shape, const TangentPlane& plane) {
 Matrix3 find_curvature(const Shape& shape, const Pose& pose, const Vector3& n) {
   const Vector3 m = pose.rotation.transpose() * n;
   const Matrix3 H = shape.traits().has_hessian ? shape.jet(m).H : Matrix3(Matrix3::Zero());
-  const TangentPlane plane = plane_along(m, H.diagonal());
+  const TangentPlane plane = TangentPlane::along_flattest(m, H);
   const Eigen2 radii(shape.traits().has_hessian ? Symmetric2::project(plane, H) : find_radii(shape, plane));
   const double size = shape.half_extents().minCoeff();
   const auto curvature = [&](double radius) {
@@ -57,10 +48,7 @@ ContactCurvature find_contact_curvature(const Matrix3& sum, const Vector3& n) {
 
 void find_proximities(std::span<const ProximityQuery> queries, const Settings& settings, std::span<Proximity> results,
                       std::span<ContactCurvature> curvatures) {
-  if (curvatures.size() != queries.size()) {
-    throw std::invalid_argument("curvatures has " + std::to_string(curvatures.size()) + " elements, and there are " +
-                                std::to_string(queries.size()) + " queries");
-  }
+  require_one_for_each("curvatures", curvatures.size(), queries.size());
   find_in_lanes(queries, settings, results, curvatures);
   for (std::size_t k = 0; k < queries.size(); ++k) {
     if (curvatures[k].larger != kUnknownCurvature) continue;

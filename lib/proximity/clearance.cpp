@@ -23,8 +23,6 @@ double require_distance(double distance) {
   return distance;
 }
 
-bool is_unit(const Vector3& normal) { return all_within(normal, 2) && std::abs(normal.squaredNorm() - 1) < 1e-6; }
-
 /// The bounds of one pair.
 class Bounds {
  public:
@@ -93,7 +91,7 @@ Vector3 Bounds::next_normal(Order order) const {
 void Bounds::run(double enough, int max_evaluations, const Vector3* first_normal) {
   enough_ = enough;
   if (!gap_.is_finite() || take_spheres()) return;
-  const bool is_warm = first_normal != nullptr && is_unit(*first_normal);
+  const bool is_warm = first_normal != nullptr && is_usable(*first_normal);
   Vector3 n = is_warm ? Vector3(first_normal->normalized()) : first_guess(gap_);
   // Most queries end with the first evaluation, which takes no Hessian unless there may be another.
   const Order order = gap_.has_hessian() && max_evaluations > 1 ? Order::Hessian : Order::Point;
@@ -127,12 +125,11 @@ bool decide(const ProximityQuery& pair, double distance, Clearance& out) {
   query.first_normal = distance >= 0 ? &out.normal : nullptr;
   const Proximity answer = find_proximity(query);
   if (answer.status == Status::InvalidInput) return false;
-  const int evaluations = out.evaluations + answer.evaluations;
+  out.evaluations += answer.evaluations;
   if (answer.gap > out.lower_bound) {
     out.lower_bound = answer.gap;
     out.normal = (pair.pose1->rotation.transpose() * answer.normal).normalized();
   }
-  out.evaluations = evaluations;
   return out.lower_bound > distance;
 }
 
@@ -141,7 +138,7 @@ bool decide(const ProximityQuery& pair, double distance, Clearance& out) {
 bool is_farther_than(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, double distance,
                      Vector3* normal, int* evaluations) {
   require_distance(distance);
-  const bool is_warm = normal != nullptr && is_unit(*normal);
+  const bool is_warm = normal != nullptr && is_usable(*normal);
   Clearance out;
   const bool is_farther = decide({&shape1, &pose1, &shape2, &pose2, is_warm ? normal : nullptr}, distance, out);
   if (normal != nullptr) *normal = out.normal;
@@ -152,11 +149,8 @@ bool is_farther_than(const Shape& shape1, const Pose& pose1, const Shape& shape2
 std::size_t are_farther_than(std::span<const ProximityQuery> queries, double distance, std::span<Clearance> results,
                              std::span<bool> is_farther) {
   require_distance(distance);
-  if (results.size() != queries.size() || is_farther.size() != queries.size()) {
-    throw std::invalid_argument("results has " + std::to_string(results.size()) + " elements and is_farther " +
-                                std::to_string(is_farther.size()) + ", and there are " + std::to_string(queries.size()) +
-                                " queries");
-  }
+  require_one_for_each("results", results.size(), queries.size());
+  require_one_for_each("is_farther", is_farther.size(), queries.size());
   std::size_t count = 0;
   for (std::size_t k = 0; k < queries.size(); ++k) {
     is_farther[k] = decide(queries[k], distance, results[k]);

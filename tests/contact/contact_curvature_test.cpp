@@ -17,7 +17,7 @@
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
-#include "support/random_bodies.hpp"
+#include "support/random_queries.hpp"
 #include "support/traps.hpp"
 
 using namespace supernormal;
@@ -26,31 +26,17 @@ using namespace supernormal::test;
 namespace {
 
 /// Overlaps of all classes, and some pairs apart.
-class Overlaps {
+class Overlaps : public RandomQueries {
  public:
   Overlaps() {
     for (const RandomKind& kind : random_kinds()) {
-      RandomBodies& bodies = *bodies_.emplace_back(std::make_unique<RandomBodies>(kind, 5));
+      RandomBodies& bodies = bodies_of(kind, 5);
       for (int k = 0; k < 40; ++k) {
-        for (const double gap : {-0.1, -1e-2, -1e-4, 0.1}) pairs_.push_back(bodies.draw(gap));
+        for (const double gap : {-0.1, -1e-2, -1e-4, 0.1}) add(bodies.draw(gap));
       }
     }
-    for (const RandomPair& pair : pairs_) {
-      normals_.push_back(find_proximity(*pair.shape1, kPlace, *pair.shape2, pair.pose2, {.tolerance = 1e-3}).normal);
-    }
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      queries_.push_back({pairs_[k].shape1.get(), &kPlace, pairs_[k].shape2.get(), &pairs_[k].pose2, &normals_[k]});
-    }
+    for (std::size_t k = 0; k < pair_count(); ++k) ask(k, normal(k));
   }
-
-  const std::vector<ProximityQuery>& queries() const { return queries_; }
-
- private:
-  inline static const Pose kPlace;
-  std::vector<std::unique_ptr<RandomBodies>> bodies_;  // they hold vertices that the pairs refer to
-  std::vector<RandomPair> pairs_;
-  std::vector<Vector3> normals_;
-  std::vector<ProximityQuery> queries_;
 };
 
 ContactCurvature curvature_at(const ProximityQuery& query, const Vector3& n) {

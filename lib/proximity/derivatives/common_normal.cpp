@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "proximity/limits.hpp"
+#include "proximity/tuning.hpp"
 #include "shapes/finite.hpp"
 
 namespace supernormal {
@@ -29,16 +30,6 @@ constexpr double kNoWeight = 1e-9;
 // In units of the bodies' sizes: the curvature of a model whose own is not positive. At the maximum the weights do not depend on
 // it.
 constexpr double kLeastCurvature = 1e-3;
-
-// Relative to its components: where a step tilts the normal less, steps in the normal and in the boundary point are the same.
-constexpr double kSameTilt = 0.01;
-
-/// The axis of the frame of H along which the body is flattest. Another basis would spread a large radius over the whole matrix.
-TangentPlane aligned_plane(const Vector3& n, const Matrix3& H) {
-  int axis = 0;
-  const double radius = H.diagonal().maxCoeff(&axis);
-  return radius > 0 ? TangentPlane(n, Vector3::Unit(axis)) : TangentPlane::at(n);
-}
 
 /// The radii of curvature A in a basis whose first vector has the coordinates (cosine, sine).
 Symmetric2 rotated(const Symmetric2& A, double cosine, double sine) {
@@ -110,7 +101,8 @@ bool CommonNormal::look_at(const Vector3& n, Place& place) {
   const GapJet& jet = place.jet;
   if (!jet.is_finite() || !all_finite(jet.jet1.H) || !all_finite(jet.jet2.H)) return false;
   const double flattest = limits::kFlattest * gap_.length_unit();
-  const TangentPlane own1 = aligned_plane(jet.n, jet.jet1.H), own2 = aligned_plane(-jet.m, jet.jet2.H);
+  const TangentPlane own1 = TangentPlane::along_flattest(jet.n, jet.jet1.H),
+                     own2 = TangentPlane::along_flattest(-jet.m, jet.jet2.H);
   place.plane = own1;
   const Matrix3& R = gap_.rotation();
   const Vector3 t1 = R.transpose() * own1.t1, t2 = R.transpose() * own1.t2;
@@ -213,7 +205,7 @@ Vector3 CommonNormal::moved(const Place& place) const {
     const bool is_first = place.body1.A.trace() >= place.body2.A.trace();
     const Vector3 own = is_first ? jet.n : jet.m, tilt = is_first ? dn : Vector3(-(R.transpose() * dn));
     const Shape& shape = is_first ? gap_.shape1() : gap_.shape2();
-    if ((tilt.array().abs() > kSameTilt * own.array().abs()).any()) {
+    if ((tilt.array().abs() > kTuning.same_tilt * own.array().abs()).any()) {
       const Vector3 direction = shape.advance_normal(own, is_first ? jet.jet1 : jet.jet2, tilt);
       if (all_finite(direction) && direction.dot(own) > 0) next = is_first ? direction : Vector3(-(R * direction));
     }

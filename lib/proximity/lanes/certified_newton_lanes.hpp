@@ -148,9 +148,9 @@ struct LaneSearch {
     return gather(pairs, count, [=](const LanePair& pair) { return (second ? pair.body2 : pair.body1)->*number; });
   }
 
-  /// The axis along which a body is thinnest.
-  SUPERNORMAL_INLINE static V thinnest_axis(V half) {
-    const M is_x = (half.x <= half.y) & (half.x <= half.z), is_y = ~is_x & (half.y <= half.z);
+  /// The axis along which a vector has its smallest component.
+  SUPERNORMAL_INLINE static V smallest_axis(V v) {
+    const M is_x = (v.x <= v.y) & (v.x <= v.z), is_y = ~is_x & (v.y <= v.z);
     const R x = select(is_x, R(1.0), R(0.0)), y = select(is_y, R(1.0), R(0.0));
     return {x, y, R(1.0) - x - y};
   }
@@ -196,7 +196,7 @@ struct LaneSearch {
           select(is_concentric, V{R(1.0), R(0.0), R(0.0)}, offset * (R(1.0) / select(is_concentric, R(1.0), distance)));
       V guessed = guess(rotation, half1, half2, size1, size2, direction);
       if (any(is_concentric)) {
-        const V axis = select(smallest(half1) <= smallest(half2), thinnest_axis(half1), rotation * thinnest_axis(half2));
+        const V axis = select(smallest(half1) <= smallest(half2), smallest_axis(half1), rotation * smallest_axis(half2));
         guessed = select(is_concentric, axis, guessed);
       }
       normal = select(is_given, normal, guessed);
@@ -665,9 +665,7 @@ struct LaneSearch {
     out.is_known = (total < size * limits::kFlat) & (size * limits::kSharpest < total);
     const S H = select(out.is_known, hessian, S{R(1.0), R(1.0), R(1.0), R(0.0), R(0.0), R(0.0)});
     // Along the flattest axis, as there. It is far from the normal, since H n = 0.
-    const M is_x = (H.yy <= H.xx) & (H.zz <= H.xx), is_y = ~is_x & (H.zz <= H.yy);
-    const R x = select(is_x, R(1.0), R(0.0)), y = select(is_y, R(1.0), R(0.0));
-    const V axis = {x, y, R(1.0) - x - y};
+    const V axis = smallest_axis(-V{H.xx, H.yy, H.zz});
     const V along = axis - n * dot(n, axis);
     const R squared = dot(along, along);
     const M is_plane = R(limits::kGrazing) < squared;

@@ -13,6 +13,10 @@ namespace {  // NOLINT(google-build-namespaces): real.hpp
 constexpr double kLanesFlatRatio = 1e-60;
 constexpr double kLanesLeastRatio = 1e-300;
 
+// Stands for the infinite curvature of an edge. It is beyond limits::kLargestCurvature, so that nothing is computed with it, and a
+// product of such numbers is still in range.
+constexpr double kLanesSharp = 1e40;
+
 /// A norm (x^p + y^p)^(1/p) of two numbers.
 template <typename T>
 struct NormExponents {
@@ -116,13 +120,13 @@ struct LevelJet {
   Sym<T> second;  // without xz and yz, which are 0
 };
 
-/// For a superellipsoid with delta, epsilon >= 2: |rho|^epsilon + |z/c|^epsilon with the inner norm rho, over epsilon and the
-/// larger of the two to the power epsilon - 1. So the outer norm takes no root. `inverse`: 1/half-axes.
+/// For a superellipsoid |rho|^epsilon + |z/c|^epsilon with the inner norm rho, over epsilon and the larger of the two to the power
+/// epsilon - 1. So the outer norm takes no root. `inverse`: 1/half-axes.
 template <typename T>
 SUPERNORMAL_INLINE LevelJet<T> level_jet(Vec<T> inverse, const NormExponents<T>& delta, T epsilon_minus_1, Vec<T> point) {
-  const auto at_zero = [](T power_1) {
-    return select(T(1.0) < power_1, T(0.0), select(power_1 < T(1.0), T(1e40), T(1.0)));
-  };  // k^(p-2), k = 0, p >= 2
+  const auto at_zero = [](T power_1) {  // k^(p-2) for k = 0
+    return select(T(1.0) < power_1, T(0.0), select(power_1 < T(1.0), T(kLanesSharp), T(1.0)));
+  };
   const NormJet<T> rho = norm_jet(abs(point.x * inverse.x), abs(point.y * inverse.y), delta);
   const Ratio<T> outer = ratio_of(rho.value, abs(point.z * inverse.z), epsilon_minus_1);
   const auto is_plain = T(kLanesFlatRatio) < outer.k;

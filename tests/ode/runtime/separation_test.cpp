@@ -61,13 +61,6 @@ class Walk {
     return geom;
   }
 
-  static void turn_by(dGeomID geom, double angle, const Vec& axis) {
-    dMatrix3 turn, turned;
-    dRFromAxisAndAngle(turn, dReal(axis[0]), dReal(axis[1]), dReal(axis[2]), dReal(angle));
-    dMultiply0(turned, turn, dGeomGetRotation(geom), 3, 3, 3);
-    dGeomSetRotation(geom, turned);
-  }
-
   Random& random_;
   double size_;
   Geom one_, other_;

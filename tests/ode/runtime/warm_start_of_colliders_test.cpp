@@ -40,13 +40,6 @@ struct Scene {
     }
     return all;
   }
-
-  static void turn_by(dGeomID geom, double angle, const Vec& axis) {
-    dMatrix3 turn, turned;
-    dRFromAxisAndAngle(turn, dReal(axis[0]), dReal(axis[1]), dReal(axis[2]), dReal(angle));
-    dMultiply0(turned, turn, dGeomGetRotation(geom), 3, 3, 3);
-    dGeomSetRotation(geom, turned);
-  }
 };
 
 }  // namespace
@@ -82,7 +75,7 @@ TEST_CASE("a body that rolls across a wide dBox keeps its warm start, at three e
   constexpr double kStep = 0.01;
   for (int step = 0; step < kSteps; ++step) {
     place(ball, {-5 + kStep * step, 3, 0.9});
-    Scene::turn_by(ball, kStep / 0.45, {0, 1, 0});
+    turn_by(ball, kStep / 0.45, {0, 1, 0});
     collide(ball, floor);
   }
   const snStatistics s = statistics();
