@@ -1,9 +1,10 @@
 // Newton's method with the one-line bound (local/certified_newton.hpp has the theorem) for pairs in lanes.
 //
-// Three passes over at most kChunk pairs at a time:
+// W pairs at a time, one a lane:
 //   1. prepare(): the second body in the frame of the first, the tolerance, the first normal.
-//   2. search(): propose, evaluate, and stop when the two sides of the inequality are within the tolerance. A lane whose pair has
-//      ended takes the next pair, so that no lane waits for the slowest.
+//   2. search(): propose, evaluate, and stop when the two sides of the inequality are within the tolerance. A pair that has ended
+//      keeps its normal, and so its numbers, until the slowest ends. To give its lane to another pair costs more than to wait: the
+//      numbers of a pair, written one by one, are not yet there when all lanes are read at once.
 //   3. finish(): the contact by its formula, and everything to the world's frame.
 // A pair that the method cannot settle is Open, and the scalar search goes on (hybrid.cpp).
 //
@@ -48,33 +49,28 @@ struct LaneSearch {
   using S = Sym<R>;
   using M = Mask<W>;
 
-  static constexpr int kChunk = W == 1 ? 1 : 4 * W;
-
-  /// A table: one row of numbers for each field.
-  template <int kRows, int kColumns>
+  /// A table: one row of numbers for each field, one column for each pair.
+  template <int kRows>
   struct Table {
-    alignas(8 * W) double rows[kRows][kColumns];
-    SUPERNORMAL_INLINE R at(int field, int column = 0) const { return load<W>(&rows[field][column]); }
-    SUPERNORMAL_INLINE V vec(int field, int column = 0) const {
-      return {at(field, column), at(field + 1, column), at(field + 2, column)};
+    alignas(8 * W) double rows[kRows][W];
+    SUPERNORMAL_INLINE R at(int field) const { return load<W>(rows[field]); }
+    SUPERNORMAL_INLINE V vec(int field) const { return {at(field), at(field + 1), at(field + 2)}; }
+    SUPERNORMAL_INLINE S sym(int field) const {
+      return {at(field), at(field + 1), at(field + 2), at(field + 3), at(field + 4), at(field + 5)};
     }
-    SUPERNORMAL_INLINE S sym(int field, int column = 0) const {
-      return {at(field, column),     at(field + 1, column), at(field + 2, column),
-              at(field + 3, column), at(field + 4, column), at(field + 5, column)};
+    SUPERNORMAL_INLINE void put(int field, R value) { store(rows[field], value); }
+    SUPERNORMAL_INLINE void put(int field, V value) {
+      put(field, value.x);
+      put(field + 1, value.y);
+      put(field + 2, value.z);
     }
-    SUPERNORMAL_INLINE void put(int field, R value, int column = 0) { store(&rows[field][column], value); }
-    SUPERNORMAL_INLINE void put(int field, V value, int column = 0) {
-      put(field, value.x, column);
-      put(field + 1, value.y, column);
-      put(field + 2, value.z, column);
-    }
-    SUPERNORMAL_INLINE void put(int field, const S& value, int column = 0) {
-      put(field, V{value.xx, value.yy, value.zz}, column);
-      put(field + 3, V{value.xy, value.xz, value.yz}, column);
+    SUPERNORMAL_INLINE void put(int field, const S& value) {
+      put(field, V{value.xx, value.yy, value.zz});
+      put(field + 3, V{value.xy, value.xz, value.yz});
     }
   };
-  using Pairs = Table<kFields, kChunk>;
-  using Ends = Table<kFoundFields, kChunk>;
+  using Pairs = Table<kFields>;
+  using Found = Table<kFoundFields>;
 
   /// H + s I + t n n^T as in RegularHessian, by cofactors. Where it is not regular, it is the identity.
   struct Regular {
@@ -102,22 +98,22 @@ struct LaneSearch {
 
   // ------------------------------------------------------------------------------------------------------------------- prepare
 
-  SUPERNORMAL_INLINE static void read_body(const LaneBody& body, bool of_ellipsoids, bool is_second, int column, Pairs& pairs) {
+  SUPERNORMAL_INLINE static void read_body(const LaneBody& body, bool of_ellipsoids, bool is_second, int lane, Pairs& pairs) {
     auto& rows = pairs.rows;
-    for (int i = 0; i < 3; ++i) rows[(is_second ? kHalf2 : kHalf1) + i][column] = body.half[i];
+    for (int i = 0; i < 3; ++i) rows[(is_second ? kHalf2 : kHalf1) + i][lane] = body.half[i];
     if (of_ellipsoids) return;
     const int norms = is_second ? kNorms2 : kNorms1, flats = is_second ? kFlats2 : kFlats1,
               gauges = is_second ? kGauges2 : kGauges1;
-    rows[norms][column] = body.p_minus_1;
-    rows[norms + 1][column] = body.inverse_p;
-    rows[norms + 2][column] = body.q_minus_1;
-    rows[norms + 3][column] = body.inverse_q;
-    rows[flats][column] = body.flat_p;
-    rows[flats + 1][column] = body.flat_q;
-    rows[gauges][column] = body.delta_minus_1;
-    rows[gauges + 1][column] = body.inverse_delta;
-    rows[gauges + 2][column] = body.epsilon_minus_1;
-    rows[gauges + 3][column] = body.inverse_epsilon;
+    rows[norms][lane] = body.p_minus_1;
+    rows[norms + 1][lane] = body.inverse_p;
+    rows[norms + 2][lane] = body.q_minus_1;
+    rows[norms + 3][lane] = body.inverse_q;
+    rows[flats][lane] = body.flat_p;
+    rows[flats + 1][lane] = body.flat_q;
+    rows[gauges][lane] = body.delta_minus_1;
+    rows[gauges + 1][lane] = body.inverse_delta;
+    rows[gauges + 2][lane] = body.epsilon_minus_1;
+    rows[gauges + 3][lane] = body.inverse_epsilon;
   }
 
   /// One number of each of W pairs, in lanes. The lanes beyond the last pair take its number.
@@ -167,11 +163,11 @@ struct LaneSearch {
   }
 
   SUPERNORMAL_INLINE static void prepare(const LanePair* pairs, int count, bool of_ellipsoids, const LaneSettings& settings,
-                                         int column, Pairs& out) {
+                                         Pairs& out) {
     for (int lane = 0; lane < W; ++lane) {
       const LanePair& pair = pairs[lane < count ? lane : count - 1];
-      read_body(*pair.body1, of_ellipsoids, false, column + lane, out);
-      read_body(*pair.body2, of_ellipsoids, true, column + lane, out);
+      read_body(*pair.body1, of_ellipsoids, false, lane, out);
+      read_body(*pair.body2, of_ellipsoids, true, lane, out);
     }
     const Place place1(pairs, count, false), place2(pairs, count, true);
     const auto number = [&](bool second, double LaneBody::*which) { return of_body(pairs, count, second, which); };
@@ -180,7 +176,7 @@ struct LaneSearch {
                              transposed_times(from1, place2.rotation.z)};
     const V offset = transposed_times(from1, place2.position - place1.position);
     const R distance = length(offset);
-    const V half1 = out.vec(kHalf1, column), half2 = out.vec(kHalf2, column);
+    const V half1 = out.vec(kHalf1), half2 = out.vec(kHalf2);
     const R unit_length = min(smallest(half1), smallest(half2));
     const R rounding = (distance + number(false, &LaneBody::bounding_radius) + number(true, &LaneBody::bounding_radius)) *
                        R(limits::kRoundingUnits * kLaneEpsilon);
@@ -202,18 +198,18 @@ struct LaneSearch {
       normal = select(is_given, normal, guessed);
     }
     normal = unit(normal);
-    out.put(kRotation, rotation.x, column);
-    out.put(kRotation + 3, rotation.y, column);
-    out.put(kRotation + 6, rotation.z, column);
-    out.put(kOffset, offset, column);
-    out.put(kRho, number(false, &LaneBody::rolling_radius) + number(true, &LaneBody::rolling_radius), column);
-    out.put(kUnit, unit_length, column);
-    out.put(kTolerance, tolerance, column);
-    out.put(kRounding, rounding, column);
+    out.put(kRotation, rotation.x);
+    out.put(kRotation + 3, rotation.y);
+    out.put(kRotation + 6, rotation.z);
+    out.put(kOffset, offset);
+    out.put(kRho, number(false, &LaneBody::rolling_radius) + number(true, &LaneBody::rolling_radius));
+    out.put(kUnit, unit_length);
+    out.put(kTolerance, tolerance);
+    out.put(kRounding, rounding);
     const R radii = number(false, &LaneBody::curvature_radius) + number(true, &LaneBody::curvature_radius);
-    out.put(kFollowed, max(unit_length * settings.followed_depth, radii * settings.followed_per_radius), column);
-    out.put(kIsTracked, is_tracked, column);
-    out.put(kNormal, normal, column);
+    out.put(kFollowed, max(unit_length * settings.followed_depth, radii * settings.followed_per_radius));
+    out.put(kIsTracked, is_tracked);
+    out.put(kNormal, normal);
   }
 
   // -------------------------------------------------------------------------------------------------------------------- search
@@ -245,7 +241,7 @@ struct LaneSearch {
     V r2;  // minus the boundary point of body 2, in body 1's frame
     V r1;
     R inverse1, inverse2;
-    SUPERNORMAL_INLINE Ellipsoids(const Table<kFields, W>& state, const Mat<R>& of_2) : rotation(of_2) {
+    SUPERNORMAL_INLINE Ellipsoids(const Pairs& state, const Mat<R>& of_2) : rotation(of_2) {
       half1 = state.vec(kHalf1);
       half2 = state.vec(kHalf2);
     }
@@ -265,7 +261,7 @@ struct LaneSearch {
       H = {H1.xx + (B.xx - r2.x * b.x), H1.yy + (B.yy - r2.y * b.y), H1.zz + (B.zz - r2.z * b.z),
            H1.xy + (B.xy - r2.x * b.y), H1.xz + (B.xz - r2.x * b.z), H1.yz + (B.yz - r2.y * b.z)};
     }
-    SUPERNORMAL_INLINE void put_body2(Table<kFoundFields, W>&) const {}  // evaluated anew where it is needed
+    SUPERNORMAL_INLINE void put_body2(Found&) const {}  // evaluated anew where it is needed
     /// A step in the normal is the best for round bodies.
     SUPERNORMAL_INLINE Improvement improve(V, V, const Evaluation&, const Regular&, M, V&) const {
       return {R(1.0) < R(0.0), R(1.0) < R(0.0)};
@@ -277,12 +273,12 @@ struct LaneSearch {
   struct Superellipsoids {
     static constexpr bool kOfEllipsoids = false;
     using P = Two<R>;
-    const Table<kFields, W>& state;
+    const Pairs& state;
     Mat<R> rotation;
     PowerBody<P> bodies;
     PointJet<P> jets;
     S H1, H2, rotated2;
-    SUPERNORMAL_INLINE Superellipsoids(const Table<kFields, W>& pairs, const Mat<R>& of_2) : state(pairs), rotation(of_2) {
+    SUPERNORMAL_INLINE Superellipsoids(const Pairs& pairs, const Mat<R>& of_2) : state(pairs), rotation(of_2) {
       bodies = {{both(kHalf1, kHalf2), both(kHalf1 + 1, kHalf2 + 1), both(kHalf1 + 2, kHalf2 + 2)},
                 {both(kNorms1, kNorms2), both(kNorms1 + 1, kNorms2 + 1)},
                 {both(kNorms1 + 2, kNorms2 + 2), both(kNorms1 + 3, kNorms2 + 3)}};
@@ -302,7 +298,7 @@ struct LaneSearch {
       of_1 = H1;
       of_both = H1 + rotated2;
     }
-    SUPERNORMAL_INLINE void put_body2(Table<kFoundFields, W>& found) const {
+    SUPERNORMAL_INLINE void put_body2(Found& found) const {
       found.put(kFoundH2, jets.h.b);
       found.put(kFoundR2, V{jets.r.x.b, jets.r.y.b, jets.r.z.b});
       found.put(kFoundHessian2, H2);
@@ -401,177 +397,136 @@ struct LaneSearch {
     }
   };
 
-  /// The pairs in search, one a lane.
+  /// Where the search of every lane is.
   struct Lanes {
-    Table<3, W> best_normal, step;
-    alignas(8 * W) double best_s[W];
-    alignas(8 * W) double best_at[W];  // the evaluation of the best normal
-    alignas(8 * W) double evaluations[W];
-    alignas(8 * W) double is_active[W];   // 1 or 0
-    alignas(8 * W) double is_halfway[W];  // 1 or 0: the last step was without a step in the normal
-    double cuts[W][kMostLaneEvaluations][3];
-    Table<kFields, W>& state;
-    Table<kFoundFields, W>& found;
-    int pair[W];  // of the chunk
-
-    SUPERNORMAL_INLINE void load_pair(int lane, const Pairs& pairs, int index, int fields) {
-      if constexpr (W > 1) {
-        for (int field = 0; field < fields; ++field) state.rows[field][lane] = pairs.rows[field][index];
-      }
-      for (int i = 0; i < 3; ++i) best_normal.rows[i][lane] = step.rows[i][lane] = 0;
-      best_s[lane] = -1e300;
-      best_at[lane] = evaluations[lane] = 0;
-      pair[lane] = index;
-    }
-    void keep_cut(V cut) {
-      alignas(8 * W) double c[3][W];
-      store(c[0], cut.x);
-      store(c[1], cut.y);
-      store(c[2], cut.z);
-      for (int lane = 0; lane < W; ++lane) {
-        const int k = static_cast<int>(evaluations[lane]);
-        if (k >= kMostLaneEvaluations) continue;
-        for (int i = 0; i < 3; ++i) cuts[lane][k][i] = c[i][lane];
-      }
-    }
+    int round;  // the evaluation, from 0
+    M is_active;
+    M was_halfway;      // the last step was without a step in the normal
+    R best_s, best_at;  // of the best normal; the evaluation it comes from
+    V best, step;
+    Table<3> cuts[kMostLaneEvaluations];
   };
 
   /// The pairs that end with an evaluation.
-  struct Round {
-    M is_apart, is_proved, is_followed, is_open;
+  struct Ended {
+    M apart, proved, followed, open;
   };
 
   /// One evaluation of every lane, and the next normal of those that go on.
   template <typename Bodies>
-  SUPERNORMAL_INLINE static Round advance(const LaneSettings& settings, Lanes& lanes) {
-    Table<kFields, W>& state = lanes.state;
-    const Mat<R> rotation = {state.vec(kRotation), state.vec(kRotation + 3), state.vec(kRotation + 6)};
-    const V n = state.vec(kNormal), m = -transposed_times(rotation, n);
-    Bodies bodies(state, rotation);
-    const Evaluation now = bodies.evaluate(n, m, state.vec(kOffset));
-    lanes.found.put(kFoundS, now.s);
-    lanes.found.put(kFoundNormal, n);
-    lanes.found.put(kFoundD, now.d);
-    lanes.found.put(kFoundR, now.r1);
-    lanes.found.put(kFoundH, now.h1);
+  SUPERNORMAL_INLINE static Ended advance(const LaneSettings& settings, Pairs& pairs, Found& found, Lanes& lanes) {
+    const Mat<R> rotation = {pairs.vec(kRotation), pairs.vec(kRotation + 3), pairs.vec(kRotation + 6)};
+    const V n = pairs.vec(kNormal), m = -transposed_times(rotation, n);
+    Bodies bodies(pairs, rotation);
+    const Evaluation now = bodies.evaluate(n, m, pairs.vec(kOffset));
+    found.put(kFoundS, now.s);
+    found.put(kFoundNormal, n);
+    found.put(kFoundD, now.d);
+    found.put(kFoundR, now.r1);
+    found.put(kFoundH, now.h1);
 
-    const M is_active = R(0.5) < load<W>(lanes.is_active);
-    const R evaluations = load<W>(lanes.evaluations), best_s = load<W>(lanes.best_s), tolerance = state.at(kTolerance);
-    const M is_first = evaluations < R(0.5), is_better = best_s < now.s;
+    const M is_active = lanes.is_active;
+    const R best_s = lanes.best_s, tolerance = pairs.at(kTolerance);
+    const M is_better = best_s < now.s;
     // The theorem: if s + rho > 0, then s <= max s <= |d + rho n| - rho.
-    const R rho = state.at(kRho), height = now.s + rho;
+    const R rho = pairs.at(kRho), height = now.s + rho;
     const M is_provable = R(0.0) < height;
     const V cut = now.d + n * rho;
     const R error = max(length(cut) - height, R(0.0));
-    lanes.found.put(kFoundError, error);
-    lanes.keep_cut(cut);
-    const V best = select(is_better, n, lanes.best_normal.vec(0));
-    lanes.best_normal.put(0, best);
-    store(lanes.best_s, select(is_better, now.s, best_s));
-    store(lanes.best_at, select(is_better, evaluations, load<W>(lanes.best_at)));
+    found.put(kFoundError, error);
+    lanes.cuts[lanes.round].put(0, cut);
+    lanes.best = select(is_better, n, lanes.best);
+    lanes.best_s = select(is_better, now.s, best_s);
+    lanes.best_at = select(is_better, R(static_cast<double>(lanes.round)), lanes.best_at);
 
-    Round round;
-    round.is_apart = settings.stop_when_apart ? is_active & is_better & (R(0.0) < now.s) : R(1.0) < R(0.0);
-    round.is_proved = is_active & is_better & is_provable & (error <= tolerance) & ~round.is_apart;
+    const M none = R(1.0) < R(0.0);
+    Ended ended;
+    ended.apart = settings.stop_when_apart ? is_active & is_better & (R(0.0) < now.s) : none;
+    ended.proved = is_active & is_better & is_provable & (error <= tolerance) & ~ended.apart;
     // Deeper than rho there may be several maxima, and Newton's steps may lead away from the one that is tracked.
     // A shallow one is followed to its top.
-    const M is_deep = (R(0.5) < state.at(kIsTracked)) & ~is_provable;
-    const M may_follow = is_deep & (-now.s <= state.at(kFollowed));
-    const M is_left = is_first & is_deep & ~may_follow;
-    round.is_followed = R(1.0) < R(0.0);
-    round.is_open = is_active & is_left & ~(round.is_apart | round.is_proved);
-    M goes_on = is_active & ~(round.is_apart | round.is_proved | round.is_open);
-    if (!any(goes_on | round.is_proved | round.is_open)) return round;
+    const M is_deep = (R(0.5) < pairs.at(kIsTracked)) & ~is_provable;
+    const M may_follow = is_deep & (-now.s <= pairs.at(kFollowed));
+    ended.followed = none;
+    ended.open = lanes.round == 0 ? is_active & is_deep & ~may_follow & ~(ended.apart | ended.proved) : none;
+    M goes_on = is_active & ~(ended.apart | ended.proved | ended.open);
+    if (!any(goes_on | ended.proved | ended.open)) return ended;
     S H1, H;  // for the step, the contact, and the search that goes on elsewhere
     bodies.hessians(n, H1, H);
-    lanes.found.put(kFoundHessian1, H1);
-    lanes.found.put(kFoundHessian, H);
-    bodies.put_body2(lanes.found);
-    if (!any(goes_on)) return round;
+    found.put(kFoundHessian1, H1);
+    found.put(kFoundHessian, H);
+    bodies.put_body2(found);
+    if (!any(goes_on)) return ended;
 
-    const Regular regular(H, now.s, n, state.at(kUnit), limits::kFlattest);
+    const Regular regular(H, now.s, n, pairs.at(kUnit), limits::kFlattest);
     V step = regular.solve(now.d - n * now.s);
     // The model's gain is half of this product.
     const R twice_gain = dot(now.d, step);
-    round.is_followed =
+    ended.followed =
         goes_on & is_better & may_follow & regular.is_regular & (twice_gain * R(0.5 * kTuning.gain_safety) <= tolerance);
-    goes_on = goes_on & ~round.is_followed;
+    goes_on = goes_on & ~ended.followed;
     const Improvement improvement = bodies.improve(n, m, now, regular, goes_on & is_better, step);
     const M has_step = regular.is_regular | improvement.is_improved;
     const M gains = tolerance < dot(now.d, step);
     // A face is level: no shorter step leads higher.
-    const M is_level = bodies.has_flat_faces() & (best_s - state.at(kRounding) <= now.s);
+    const M is_level = bodies.has_flat_faces() & (best_s - pairs.at(kRounding) <= now.s);
     // Nor does half of a step to a meeting that was not there.
-    const M was_halfway = R(0.5) < load<W>(lanes.is_halfway);
-    const M is_last = R(settings.most_evaluations - 1.5) < evaluations;
-    const M is_stuck = improvement.is_lost | (is_better & (~has_step | ~(is_provable | may_follow | gains))) |
-                       (~is_better & (is_level | was_halfway)) | is_last;
-    round.is_open = round.is_open | (goes_on & is_stuck);
+    M is_stuck = improvement.is_lost | (is_better & (~has_step | ~(is_provable | may_follow | gains))) |
+                 (~is_better & (is_level | lanes.was_halfway));
+    if (lanes.round + 1 >= settings.most_evaluations) is_stuck = R(0.0) < R(1.0);
+    ended.open = ended.open | (goes_on & is_stuck);
     goes_on = goes_on & ~is_stuck;
 
-    store(lanes.is_halfway, select(is_better & ~regular.is_regular, R(1.0), R(0.0)));
-    step = select(goes_on & is_better, step, lanes.step.vec(0) * R(0.5));
+    lanes.was_halfway = is_better & ~regular.is_regular;
+    step = select(goes_on & is_better, step, lanes.step * R(0.5));
     const R squared = dot(step, step);
     const M is_long = R(kTuning.longest_step * kTuning.longest_step) < squared;
-    step = step * select(is_long, R(kTuning.longest_step) / sqrt(select(is_long, squared, R(1.0))), R(1.0));
-    lanes.step.put(0, step);
-    state.put(kNormal, select(goes_on, unit(best + step), n));
-    return round;
+    lanes.step = step * select(is_long, R(kTuning.longest_step) / sqrt(select(is_long, squared, R(1.0))), R(1.0));
+    pairs.put(kNormal, select(goes_on, unit(lanes.best + lanes.step), n));
+    return ended;
   }
 
+  /// Finds the ends of all pairs. An open or followed pair gets its best normal, the others keep their last.
   template <typename Bodies>
-  SUPERNORMAL_INLINE static void search(Pairs& pairs, int count, const LaneSettings& settings, Ends& ends, LaneAnswer* answers) {
-    constexpr bool kOfEllipsoids = Bodies::kOfEllipsoids;
-    constexpr int kInUse = kOfEllipsoids ? kEllipsoidFields : kFields;
-    constexpr int kFoundInUse = kOfEllipsoids ? kFoundOfEllipsoids : kFoundFields;
-    // A single pair is searched where it lies.
-    Table<kFields, W> own_state;
-    Table<kFoundFields, W> own_found;
-    Lanes lanes = [&]() -> Lanes {
-      if constexpr (W == 1) {
-        return {{}, {}, {}, {}, {}, {}, {}, {}, pairs, ends, {}};
-      } else {
-        own_found = {};
-        return {{}, {}, {}, {}, {}, {}, {}, {}, own_state, own_found, {}};
-      }
-    }();
-    int next = 0, active = 0;
-    for (int lane = 0; lane < W; ++lane) {
-      const bool has_pair = next < count;
-      lanes.load_pair(lane, pairs, has_pair ? next++ : count - 1, kInUse);
-      lanes.is_active[lane] = has_pair ? 1 : 0;
-      active += has_pair ? 1 : 0;
+  SUPERNORMAL_INLINE static void search(Pairs& pairs, int count, const LaneSettings& settings, Found& found, LaneAnswer* answers) {
+    const V zero = {R(0.0), R(0.0), R(0.0)};
+    const M none = R(1.0) < R(0.0);
+    Lanes lanes;
+    lanes.round = 0;
+    lanes.is_active = lanes_from<W>([](int lane) { return static_cast<double>(lane); }) < R(static_cast<double>(count));
+    lanes.was_halfway = none;
+    lanes.best_s = R(-1e300);
+    lanes.best_at = R(0.0);
+    lanes.best = lanes.step = zero;
+    Ended all = {none, none, none, none};
+    R evaluations = R(0.0);
+    while (any(lanes.is_active)) {
+      const Ended ended = advance<Bodies>(settings, pairs, found, lanes);
+      ++lanes.round;
+      evaluations = select(lanes.is_active, R(static_cast<double>(lanes.round)), evaluations);
+      all = {all.apart | ended.apart, all.proved | ended.proved, all.followed | ended.followed, all.open | ended.open};
+      lanes.is_active = lanes.is_active & ~(ended.apart | ended.proved | ended.followed | ended.open);
     }
-    while (active > 0) {
-      const Round round = advance<Bodies>(settings, lanes);
-      for (int lane = 0; lane < W; ++lane) lanes.evaluations[lane] += 1;
-      const unsigned apart = lanes_of(round.is_apart), proved = lanes_of(round.is_proved), open = lanes_of(round.is_open);
-      const unsigned followed = lanes_of(round.is_followed);
-      for (unsigned ended = apart | proved | followed | open; ended != 0; ended &= ended - 1) {
-        const int lane = __builtin_ctz(ended), index = lanes.pair[lane];
-        const bool is_open = (open >> lane & 1) != 0;
-        LaneAnswer& answer = answers[index];
-        answer.outcome = is_open ? LaneOutcome::Open : (apart >> lane & 1) != 0 ? LaneOutcome::Apart : LaneOutcome::Proved;
-        answer.is_followed = (followed >> lane & 1) != 0;
-        answer.evaluations = static_cast<int>(lanes.evaluations[lane]);
-        if constexpr (W > 1) {
-          for (int field = 0; field < kFoundInUse; ++field) ends.rows[field][index] = lanes.found.rows[field][lane];
-        }
-        answer.has_jet = !kOfEllipsoids;
-        if (is_open || answer.is_followed) {
-          const int best = static_cast<int>(lanes.best_at[lane]);
-          answer.has_jet = !kOfEllipsoids && best == answer.evaluations - 1;
-          for (int i = 0; i < 3; ++i) ends.rows[kFoundNormal + i][index] = lanes.best_normal.rows[i][lane];
-          for (int k = 0; k < answer.evaluations - 1; ++k) {
-            for (int i = 0; i < 3; ++i) answer.cuts[k][i] = lanes.cuts[lane][k < best ? k : k + 1][i];
-          }
-        }
-        if (next < count) {
-          lanes.load_pair(lane, pairs, next++, kInUse);
-        } else {
-          lanes.is_active[lane] = 0;
-          --active;
-        }
+    const M has_best = all.open | all.followed;
+    found.put(kFoundNormal, select(has_best, lanes.best, found.vec(kFoundNormal)));
+
+    alignas(8 * W) double evaluations_of[W], best_of[W];
+    store(evaluations_of, evaluations);
+    store(best_of, lanes.best_at);
+    const unsigned apart = lanes_of(all.apart), followed = lanes_of(all.followed), open = lanes_of(all.open);
+    for (int lane = 0; lane < count; ++lane) {
+      const auto is_in = [lane](unsigned mask) { return (mask >> lane & 1) != 0; };
+      LaneAnswer& answer = answers[lane];
+      answer.outcome = is_in(open) ? LaneOutcome::Open : is_in(apart) ? LaneOutcome::Apart : LaneOutcome::Proved;
+      answer.is_followed = is_in(followed);
+      answer.evaluations = static_cast<int>(evaluations_of[lane]);
+      answer.has_jet = !Bodies::kOfEllipsoids;
+      // A followed pair becomes Open in finish() if its contact is not proved.
+      if (!is_in(open | followed)) continue;
+      const int best = static_cast<int>(best_of[lane]), last = answer.evaluations - 1;
+      answer.has_jet = answer.has_jet && best == last;
+      for (int k = 0; k < last; ++k) {
+        for (int i = 0; i < 3; ++i) answer.cuts[k][i] = lanes.cuts[k < best ? k : k + 1].rows[i][lane];
       }
     }
   }
@@ -579,13 +534,13 @@ struct LaneSearch {
   // -------------------------------------------------------------------------------------------------------------------- finish
 
   /// Whether the bodies contain a point of body 1's frame, by their equations (Shape::surely_contains).
-  SUPERNORMAL_INLINE static M both_contain(const Pairs& pairs, int column, bool of_ellipsoids, V point, V from2) {
-    const V half1 = pairs.vec(kHalf1, column), half2 = pairs.vec(kHalf2, column);
+  SUPERNORMAL_INLINE static M both_contain(const Pairs& pairs, bool of_ellipsoids, V point, V from2) {
+    const V half1 = pairs.vec(kHalf1), half2 = pairs.vec(kHalf2);
     const V x1 = {point.x / half1.x, point.y / half1.y, point.z / half1.z},
             x2 = {from2.x / half2.x, from2.y / half2.y, from2.z / half2.z};
     if (of_ellipsoids) return (dot(x1, x1) <= R(1.0)) & (dot(x2, x2) <= R(1.0));
     using P = Two<R>;
-    const auto both = [&](int field) { return P(pairs.at(kGauges1 + field, column), pairs.at(kGauges2 + field, column)); };
+    const auto both = [&](int field) { return P(pairs.at(kGauges1 + field), pairs.at(kGauges2 + field)); };
     const NormExponents<P> inner = {both(0), both(1)}, outer = {both(2), both(3)};
     const P across = norm_value(abs(P(x1.x, x2.x)), abs(P(x1.y, x2.y)), inner);
     const P gauge = norm_value(across, abs(P(x1.z, x2.z)), outer);
@@ -605,22 +560,22 @@ struct LaneSearch {
   };
 
   /// The contact (contact_point.cpp), and where its formula serves.
-  SUPERNORMAL_INLINE static M place_contact(const Pairs& pairs, const Ends& ends, int column, bool of_ellipsoids,
-                                            const Radii& radii, M wanted, M is_followed, V& contact) {
-    const V n = ends.vec(kFoundNormal, column), d = ends.vec(kFoundD, column), r1 = ends.vec(kFoundR, column);
-    const R s = ends.at(kFoundS, column), unit_length = pairs.at(kUnit, column);
-    const Regular sum(ends.sym(kFoundHessian, column), R(0.0), n, unit_length, limits::kFlatContact);
+  SUPERNORMAL_INLINE static M place_contact(const Pairs& pairs, const Found& found, bool of_ellipsoids, const Radii& radii,
+                                            M wanted, M is_followed, V& contact) {
+    const V n = found.vec(kFoundNormal), d = found.vec(kFoundD), r1 = found.vec(kFoundR);
+    const R s = found.at(kFoundS), unit_length = pairs.at(kUnit);
+    const Regular sum(found.sym(kFoundHessian), R(0.0), n, unit_length, limits::kFlatContact);
     const V across = d - n * s;
     // Where the sum is not regular, the radii may be of any size, and a product with them out of range.
     const V along = select(sum.is_regular, across, V{R(0.0), R(0.0), R(0.0)});
-    const V from_point1 = ends.sym(kFoundHessian1, column) * sum.solve(along);
+    const V from_point1 = found.sym(kFoundHessian1) * sum.solve(along);
     const V shift = from_point1 - n * dot(from_point1, n) - across * R(0.5);
     const R half_distance = length(across) * R(0.5), distance = length(shift);
     const R limit = half_distance + min(radii.size1, radii.size2) * R(2.0);
     const M is_far = limit < distance;
     contact = r1 + d * R(0.5) + shift * select(is_far, limit / select(is_far, distance, R(1.0)), R(1.0));
 
-    const R near = max(unit_length * R(limits::kNear), pairs.at(kTolerance, column));
+    const R near = max(unit_length * R(limits::kNear), pairs.at(kTolerance));
     const auto is_near_both = [&](V point) {
       const V from1 = point - r1, from2 = from1 - d;
       const auto is_near = [&](V from, R radius) {
@@ -637,16 +592,16 @@ struct LaneSearch {
     const V of_balls = r1 + n * (s * R(0.5)) + across * share;
     contact = select(is_good, contact, of_balls);
     is_good = sum.is_regular & (is_good | is_near_both(of_balls));
-    contact = contact + n * (ends.at(kFoundH, column) + s * R(0.5) - dot(n, contact));
+    contact = contact + n * (found.at(kFoundH) + s * R(0.5) - dot(n, contact));
 
     const V to_centre1 = contact - (r1 - n * radii.rolling1), to_centre2 = contact - (r1 + d + n * radii.rolling2);
     const M is_in_balls = (length(to_centre1) <= radii.rolling1 + near) & (length(to_centre2) <= radii.rolling2 + near);
     // That a point is in both bodies also proves that they overlap where a maximum is followed.
     const M is_open = wanted & is_good & (s <= R(0.0)) & (is_followed | ~is_in_balls);
     if (any(is_open)) {
-      const Mat<R> rotation = {pairs.vec(kRotation, column), pairs.vec(kRotation + 3, column), pairs.vec(kRotation + 6, column)};
-      const V from2 = transposed_times(rotation, contact - pairs.vec(kOffset, column));
-      is_good = is_good & (~is_open | both_contain(pairs, column, of_ellipsoids, contact, from2));
+      const Mat<R> rotation = {pairs.vec(kRotation), pairs.vec(kRotation + 3), pairs.vec(kRotation + 6)};
+      const V from2 = transposed_times(rotation, contact - pairs.vec(kOffset));
+      is_good = is_good & (~is_open | both_contain(pairs, of_ellipsoids, contact, from2));
     }
     return is_good;
   }
@@ -696,13 +651,13 @@ struct LaneSearch {
   };
 
   /// The curvatures of the bodies together at their contacts.
-  SUPERNORMAL_INLINE static void find_curvatures(const Pairs& pairs, const Ends& ends, int column, bool of_ellipsoids, M wanted,
-                                                 R& smaller, R& larger) {
-    const Mat<R> rotation = {pairs.vec(kRotation, column), pairs.vec(kRotation + 3, column), pairs.vec(kRotation + 6, column)};
-    const V half1 = pairs.vec(kHalf1, column), half2 = pairs.vec(kHalf2, column);
-    const V n = ends.vec(kFoundNormal, column), m = -transposed_times(rotation, n);
-    const S H2 = of_ellipsoids ? ellipsoid_hessian(half2, m, R(1.0) / length(times(half2, m))) : ends.sym(kFoundHessian2, column);
-    const Curvature K1 = curvature_of(ends.sym(kFoundHessian1, column), n, smallest(half1));
+  SUPERNORMAL_INLINE static void find_curvatures(const Pairs& pairs, const Found& found, bool of_ellipsoids, M wanted, R& smaller,
+                                                 R& larger) {
+    const Mat<R> rotation = {pairs.vec(kRotation), pairs.vec(kRotation + 3), pairs.vec(kRotation + 6)};
+    const V half1 = pairs.vec(kHalf1), half2 = pairs.vec(kHalf2);
+    const V n = found.vec(kFoundNormal), m = -transposed_times(rotation, n);
+    const S H2 = of_ellipsoids ? ellipsoid_hessian(half2, m, R(1.0) / length(times(half2, m))) : found.sym(kFoundHessian2);
+    const Curvature K1 = curvature_of(found.sym(kFoundHessian1), n, smallest(half1));
     const Curvature K2 = curvature_of(H2, m, smallest(half2));
     // The first axis of the second basis in the first; the second axis is (s, -c), because m = -n.
     const V t = rotation * K2.t1;
@@ -716,7 +671,7 @@ struct LaneSearch {
     larger = select(is_known, sum.high, R(kUnknownCurvature));
   }
 
-  SUPERNORMAL_INLINE static void finish(const LanePair* inputs, const Pairs& pairs, const Ends& ends, int column, int count,
+  SUPERNORMAL_INLINE static void finish(const LanePair* inputs, const Pairs& pairs, const Found& found, int count,
                                         bool of_ellipsoids, bool wants_curvature, LaneAnswer* answers) {
     const Place place1(inputs, count, false);
     const auto find = [&](auto&& has) {
@@ -724,21 +679,20 @@ struct LaneSearch {
     };
     const M is_proved = find([](const LaneAnswer& answer) { return answer.outcome == LaneOutcome::Proved; });
     const M is_followed = find([](const LaneAnswer& answer) { return answer.is_followed; });
-    const V n = ends.vec(kFoundNormal, column), d = ends.vec(kFoundD, column), r1 = ends.vec(kFoundR, column);
+    const V n = found.vec(kFoundNormal), d = found.vec(kFoundD), r1 = found.vec(kFoundR);
     V contact = r1 + d * R(0.5);
     M is_complete = is_proved;
     if (any(is_proved)) {
       V placed;
-      is_complete =
-          is_proved & place_contact(pairs, ends, column, of_ellipsoids, Radii(inputs, count), is_proved, is_followed, placed);
+      is_complete = is_proved & place_contact(pairs, found, of_ellipsoids, Radii(inputs, count), is_proved, is_followed, placed);
       contact = select(is_complete, placed, contact);
     }
     const auto to_world = [&place1](V point) { return place1.rotation * point + place1.position; };
     const V normal = unit(place1.rotation * n), point1 = to_world(r1), point2 = to_world(r1 + d), point = to_world(contact);
     R smaller = kUnknownCurvature, larger = kUnknownCurvature;
     if (wants_curvature) {
-      const M wanted = is_complete & (ends.at(kFoundS, column) < R(0.0));
-      if (any(wanted)) find_curvatures(pairs, ends, column, of_ellipsoids, wanted, smaller, larger);
+      const M wanted = is_complete & (found.at(kFoundS) < R(0.0));
+      if (any(wanted)) find_curvatures(pairs, found, of_ellipsoids, wanted, smaller, larger);
     }
     alignas(8 * W) double out[21][W];
     const auto put = [&out](int i, V v) {
@@ -746,10 +700,10 @@ struct LaneSearch {
       store(out[i + 1], v.y);
       store(out[i + 2], v.z);
     };
-    store(out[0], ends.at(kFoundS, column));
-    store(out[1], ends.at(kFoundError, column));
-    store(out[2], pairs.at(kRounding, column));
-    store(out[3], pairs.at(kTolerance, column));
+    store(out[0], found.at(kFoundS));
+    store(out[1], found.at(kFoundError));
+    store(out[2], pairs.at(kRounding));
+    store(out[3], pairs.at(kTolerance));
     put(4, normal);
     put(7, point1);
     put(10, point2);
@@ -769,7 +723,7 @@ struct LaneSearch {
       answer.tolerance = out[3][lane];
       const bool is_whole = answer.outcome == LaneOutcome::Proved || answer.outcome == LaneOutcome::Apart;
       if (!is_whole && answer.has_jet) {
-        for (int field = 0; field < kFoundFields; ++field) answer.jet[field] = ends.rows[field][column + lane];
+        for (int field = 0; field < kFoundFields; ++field) answer.jet[field] = found.rows[field][lane];
       }
       for (int i = 0; i < 3; ++i) {
         answer.normal[i] = out[(is_whole ? 4 : 16) + i][lane];
@@ -783,25 +737,16 @@ struct LaneSearch {
 
   static void query(const LanePair* pairs, int count, bool of_ellipsoids, const LaneSettings& settings, LaneAnswer* answers) {
     Pairs prepared;
-    Ends ends;
-    for (int first = 0; first < count; first += kChunk) {
-      const int here = count - first < kChunk ? count - first : kChunk;
-      for (int column = 0; column < here; column += W) {
-        prepare(pairs + first + column, here - column < W ? here - column : W, of_ellipsoids, settings, column, prepared);
-      }
+    Found found;
+    for (int first = 0; first < count; first += W) {
+      const int here = count - first < W ? count - first : W;
+      prepare(pairs + first, here, of_ellipsoids, settings, prepared);
       if (of_ellipsoids) {
-        search<Ellipsoids>(prepared, here, settings, ends, answers + first);
+        search<Ellipsoids>(prepared, here, settings, found, answers + first);
       } else {
-        search<Superellipsoids>(prepared, here, settings, ends, answers + first);
+        search<Superellipsoids>(prepared, here, settings, found, answers + first);
       }
-      for (int column = 0; column < here; column += W) {
-        // The lanes beyond the last pair compute with its numbers.
-        for (int lane = here - column; lane < W; ++lane) {
-          for (auto& row : ends.rows) row[column + lane] = row[here - 1];
-        }
-        finish(pairs + first + column, prepared, ends, column, here - column < W ? here - column : W, of_ellipsoids,
-               settings.wants_curvature, answers + first + column);
-      }
+      finish(pairs + first, prepared, found, here, of_ellipsoids, settings.wants_curvature, answers + first);
     }
   }
 };
