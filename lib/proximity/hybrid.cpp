@@ -59,9 +59,8 @@ void Hybrid::add_centre() {
 Proximity Hybrid::resume(const GapJet& best, std::span<const Vector3> cuts) {
   add_centre();
   for (const Vector3& cut : cuts) cuts_.add(cut);
-  CertifiedNewton newton(gap_, cuts_, rule_);
-  const CertifiedNewton::End end = newton.resume(best);
-  return after_newton(newton, end);
+  cuts_.add(best.d + gap_.rolling_radius() * best.n);
+  return climb(best);
 }
 
 Proximity Hybrid::solve(const Vector3& start) {

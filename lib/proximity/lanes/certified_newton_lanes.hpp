@@ -2,7 +2,8 @@
 //
 // W pairs at a time, one a lane:
 //   1. prepare(): the second body in the frame of the first, the tolerance, the first normal.
-//   2. search(): propose, evaluate, and stop when the two sides of the inequality are within the tolerance. A pair that has ended
+//   2. search(): propose, evaluate, and stop when the two sides of the inequality are within the tolerance. Where no step leads
+//      higher on flat faces, a few tilted normals may still prove the best (tilts.hpp). A pair that has ended
 //      keeps its normal, and so its numbers, until the slowest ends. To give its lane to another pair costs more than to wait: the
 //      numbers of a pair, written one by one, are not yet there when all lanes are read at once.
 //   3. finish(): the contact by its formula, and everything to the world's frame.
@@ -12,6 +13,7 @@
 #pragma once
 
 #include "proximity/lanes/pair_query.hpp"
+#include "proximity/lanes/tilts.hpp"
 #include "proximity/limits.hpp"
 #include "proximity/tuning.hpp"
 #include "shapes/lanes/superellipsoid_jet.hpp"
@@ -68,9 +70,14 @@ struct LaneSearch {
       put(field, V{value.xx, value.yy, value.zz});
       put(field + 3, V{value.xy, value.xz, value.yz});
     }
+    /// Puts the numbers of some lanes.
+    SUPERNORMAL_INLINE void put_in(M lanes, int field, R value) { put(field, select(lanes, value, at(field))); }
+    SUPERNORMAL_INLINE void put_in(M lanes, int field, V value) { put(field, select(lanes, value, vec(field))); }
+    SUPERNORMAL_INLINE void put_in(M lanes, int field, const S& value) { put(field, select(lanes, value, sym(field))); }
   };
   using Pairs = Table<kFields>;
   using Found = Table<kFoundFields>;
+  using Tilts = LaneTilts<W>;
 
   /// H + s I + t n n^T as in RegularHessian, by cofactors. Where it is not regular, it is the identity.
   struct Regular {
@@ -261,7 +268,7 @@ struct LaneSearch {
       H = {H1.xx + (B.xx - r2.x * b.x), H1.yy + (B.yy - r2.y * b.y), H1.zz + (B.zz - r2.z * b.z),
            H1.xy + (B.xy - r2.x * b.y), H1.xz + (B.xz - r2.x * b.z), H1.yz + (B.yz - r2.y * b.z)};
     }
-    SUPERNORMAL_INLINE void put_body2(Found&) const {}  // evaluated anew where it is needed
+    SUPERNORMAL_INLINE void put_body2(M, Found&) const {}  // evaluated anew where it is needed
     /// A step in the normal is the best for round bodies.
     SUPERNORMAL_INLINE Improvement improve(V, V, const Evaluation&, const Regular&, M, V&) const {
       return {R(1.0) < R(0.0), R(1.0) < R(0.0)};
@@ -298,10 +305,10 @@ struct LaneSearch {
       of_1 = H1;
       of_both = H1 + rotated2;
     }
-    SUPERNORMAL_INLINE void put_body2(Found& found) const {
-      found.put(kFoundH2, jets.h.b);
-      found.put(kFoundR2, V{jets.r.x.b, jets.r.y.b, jets.r.z.b});
-      found.put(kFoundHessian2, H2);
+    SUPERNORMAL_INLINE void put_body2(M lanes, Found& found) const {
+      found.put_in(lanes, kFoundH2, jets.h.b);
+      found.put_in(lanes, kFoundR2, V{jets.r.x.b, jets.r.y.b, jets.r.z.b});
+      found.put_in(lanes, kFoundHessian2, H2);
     }
     SUPERNORMAL_INLINE P both(int field1, int field2) const { return P(state.at(field1), state.at(field2)); }
     SUPERNORMAL_INLINE M has_flat_faces() const {
@@ -401,103 +408,138 @@ struct LaneSearch {
   struct Lanes {
     int round;  // the evaluation, from 0
     M is_active;
-    M was_halfway;      // the last step was without a step in the normal
-    R best_s, best_at;  // of the best normal; the evaluation it comes from
-    V best, step;
-    Table<3> cuts[kMostLaneEvaluations];
+    M was_halfway;  // the last step was without a step in the normal
+    R best_at;      // the evaluation of the best normal
+    V step;
+    Tilts tilts;
+    Table<3> cuts[kMostLaneRounds];
   };
 
   /// The pairs that end with an evaluation.
   struct Ended {
     M apart, proved, followed, open;
+    SUPERNORMAL_INLINE M all() const { return (apart | proved) | (followed | open); }
   };
 
-  /// One evaluation of every lane, and the next normal of those that go on.
+  /// One evaluation of every lane, and the next normal of those that go on. `found` keeps the evaluation of the best normal.
   template <typename Bodies>
   SUPERNORMAL_INLINE static Ended advance(const LaneSettings& settings, Pairs& pairs, Found& found, Lanes& lanes) {
     const Mat<R> rotation = {pairs.vec(kRotation), pairs.vec(kRotation + 3), pairs.vec(kRotation + 6)};
     const V n = pairs.vec(kNormal), m = -transposed_times(rotation, n);
     Bodies bodies(pairs, rotation);
     const Evaluation now = bodies.evaluate(n, m, pairs.vec(kOffset));
-    found.put(kFoundS, now.s);
-    found.put(kFoundNormal, n);
-    found.put(kFoundD, now.d);
-    found.put(kFoundR, now.r1);
-    found.put(kFoundH, now.h1);
-
-    const M is_active = lanes.is_active;
-    const R best_s = lanes.best_s, tolerance = pairs.at(kTolerance);
-    const M is_better = best_s < now.s;
-    // The theorem: if s + rho > 0, then s <= max s <= |d + rho n| - rho.
-    const R rho = pairs.at(kRho), height = now.s + rho;
-    const M is_provable = R(0.0) < height;
+    const R best_s = found.at(kFoundS), tolerance = pairs.at(kTolerance), rho = pairs.at(kRho);
     const V cut = now.d + n * rho;
-    const R error = max(length(cut) - height, R(0.0));
-    found.put(kFoundError, error);
     lanes.cuts[lanes.round].put(0, cut);
-    lanes.best = select(is_better, n, lanes.best);
-    lanes.best_s = select(is_better, now.s, best_s);
-    lanes.best_at = select(is_better, R(static_cast<double>(lanes.round)), lanes.best_at);
 
     const M none = R(1.0) < R(0.0);
-    Ended ended;
-    ended.apart = settings.stop_when_apart ? is_active & is_better & (R(0.0) < now.s) : none;
-    ended.proved = is_active & is_better & is_provable & (error <= tolerance) & ~ended.apart;
+    const M climbs = lanes.is_active & ~lanes.tilts.is_on, is_better = ~lanes.tilts.is_on & (best_s < now.s);
+    found.put_in(is_better, kFoundS, now.s);
+    found.put_in(is_better, kFoundNormal, n);
+    found.put_in(is_better, kFoundD, now.d);
+    found.put_in(is_better, kFoundR, now.r1);
+    found.put_in(is_better, kFoundH, now.h1);
+    // The theorem: if s + rho > 0, then s <= max s <= |d + rho n| - rho.
+    const R height = now.s + rho;
+    const M is_provable = R(0.0) < height;
+    const R error = max(length(cut) - height, R(0.0));
+    found.put_in(is_better, kFoundError, error);
+    lanes.best_at = select(is_better, R(static_cast<double>(lanes.round)), lanes.best_at);
+
+    Ended ended = {none, none, none, none};
+    if (settings.stop_when_apart) ended.apart = climbs & is_better & (R(0.0) < now.s);
+    ended.proved = climbs & is_better & is_provable & (error <= tolerance) & ~ended.apart;
     // Deeper than rho there may be several maxima, and Newton's steps may lead away from the one that is tracked.
     // A shallow one is followed to its top.
     const M is_deep = (R(0.5) < pairs.at(kIsTracked)) & ~is_provable;
     const M may_follow = is_deep & (-now.s <= pairs.at(kFollowed));
-    ended.followed = none;
-    ended.open = lanes.round == 0 ? is_active & is_deep & ~may_follow & ~(ended.apart | ended.proved) : none;
-    M goes_on = is_active & ~(ended.apart | ended.proved | ended.open);
-    if (!any(goes_on | ended.proved | ended.open)) return ended;
-    S H1, H;  // for the step, the contact, and the search that goes on elsewhere
-    bodies.hessians(n, H1, H);
-    found.put(kFoundHessian1, H1);
-    found.put(kFoundHessian, H);
-    bodies.put_body2(found);
-    if (!any(goes_on)) return ended;
+    if (lanes.round == 0) ended.open = climbs & is_deep & ~may_follow & ~(ended.apart | ended.proved);
+    M goes_on = climbs & ~ended.all(), is_stuck = none;
+    if (any(goes_on | ended.proved | ended.open)) {
+      S H1, H;  // for the step, the contact, and the search that goes on elsewhere
+      bodies.hessians(n, H1, H);
+      found.put_in(is_better, kFoundHessian1, H1);
+      found.put_in(is_better, kFoundHessian, H);
+      bodies.put_body2(is_better, found);
+      if (any(goes_on)) {
+        const Regular regular(H, now.s, n, pairs.at(kUnit), limits::kFlattest);
+        V step = regular.solve(now.d - n * now.s);
+        // The model's gain is half of this product.
+        const R twice_gain = dot(now.d, step);
+        ended.followed =
+            goes_on & is_better & may_follow & regular.is_regular & (twice_gain * R(0.5 * kTuning.gain_safety) <= tolerance);
+        goes_on = goes_on & ~ended.followed;
+        const Improvement improvement = bodies.improve(n, m, now, regular, goes_on & is_better, step);
+        const M has_step = regular.is_regular | improvement.is_improved;
+        const M gains = tolerance < dot(now.d, step);
+        // A face is level: no shorter step leads higher.
+        const M is_level = bodies.has_flat_faces() & (best_s - pairs.at(kRounding) <= now.s);
+        // Nor does half of a step to a meeting that was not there.
+        is_stuck = improvement.is_lost | (is_better & (~has_step | ~(is_provable | may_follow | gains))) |
+                   (~is_better & (is_level | lanes.was_halfway));
+        if (lanes.round + 1 >= settings.most_evaluations) is_stuck = R(0.0) < R(1.0);
+        is_stuck = is_stuck & goes_on;
+        goes_on = goes_on & ~is_stuck;
 
-    const Regular regular(H, now.s, n, pairs.at(kUnit), limits::kFlattest);
-    V step = regular.solve(now.d - n * now.s);
-    // The model's gain is half of this product.
-    const R twice_gain = dot(now.d, step);
-    ended.followed =
-        goes_on & is_better & may_follow & regular.is_regular & (twice_gain * R(0.5 * kTuning.gain_safety) <= tolerance);
-    goes_on = goes_on & ~ended.followed;
-    const Improvement improvement = bodies.improve(n, m, now, regular, goes_on & is_better, step);
-    const M has_step = regular.is_regular | improvement.is_improved;
-    const M gains = tolerance < dot(now.d, step);
-    // A face is level: no shorter step leads higher.
-    const M is_level = bodies.has_flat_faces() & (best_s - pairs.at(kRounding) <= now.s);
-    // Nor does half of a step to a meeting that was not there.
-    M is_stuck = improvement.is_lost | (is_better & (~has_step | ~(is_provable | may_follow | gains))) |
-                 (~is_better & (is_level | lanes.was_halfway));
-    if (lanes.round + 1 >= settings.most_evaluations) is_stuck = R(0.0) < R(1.0);
-    ended.open = ended.open | (goes_on & is_stuck);
-    goes_on = goes_on & ~is_stuck;
-
-    lanes.was_halfway = is_better & ~regular.is_regular;
-    step = select(goes_on & is_better, step, lanes.step * R(0.5));
-    const R squared = dot(step, step);
-    const M is_long = R(kTuning.longest_step * kTuning.longest_step) < squared;
-    lanes.step = step * select(is_long, R(kTuning.longest_step) / sqrt(select(is_long, squared, R(1.0))), R(1.0));
-    pairs.put(kNormal, select(goes_on, unit(lanes.best + lanes.step), n));
+        lanes.was_halfway = is_better & ~regular.is_regular;
+        step = select(goes_on & is_better, step, lanes.step * R(0.5));
+        const R squared = dot(step, step);
+        const M is_long = R(kTuning.longest_step * kTuning.longest_step) < squared;
+        lanes.step = step * select(is_long, R(kTuning.longest_step) / sqrt(select(is_long, squared, R(1.0))), R(1.0));
+        pairs.put(kNormal, select(goes_on, unit(found.vec(kFoundNormal) + lanes.step), n));
+      }
+    }
+    if constexpr (Bodies::kOfEllipsoids) {
+      ended.open = ended.open | is_stuck;
+    } else {
+      tilt(settings, now, cut, is_stuck, is_better, bodies.has_flat_faces(), pairs, found, lanes, ended);
+    }
     return ended;
   }
 
-  /// Finds the ends of all pairs. An open or followed pair gets its best normal, the others keep their last.
+  /// Tilts the normals of pairs that are stuck on flat faces, and of those that were tilted already.
+  SUPERNORMAL_INLINE static void tilt(const LaneSettings& settings, const Evaluation& now, V cut, M is_stuck, M is_better,
+                                      M has_flat_faces, Pairs& pairs, Found& found, Lanes& lanes, Ended& ended) {
+    const R rho = pairs.at(kRho), height = found.at(kFoundS) + rho, tolerance = pairs.at(kTolerance);
+    const M starts = is_stuck & has_flat_faces & (R(0.0) < height);
+    ended.open = ended.open | (is_stuck & ~starts);
+    const M is_tilted = lanes.is_active & (lanes.tilts.is_on | starts);
+    if (!any(is_tilted)) return;
+    const V best = found.vec(kFoundNormal), best_d = found.vec(kFoundD);
+    const typename Tilts::Point of_best = {best_d + best * rho, found.vec(kFoundR) + best_d * R(0.5)};
+    const M is_best = starts & is_better;
+    const typename Tilts::Point here = {select(is_best, of_best.cut, cut),
+                                        select(is_best, of_best.middle, now.r1 + now.d * R(0.5))};
+    lanes.tilts.start(starts, of_best);
+    const typename Tilts::Nearest nearest = lanes.tilts.add(here, best);
+    const R error = max(length(nearest.point.cut) - height, R(0.0));
+    const M is_proved = is_tilted & (error <= tolerance);
+    found.put_in(is_proved, kFoundError, error);
+    found.put_in(is_proved, kFoundMiddle, nearest.point.middle);
+    found.put_in(is_proved, kFoundSpread, nearest.distance);
+    ended.proved = ended.proved | is_proved;
+    M goes_on = is_tilted & ~is_proved & (lanes.tilts.count < R(kMostLaneTilts - 0.5)) & (R(0.0) < nearest.distance);
+    if (lanes.round + 1 >= settings.most_rounds) goes_on = R(1.0) < R(0.0);
+    ended.open = ended.open | (is_tilted & ~is_proved & ~goes_on);
+    const V turned = best + lanes.tilts.next(nearest, now.d, tolerance, pairs.at(kUnit), goes_on);
+    pairs.put_in(goes_on, kNormal, unit(turned));
+  }
+
+  /// Finds the ends of all pairs. `found` keeps the evaluations of their best normals.
   template <typename Bodies>
   SUPERNORMAL_INLINE static void search(Pairs& pairs, int count, const LaneSettings& settings, Found& found, LaneAnswer* answers) {
-    const V zero = {R(0.0), R(0.0), R(0.0)};
     const M none = R(1.0) < R(0.0);
     Lanes lanes;
     lanes.round = 0;
     lanes.is_active = lanes_from<W>([](int lane) { return static_cast<double>(lane); }) < R(static_cast<double>(count));
     lanes.was_halfway = none;
-    lanes.best_s = R(-1e300);
     lanes.best_at = R(0.0);
-    lanes.best = lanes.step = zero;
+    const V zero = {R(0.0), R(0.0), R(0.0)};
+    lanes.step = zero;
+    lanes.tilts = Tilts::none();
+    found.put(kFoundS, R(-1e300));
+    found.put(kFoundMiddle, zero);
+    found.put(kFoundSpread, R(-1.0));
     Ended all = {none, none, none, none};
     R evaluations = R(0.0);
     while (any(lanes.is_active)) {
@@ -505,10 +547,8 @@ struct LaneSearch {
       ++lanes.round;
       evaluations = select(lanes.is_active, R(static_cast<double>(lanes.round)), evaluations);
       all = {all.apart | ended.apart, all.proved | ended.proved, all.followed | ended.followed, all.open | ended.open};
-      lanes.is_active = lanes.is_active & ~(ended.apart | ended.proved | ended.followed | ended.open);
+      lanes.is_active = lanes.is_active & ~ended.all();
     }
-    const M has_best = all.open | all.followed;
-    found.put(kFoundNormal, select(has_best, lanes.best, found.vec(kFoundNormal)));
 
     alignas(8 * W) double evaluations_of[W], best_of[W];
     store(evaluations_of, evaluations);
@@ -523,9 +563,8 @@ struct LaneSearch {
       answer.has_jet = !Bodies::kOfEllipsoids;
       // A followed pair becomes Open in finish() if its contact is not proved.
       if (!is_in(open | followed)) continue;
-      const int best = static_cast<int>(best_of[lane]), last = answer.evaluations - 1;
-      answer.has_jet = answer.has_jet && best == last;
-      for (int k = 0; k < last; ++k) {
+      const int best = static_cast<int>(best_of[lane]), others = answer.evaluations - 1;
+      for (int k = 0; k < others; ++k) {
         for (int i = 0; i < 3; ++i) answer.cuts[k][i] = lanes.cuts[k < best ? k : k + 1].rows[i][lane];
       }
     }
@@ -592,12 +631,17 @@ struct LaneSearch {
     const V of_balls = r1 + n * (s * R(0.5)) + across * share;
     contact = select(is_good, contact, of_balls);
     is_good = sum.is_regular & (is_good | is_near_both(of_balls));
+    // The middle of tilted normals is a point that two faces have in common.
+    const R spread = found.at(kFoundSpread);
+    const M is_of_faces = ~is_good & (R(0.0) <= spread) & (spread <= near);
+    contact = select(is_of_faces, found.vec(kFoundMiddle), contact);
+    is_good = is_good | is_of_faces;
     contact = contact + n * (found.at(kFoundH) + s * R(0.5) - dot(n, contact));
 
     const V to_centre1 = contact - (r1 - n * radii.rolling1), to_centre2 = contact - (r1 + d + n * radii.rolling2);
     const M is_in_balls = (length(to_centre1) <= radii.rolling1 + near) & (length(to_centre2) <= radii.rolling2 + near);
     // That a point is in both bodies also proves that they overlap where a maximum is followed.
-    const M is_open = wanted & is_good & (s <= R(0.0)) & (is_followed | ~is_in_balls);
+    const M is_open = wanted & is_good & (s <= R(0.0)) & (is_followed | is_of_faces | ~is_in_balls);
     if (any(is_open)) {
       const Mat<R> rotation = {pairs.vec(kRotation), pairs.vec(kRotation + 3), pairs.vec(kRotation + 6)};
       const V from2 = transposed_times(rotation, contact - pairs.vec(kOffset));
@@ -723,7 +767,7 @@ struct LaneSearch {
       answer.tolerance = out[3][lane];
       const bool is_whole = answer.outcome == LaneOutcome::Proved || answer.outcome == LaneOutcome::Apart;
       if (!is_whole && answer.has_jet) {
-        for (int field = 0; field < kFoundFields; ++field) answer.jet[field] = found.rows[field][lane];
+        for (int field = 0; field < kJetFields; ++field) answer.jet[field] = found.rows[field][lane];
       }
       for (int i = 0; i < 3; ++i) {
         answer.normal[i] = out[(is_whole ? 4 : 16) + i][lane];

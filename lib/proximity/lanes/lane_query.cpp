@@ -28,6 +28,7 @@ bool is_of_ellipsoids(const LanePair& pair) {
 LaneSettings lane_settings(const Settings& settings, bool wants_curvature) {
   return {settings.tolerance,
           std::min({kMostLaneEvaluations, kTuning.newton_evaluations, settings.max_evaluations}),
+          settings.max_evaluations,
           settings.stop_when_apart,
           settings.certify_depth ? 0 : kTuning.unsearched_depth,
           settings.certify_depth ? 0 : kTuning.depth_per_radius,
@@ -82,7 +83,7 @@ Proximity finish_alone(const ProximityQuery& pair, const Settings& settings, con
   gap.count_earlier(lane.has_jet ? lane.evaluations : std::min(lane.evaluations, settings.max_evaluations - 1));
   const GapJet jet = last_jet(gap, lane);
   if (lane.outcome == LaneOutcome::Open) {
-    std::array<Vector3, kMostLaneEvaluations> cuts;
+    std::array<Vector3, kMostLaneRounds> cuts;
     const auto count = static_cast<std::size_t>(lane.evaluations - 1);
     for (std::size_t k = 0; k < count; ++k) cuts[k] = vector_of(lane.cuts[k]);
     return resume_hybrid(gap, settings, jet, {cuts.data(), count},

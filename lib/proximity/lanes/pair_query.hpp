@@ -16,7 +16,8 @@ struct LanePair {
 /// What all pairs have in common.
 struct LaneSettings {
   double tolerance;      ///< Settings::tolerance
-  int most_evaluations;  ///< of one pair, at least 1 and at most kMostLaneEvaluations
+  int most_evaluations;  ///< of one pair without tilts, at least 1 and at most kMostLaneEvaluations
+  int most_rounds;       ///< with tilts
   bool stop_when_apart;  ///< Settings::stop_when_apart
   /// In a shallower overlap the maximum of a first normal is followed, without a proof. The larger of both limits counts.
   double followed_depth;       ///< of the length unit
@@ -25,6 +26,9 @@ struct LaneSettings {
 };
 
 inline constexpr int kMostLaneEvaluations = 8;
+// Two tilts find the other sides of the line where a triangle meets it. One more repairs what rounding leaves.
+inline constexpr int kMostLaneTilts = 3;
+inline constexpr int kMostLaneRounds = kMostLaneEvaluations + kMostLaneTilts;
 inline constexpr double kUnknownCurvature = -1;
 
 enum class LaneOutcome {
@@ -43,11 +47,13 @@ inline constexpr int kFoundR = kFoundD + 3;               // m; the boundary poi
 inline constexpr int kFoundH = kFoundR + 3;               // m; the support function of body 1
 inline constexpr int kFoundHessian1 = kFoundH + 1;        // m; of body 1
 inline constexpr int kFoundHessian = kFoundHessian1 + 6;  // m; H1 + H2
-inline constexpr int kFoundOfEllipsoids = kFoundHessian + 6;
-inline constexpr int kFoundH2 = kFoundOfEllipsoids;  // m; the support function of body 2; the rest in its own frame
-inline constexpr int kFoundR2 = kFoundH2 + 1;        // m; the boundary point
-inline constexpr int kFoundHessian2 = kFoundR2 + 3;  // m
-inline constexpr int kFoundFields = kFoundHessian2 + 6;
+inline constexpr int kFoundH2 = kFoundHessian + 6;        // m; the support function of body 2; the rest in its own frame
+inline constexpr int kFoundR2 = kFoundH2 + 1;             // m; the boundary point
+inline constexpr int kFoundHessian2 = kFoundR2 + 3;       // m
+inline constexpr int kJetFields = kFoundHessian2 + 6;
+inline constexpr int kFoundMiddle = kJetFields;        // m; the middle of the boundary points of tilted normals
+inline constexpr int kFoundSpread = kFoundMiddle + 3;  // m; what is left of d there across the normal, or -1 without tilts
+inline constexpr int kFoundFields = kFoundSpread + 1;
 
 /// The answer of a pair. Apart and Proved: in the world's frame. Otherwise only `normal` (in body 1's frame), `evaluations`,
 /// `jet` and the cuts are set.
@@ -57,12 +63,12 @@ struct LaneAnswer {
   int evaluations;
   double gap, error, rounding, tolerance;  ///< m; `error` without the rounding
   double normal[3];
-  double jet[kFoundFields];  ///< the evaluation of `normal`, if has_jet
+  double jet[kJetFields];  ///< the evaluation of `normal`, if has_jet
   bool has_jet;
   double point1[3], point2[3], contact[3];
   double curvature[2];  ///< 1/m; of the bodies together, the smaller first, or kUnknownCurvature; only if it is wanted
   /// m; d + rho n of every evaluation but the best; only if the outcome is Open
-  double cuts[kMostLaneEvaluations][3];
+  double cuts[kMostLaneRounds][3];
 };
 
 /// Answers `count` pairs, all of ellipsoids (`of_ellipsoids`) or of any kind.

@@ -30,13 +30,6 @@ CertifiedNewton::End CertifiedNewton::run(const Vector3& start, WantedMaximum wa
   }
 }
 
-CertifiedNewton::End CertifiedNewton::resume(const GapJet& best) {
-  jets_[best_] = best;
-  cuts_.add(best.d + rolling_radius_ * best.n);
-  if (is_proved()) return End::Proved;
-  return has_flat_faces_ && prove_by_tilts() ? End::Proved : End::Open;
-}
-
 bool CertifiedNewton::is_proved() {
   error_ = optimality_gap_bound(best(), rolling_radius_);
   return is_provable() && rule_.allows(error_);

@@ -47,10 +47,6 @@ class CertifiedNewton {
   /// them. So there it makes no step if a maximum is tracked.
   End run(const Vector3& start, WantedMaximum wanted);
 
-  /// The end of a search that was made elsewhere (lanes/certified_newton_lanes.hpp). It had no step left at its best evaluation,
-  /// and its other cuts are known. So only tilts may still prove the maximum.
-  End resume(const GapJet& best);
-
   /// The highest evaluated normal, with its Hessians.
   const GapJet& best() const { return jets_[best_]; }
 
