@@ -521,7 +521,7 @@ struct LaneSearch {
     M goes_on = is_tilted & ~is_proved & (lanes.tilts.count < R(kMostLaneTilts - 0.5)) & (R(0.0) < nearest.distance);
     if (lanes.round + 1 >= settings.most_rounds) goes_on = R(1.0) < R(0.0);
     ended.open = ended.open | (is_tilted & ~is_proved & ~goes_on);
-    const V turned = best + lanes.tilts.next(nearest, now.d, tolerance, pairs.at(kUnit), goes_on);
+    const V turned = best + lanes.tilts.next(nearest, now.d, best_d, found.sym(kFoundHessian), tolerance, pairs.at(kUnit), goes_on);
     pairs.put_in(goes_on, kNormal, unit(turned));
   }
 

@@ -34,7 +34,7 @@ struct LaneTilts {
   R count;  // the tilts of a pair
   Point first, second;
   V direction;  // of the last tilt, unit
-  R distance;   // m; of the nearest point from the line, before the last tilt
+  R before;     // m; how far the point of the best normal is in this direction
   R growth;     // the last tilt in units of the least that moves the distance by the tolerance
 
   SUPERNORMAL_INLINE static LaneTilts none() {
@@ -78,18 +78,22 @@ struct LaneTilts {
     return nearest;
   }
 
-  /// The next tilt: a vector across n to be added to it. `here` is the evaluated d of the last, m.
-  SUPERNORMAL_INLINE V next(const Nearest& nearest, V here, R tolerance, R unit_length, M goes_on) {
+  /// The next tilt: a vector across n to be added to it. `here` is the d of the last tilt and `best` that of the best normal, m;
+  /// `hessian` is H1 + H2 there.
+  SUPERNORMAL_INLINE V next(const Nearest& nearest, V here, V best, const Sym<R>& hessian, R tolerance, R unit_length, M goes_on) {
     const R apart = select(goes_on, nearest.distance, R(1.0));
-    // If the body is round in this direction, the point has only moved a part of the distance. With a larger tilt it is as far on
-    // the other side.
-    const R reached = dot(here, direction), left = distance - reached;
-    const M is_round = (R(0.5) < count) & (R(0.0) < reached) & (R(0.0) < left);
-    const R least = tolerance / max(apart, unit_length);
-    const R wanted = select(is_round, growth * (R(2.0) * (distance / select(is_round, left, R(1.0)))), R(1.0));
-    const R tilt = min(wanted * least, tolerance / apart);
+    // If the radius was too large, the point has only moved a part of the way.
+    const R reached = dot(here, direction), left = before - reached;
+    const M is_short = (R(0.5) < count) & (R(0.0) < reached) & (R(0.0) < left);
+    const R wanted = select(is_short, growth * (R(2.0) * (before / select(is_short, left, R(1.0)))), R(1.0));
     direction = nearest.across * (R(1.0) / apart);
-    distance = apart;
+    before = dot(best, direction);
+    // The point of the best normal is as far on the other side at this tilt, by its radius of curvature. On a flat face no digit of
+    // the radius need be right, and the least tilt crosses it.
+    const R radius = dot(direction, hessian * direction), least = tolerance / max(apart, unit_length), most = tolerance / apart;
+    const M crosses = (R(0.0) < before) & (R(0.0) < radius), is_below = crosses & (before * R(2.0) < most * radius);
+    const R crossing = select(is_below, before * R(2.0) / select(is_below, radius, R(1.0)), select(crosses, most, R(0.0)));
+    const R tilt = min(max(wanted * least, crossing), most);
     growth = tilt / least;
     count = count + R(1.0);
     return direction * tilt;
