@@ -16,9 +16,9 @@ std::string list(const std::vector<std::string>& names) {
   return out;
 }
 
-void print_scene(const Scene& scene, const World& world, double density) {
-  std::printf("%s: %zu links, %zu joints; gravity (%g, %g, %g) m/s^2, step %g s\n", scene.file.c_str(), scene.links.size(), scene.joints.size(),
-              scene.gravity.x(), scene.gravity.y(), scene.gravity.z(), scene.step);
+void print_scene(const Scene& scene, const World& world) {
+  std::printf("%s: %zu links, %zu joints; gravity (%g, %g, %g) m/s^2, step %g s\n", scene.file.c_str(), scene.links.size(),
+              scene.joints.size(), scene.gravity.x(), scene.gravity.y(), scene.gravity.z(), scene.step);
   if (!scene.not_read.empty()) std::printf("not read: %s\n", list(scene.not_read).c_str());
   if (!scene.has_world) std::puts("the file has no world: the model is on the plane z = 0");
   for (std::size_t i = 0; i < scene.links.size(); ++i) {
@@ -26,20 +26,25 @@ void print_scene(const Scene& scene, const World& world, double density) {
     std::vector<std::string> shapes;
     for (const Collision& collision : link.collisions) shapes.emplace_back(name_of(collision.shape));
     std::printf("%-24s %s; ", link.name.c_str(), shapes.empty() ? "no shape" : list(shapes).c_str());
+    std::size_t first = 0;  // of the links of this body
+    while (world.body(first) != world.body(i)) ++first;
     if (world.body(i) == nullptr) {
       std::puts("fixed");
       continue;
     }
+    if (first != i) {
+      std::printf("one body with %s\n", scene.links[first].name.c_str());
+      continue;
+    }
     dMass mass;
     dBodyGetMass(world.body(i), &mass);
-    std::printf("body of %.6g kg, %s", mass.mass, link.inertial ? "<inertial>" : "");
-    if (!link.inertial) std::printf("%g kg/m^3", density);
-    std::puts("");
+    std::printf("body of %.6g kg\n", mass.mass);
   }
   for (const Joint& joint : scene.joints) {
     const char* const types[] = {"fixed", "revolute", "prismatic"};
     std::printf("%-24s %s joint of %s and %s\n", joint.name.c_str(), types[static_cast<int>(joint.type)],
-                joint.parent == kWorld ? "the world" : scene.links[joint.parent].name.c_str(), scene.links[joint.child].name.c_str());
+                joint.parent == kWorld ? "the world" : scene.links[joint.parent].name.c_str(),
+                scene.links[joint.child].name.c_str());
   }
 }
 
@@ -50,8 +55,8 @@ void print_rest(const Scene& scene, const World& world, double seconds) {
     if (body == nullptr) continue;
     const Eigen::Vector3d position = world.pose(i).translation();
     const dReal* v = dBodyGetLinearVel(body);
-    std::printf("%-24s %11.4f%11.4f%11.4f %9.4f %9.1e\n", scene.links[i].name.c_str(), position.x(), position.y(), position.z(), world.height(i),
-                Eigen::Vector3d(v[0], v[1], v[2]).norm());
+    std::printf("%-24s %11.4f%11.4f%11.4f %9.4f %9.1e\n", scene.links[i].name.c_str(), position.x(), position.y(), position.z(),
+                world.height(i), Eigen::Vector3d(v[0], v[1], v[2]).norm());
   }
 }
 
@@ -73,7 +78,7 @@ int main(int argc, char** argv) {
   try {
     const Scene scene = read_scene(path);
     World world(scene, density);
-    print_scene(scene, world, density);
+    print_scene(scene, world);
     world.simulate(seconds);
     print_rest(scene, world, seconds);
   } catch (const std::exception& error) {

@@ -13,12 +13,24 @@ namespace robot_model {
 namespace {
 
 // All that is read, and what moves nothing: its children are not looked at.
-constexpr std::array kRead = {"sdf",     "world",     "physics",      "max_step_size", "gravity",  "model",   "static",
-                              "frame",   "pose",      "self_collide", "link",          "inertial", "mass",    "inertia",
-                              "ixx",     "ixy",       "ixz",          "iyy",           "iyz",      "izz",     "collision",
-                              "surface", "friction",  "ode",          "mu",            "joint",    "parent",  "child",
-                              "axis",    "xyz",       "limit",        "lower",         "upper",
- "velocity_decay", "linear", "angular"};
+constexpr std::array kRead = {"sdf",       "world",
+                              "physics",   "max_step_size",
+                              "gravity",   "model",
+                              "static",    "frame",
+                              "pose",      "self_collide",
+                              "link",      "inertial",
+                              "mass",      "inertia",
+                              "ixx",       "ixy",
+                              "ixz",       "iyy",
+                              "iyz",       "izz",
+                              "collision", "surface",
+                              "friction",  "ode",
+                              "mu",        "joint",
+                              "parent",    "child",
+                              "axis",      "xyz",
+                              "limit",     "lower",
+                              "upper",     "velocity_decay",
+                              "linear",    "angular"};
 constexpr std::array kNoMotion = {"geometry", "visual", "light", "gui", "scene", "real_time_factor", "real_time_update_rate"};
 
 void list_unread(const sdf::ElementPtr& parent, std::vector<std::string>& names) {
@@ -104,13 +116,15 @@ class Reader {
       const sdf::ElementPtr inertial = link.Element()->GetElement("inertial");
       for (const char* part : {"mass", "inertia"}) {
         // SDF's own defaults, 1 kg and 1 kg m^2, suit no body.
-        if (!inertial->HasElement(part)) refuse("link " + out.name + ": <inertial> has no <" + part + ">; without <inertial> both follow from the shapes");
+        if (!inertial->HasElement(part))
+          refuse("link " + out.name + ": <inertial> has no <" + part + ">; without <inertial> both follow from the shapes");
       }
       const auto& matrix = link.Inertial().MassMatrix();
       const auto moment = matrix.Moi();
       Inertial& body = out.inertial.emplace(Inertial{matrix.Mass(), out.pose * pose_of(link.Inertial().Pose()), {}});
       for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) body.moment(row, column) = moment(static_cast<size_t>(row), static_cast<size_t>(column));
+        for (int column = 0; column < 3; ++column)
+          body.moment(row, column) = moment(static_cast<size_t>(row), static_cast<size_t>(column));
       }
     }
     if (const sdf::ElementConstPtr decay = std::as_const(*link.Element()).FindElement("velocity_decay")) {

@@ -1,5 +1,6 @@
 // URDF, by urdfdom. It knows spheres, boxes and cylinders only, and reads the first shape of a <geometry>. Others stand beside it,
 // with our prefix, and are read from its XML. Other programs then use the first shape.
+#include <console_bridge/console.h>
 #include <tinyxml.h>
 #include <urdf_parser/urdf_parser.h>
 
@@ -13,7 +14,8 @@ namespace robot_model {
 
 namespace {
 
-constexpr std::array kRead = {"robot", "link", "inertial", "origin", "mass", "inertia", "collision", "joint", "parent", "child", "axis", "limit"};
+constexpr std::array kRead = {"robot",     "link",  "inertial", "origin", "mass", "inertia",
+                              "collision", "joint", "parent",   "child",  "axis", "limit"};
 constexpr std::array kNoMotion = {"geometry", "visual", "material"};
 
 void list_unread(const TiXmlElement& parent, std::vector<std::string>& names) {
@@ -30,11 +32,41 @@ void list_unread(const TiXmlElement& parent, std::vector<std::string>& names) {
   }
 }
 
+/// urdfdom reports a link that it could not read, and goes on without the rest of it.
+class Complaints : public console_bridge::OutputHandler {
+ public:
+  Complaints() { console_bridge::useOutputHandler(this); }
+  ~Complaints() override { console_bridge::restorePreviousOutputHandler(); }
+  Complaints(const Complaints&) = delete;
+  Complaints& operator=(const Complaints&) = delete;
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char* /*file*/, int /*line*/) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) text_ += (text_.empty() ? "" : "; ") + text;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
 Eigen::Vector3d vector_of(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
 Eigen::Isometry3d pose_of(const urdf::Pose& pose) {
   const urdf::Rotation& q = pose.rotation;
   return Eigen::Translation3d(vector_of(pose.position)) * Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
+}
+
+/// urdfdom finds one link without a parent; the others may still be no tree.
+void check_tree(const urdf::ModelInterface& robot, const std::string& file) {
+  if (robot.joints_.size() >= robot.links_.size())
+    throw std::runtime_error(file + ": a link is the child of several joints, must be of one");
+  for (const auto& [name, link] : robot.links_) {
+    std::size_t depth = 0;
+    for (urdf::LinkSharedPtr above = link->getParent(); above; above = above->getParent()) {
+      if (++depth > robot.links_.size())
+        throw std::runtime_error(file + ": link " + name + ": the joints form a loop, must form a tree");
+    }
+  }
 }
 
 /// The root link is the origin of the world.
@@ -76,12 +108,13 @@ Link link_of(const urdf::Link& link, const TiXmlElement& element, const std::str
   return out;
 }
 
-Joint joint_of(const urdf::Joint& joint, const std::map<std::string, std::size_t>& links, const urdf::ModelInterface& robot, const std::string& file) {
+Joint joint_of(const urdf::Joint& joint, const std::map<std::string, std::size_t>& links, const urdf::ModelInterface& robot,
+               const std::string& file) {
   const std::string where = file + ": joint " + joint.name;
   if (joint.mimic) throw std::runtime_error(where + ": <mimic> is not supported");
   const Eigen::Isometry3d pose = pose_of(*robot.getLink(joint.child_link_name));
   Joint out{joint.name, Joint::Type::Fixed, links.at(joint.parent_link_name), links.at(joint.child_link_name), pose.translation()};
-  out.axis = pose.linear() * vector_of(joint.axis);
+  if (joint.type != urdf::Joint::FIXED) out.axis = pose.linear() * vector_of(joint.axis);
   switch (joint.type) {
     case urdf::Joint::FIXED:
       break;
@@ -108,12 +141,15 @@ Scene read_urdf(const std::string& path, const TiXmlDocument& document) {
   const TiXmlElement& root = *document.RootElement();
   TiXmlPrinter text;
   document.Accept(&text);
+  const Complaints complaints;
   const urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text.CStr());
-  if (!robot) throw std::runtime_error(path + ": urdfdom refuses it for the reason above");
+  if (!robot || !complaints.text().empty()) throw std::runtime_error(path + ": " + complaints.text());
+  check_tree(*robot, path);
   Scene scene;
   scene.file = path;
   std::map<std::string, std::size_t> indices;
-  for (const TiXmlElement* element = root.FirstChildElement("link"); element != nullptr; element = element->NextSiblingElement("link")) {
+  for (const TiXmlElement* element = root.FirstChildElement("link"); element != nullptr;
+       element = element->NextSiblingElement("link")) {
     const urdf::LinkConstSharedPtr link = robot->getLink(element->Attribute("name"));
     indices[link->name] = scene.links.size();
     scene.links.push_back(link_of(*link, *element, path));

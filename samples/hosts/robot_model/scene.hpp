@@ -56,10 +56,10 @@ struct Scene {
   std::string file;
   std::vector<Link> links;
   std::vector<Joint> joints;
-  double step = 1e-3;                    ///< s; SDF's default
-  Eigen::Vector3d gravity{0, 0, -9.8};   ///< m/s^2; SDF's default
-  bool has_world = false;                ///< false: a model alone, which is put on the plane z = 0
-  std::vector<std::string> not_read;     ///< elements that would act on the motion
+  double step = 1e-3;                   ///< s; SDF's default
+  Eigen::Vector3d gravity{0, 0, -9.8};  ///< m/s^2; SDF's default
+  bool has_world = false;               ///< false: a model alone, which is put on the plane z = 0
+  std::vector<std::string> not_read;    ///< elements that would act on the motion
 };
 
 /// Reads SDF by sdformat and URDF by urdfdom. Throws std::runtime_error with the file and the element.

@@ -49,9 +49,7 @@ constexpr std::array<ShapeKind, 7> kKinds = {{
      set_our_mass},
     {"superellipsoid",
      {{{"radii", 3}, {"exponents", 2}}},
-     [](dSpaceID space, const double* size) {
-       return snCreateSuperellipsoid(space, size[0], size[1], size[2], size[3], size[4]);
-     },
+     [](dSpaceID space, const double* size) { return snCreateSuperellipsoid(space, size[0], size[1], size[2], size[3], size[4]); },
      set_our_mass},
     {"plane", {{{"normal", 3}, {nullptr, 0}}}, nullptr, nullptr},
 }};

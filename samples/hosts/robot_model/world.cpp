@@ -42,7 +42,8 @@ void transform(dMass& mass, const Eigen::Isometry3d& pose) {
 
 dMass mass_of(const Inertial& inertial, const std::string& where) {
   const Eigen::Matrix3d& I = inertial.moment;
-  require(inertial.mass > 0 && std::isfinite(inertial.mass), where + ": mass is " + text_of(inertial.mass) + " kg, must be in (0, inf)");
+  require(inertial.mass > 0 && std::isfinite(inertial.mass),
+          where + ": mass is " + text_of(inertial.mass) + " kg, must be in (0, inf)");
   require(I.allFinite(), where + ": <inertia> is not finite");
   const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(I).eigenvalues();
   require(principal[0] > 0 && principal[0] + principal[1] >= (1 - 1e-6) * principal[2],
@@ -85,13 +86,16 @@ World::World(const Scene& scene, double density) : scene_(scene) {
 /// ODE checks none of this.
 void World::check() const {
   const auto in_file = [this](const std::string& what) { return scene_.file + ": " + what; };
-  require(scene_.step > 0 && std::isfinite(scene_.step), in_file("max_step_size is " + text_of(scene_.step) + " s, must be in (0, inf)"));
+  require(scene_.step > 0 && std::isfinite(scene_.step),
+          in_file("max_step_size is " + text_of(scene_.step) + " s, must be in (0, inf)"));
   require(scene_.gravity.allFinite(), in_file("gravity is " + text_of(scene_.gravity.transpose()) + ", must be finite"));
   for (const Link& link : scene_.links) {
     require(link.pose.matrix().allFinite(), in_file("link " + link.name + ": the pose is not finite"));
-    require(!link.inertial || link.inertial->pose.matrix().allFinite(), in_file("link " + link.name + ": the pose of <inertial> is not finite"));
+    require(!link.inertial || link.inertial->pose.matrix().allFinite(),
+            in_file("link " + link.name + ": the pose of <inertial> is not finite"));
     for (const double decay : {link.linear_decay, link.angular_decay}) {
-      require(decay >= 0 && decay <= 1, in_file("link " + link.name + ": <velocity_decay> is " + text_of(decay) + ", must be in [0, 1]"));
+      require(decay >= 0 && decay <= 1,
+              in_file("link " + link.name + ": <velocity_decay> is " + text_of(decay) + ", must be in [0, 1]"));
     }
     for (const Collision& collision : link.collisions) {
       const std::string where = in_file("link " + link.name + ", collision " + collision.name);
@@ -101,8 +105,10 @@ void World::check() const {
   }
   for (const Joint& joint : scene_.joints) {
     const std::string where = in_file("joint " + joint.name);
-    require(joint.axis.allFinite() && joint.axis.norm() > 1e-6, where + ": the axis is " + text_of(joint.axis.transpose()) + ", must have a direction");
-    require(joint.lower <= joint.upper, where + ": the limits are " + text_of(joint.lower) + " and " + text_of(joint.upper) + ", must rise");
+    require(joint.axis.allFinite() && joint.axis.norm() > 1e-6,
+            where + ": the axis is " + text_of(joint.axis.transpose()) + ", must have a direction");
+    require(joint.lower <= joint.upper,
+            where + ": the limits are " + text_of(joint.lower) + " and " + text_of(joint.upper) + ", must rise");
   }
 }
 
@@ -185,7 +191,8 @@ void World::place_geoms() {
     if (is_plane(piece.collision->shape)) {
       const std::vector<double>& normal = piece.collision->shape.sizes;
       const Eigen::Vector3d n = (pose.linear() * Eigen::Vector3d(normal[0], normal[1], normal[2])).normalized();
-      require(std::abs(n.norm() - 1) < 1e-6, scene_.file + ": collision " + piece.collision->name + ": the normal of <plane> must have a direction");
+      require(std::abs(n.norm() - 1) < 1e-6,
+              scene_.file + ": collision " + piece.collision->name + ": the normal of <plane> must have a direction");
       piece.geom = dCreatePlane(ode_.space, n.x(), n.y(), n.z(), n.dot(position));
       if (!has_plane) plane_ << n, n.dot(position);
       has_plane = true;

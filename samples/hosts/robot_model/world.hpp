@@ -36,7 +36,7 @@ class World {
   double height(std::size_t link) const;
   /// The body of a link: its origin is the centre of mass, its axes are the world's at the start. 0 for a fixed link.
   dBodyID body(std::size_t link) const { return bodies_[group_[link]]; }
-  /// The joints between bodies, in the order of the file.
+  /// The joints between bodies, in the order of Scene::joints.
   const std::vector<dJointID>& joints() const { return joints_; }
 
  private:
