@@ -1,0 +1,68 @@
+// A scene in ODE.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "scene.hpp"
+
+namespace robot_model {
+
+/// ODE, with an empty world.
+struct Ode {
+  Ode();
+  ~Ode();
+  Ode(const Ode&) = delete;
+  Ode& operator=(const Ode&) = delete;
+
+  dWorldID world;
+  dSpaceID space;
+  dJointGroupID contacts;
+};
+
+/// Links that fixed joints connect are one body. So a fixed joint holds exactly, and a link without mass can be a frame.
+class World {
+ public:
+  /// `density` in kg/m^3 is for links without <inertial>. Throws std::runtime_error with the file, the link or joint, the value and
+  /// the valid range.
+  World(const Scene& scene, double density);
+
+  /// Steps until `seconds` have passed.
+  void simulate(double seconds);
+
+  /// The present pose of a link in the world.
+  Eigen::Isometry3d pose(std::size_t link) const;
+  /// How far the origin of a link is above the first plane of the file, m; above z = 0 without a plane.
+  double height(std::size_t link) const;
+  /// The body of a link: its origin is the centre of mass, its axes are the world's at the start. 0 for a fixed link.
+  dBodyID body(std::size_t link) const { return bodies_[group_[link]]; }
+  /// The joints between bodies, in the order of Scene::joints.
+  const std::vector<dJointID>& joints() const { return joints_; }
+
+ private:
+  void check() const;
+  void weld();
+  void make_bodies(double density);
+  void place_geoms();
+  void lift();
+  void connect();
+  void collide(dGeomID geom1, dGeomID geom2);
+
+  struct Piece {
+    dGeomID geom;
+    const Collision* collision;
+    std::size_t group;
+  };
+
+  Scene scene_;
+  Ode ode_;
+  std::vector<std::size_t> group_;  // of a link; the last group is the world
+  std::vector<dBodyID> bodies_;     // of a group; 0 for the world and for groups without links
+  std::vector<Eigen::Vector3d> centres_;
+  std::vector<Piece> pieces_;
+  std::vector<dJointID> joints_;
+  Eigen::Vector4d plane_{0, 0, 1, 0};  // normal and distance from the origin
+  double lift_ = 0;
+};
+
+}  // namespace robot_model

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# The program robot_model: its output and its exit codes.
+# Usage: robot_model_cli_test.sh PROGRAM FOLDER
+set -euo pipefail
+source "$(dirname "$0")/../cli_test.bash"
+program=$1
+folder=$2
+
+says() { grep -q -- "$1" "$work/log" || fail "no \"$1\" in: $(cat "$work/log")"; }
+
+expect 0 "$program" "$folder/shapes.sdf"
+says '^ellipsoid::link .* 0\.1000  *[0-9.]*e-'
+says '^sphere::link  *sphere; body of 14.1372 kg'
+expect 0 "$program" "$folder/arm.urdf" --seconds 0 --density 500
+says 'no world'
+expect 2 "$program"
+expect 2 "$program" "$folder/shapes.sdf" --seconds -1
+says '-1 not in range 0.* to 1000000'
+expect 2 "$program" "$folder/shapes.sdf" --density 0
+says 'density is 0 kg/m^3, must be in (0, inf)'
+expect 2 "$program" "$work/missing.sdf"
+says 'missing.sdf'
+sed 's/<exponents>4 3</<exponents>4 0.5</' "$folder/shapes.sdf" >"$work/bad.sdf"
+expect 2 "$program" "$work/bad.sdf"
+says 'bad.sdf: link superellipsoid::link, collision shape: .*0\.5.*1\.01, 1000'
+echo "all passed"
