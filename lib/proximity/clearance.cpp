@@ -1,6 +1,7 @@
 #include "supernormal/proximity/clearance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -11,6 +12,7 @@
 #include "proximity/local/regular_hessian.hpp"
 #include "proximity/usable_pose.hpp"
 #include "shapes/validation.hpp"
+#include "supernormal/proximity/batch.hpp"
 #include "supernormal/proximity/solve.hpp"
 
 namespace supernormal {
@@ -26,10 +28,13 @@ double require_distance(double distance) {
 /// The bounds of one pair.
 class Bounds {
  public:
-  /// The poses are usable.
-  Bounds(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2) : gap_(shape1, pose1, shape2, pose2) {}
+  /// What the search is for. For a bound it goes on even when the gap is proved not to be above `enough`.
+  enum class Aim { Verdict, Bound };
 
-  /// Searches until a bound decides whether the gap is above `enough`, or the evaluations are used up.
+  /// The poses are usable.
+  Bounds(const ProximityQuery& pair, Aim aim) : gap_(*pair.shape1, *pair.pose1, *pair.shape2, *pair.pose2), aim_(aim) {}
+
+  /// Searches until the lower bound is above `enough`, or until it is proved that it cannot be, or the evaluations are used up.
   void run(double enough, int max_evaluations, const Vector3* first_normal);
 
   const Clearance& best() const { return best_; }
@@ -37,10 +42,12 @@ class Bounds {
 
  private:
   bool take_spheres();
+  bool have_common_point() const;
   bool evaluate(const Vector3& n, Order order);
   Vector3 next_normal(Order order) const;
 
   GapFunction gap_;
+  const Aim aim_;
   Clearance best_;
   GapJet jet_;
   double enough_ = 0, upper_ = std::numeric_limits<double>::infinity();
@@ -53,6 +60,14 @@ bool Bounds::take_spheres() {
   best_.lower_bound = distance - gap_.shape1().bounding_radius() - gap_.shape2().bounding_radius() - gap_.rounding();
   best_.normal = gap_.offset() / distance;
   return best_.lower_bound > enough_;
+}
+
+/// Bodies with a common point are not apart. Near the maximum of an overlap each witness point is inside the other body, and so is
+/// the point between them.
+bool Bounds::have_common_point() const {
+  const Vector3 point = jet_.jet1.r + 0.5 * jet_.d;
+  return gap_.shape1().surely_contains(point) &&
+         gap_.shape2().surely_contains(gap_.rotation().transpose() * (point - gap_.offset()));
 }
 
 /// Returns whether the search goes on.
@@ -69,6 +84,8 @@ bool Bounds::evaluate(const Vector3& n, Order order) {
     best_.normal = n;
   }
   if (best_.lower_bound > enough_) return false;
+  if (aim_ == Aim::Bound) return true;
+  if (jet_.s < 0 && have_common_point()) upper_ = 0;
   // Lemma 1: s(m) <= |d + rho n| - rho for every normal m.
   upper_ = std::min(upper_, jet_.s + optimality_gap_bound(jet_, gap_.rolling_radius()) + gap_.rounding());
   return upper_ > enough_;
@@ -105,25 +122,34 @@ Clearance find_clearance(const Shape& shape1, const Pose& pose1, const Shape& sh
   require_in("max_evaluations", max_evaluations, 1, kMostEvaluations);
   if (std::isnan(enough)) throw std::invalid_argument("enough is NaN; it must be a number");
   if (!is_usable(pose1) || !is_usable(pose2)) return {};
-  Bounds bounds(shape1, pose1, shape2, pose2);
+  Bounds bounds({&shape1, &pose1, &shape2, &pose2}, Bounds::Aim::Bound);
   bounds.run(enough, max_evaluations, first_normal);
   return bounds.best();
 }
 
 namespace {
 
-bool decide(const ProximityQuery& pair, double distance, Clearance& out) {
+/// What the bounds of a pair say.
+enum class Verdict { Farther, NotFarther, Open };
+
+Verdict decide_by_bounds(const ProximityQuery& pair, double distance, Clearance& out) {
   out = {};
-  if (!is_usable(*pair.pose1) || !is_usable(*pair.pose2)) return false;
-  Bounds bounds(*pair.shape1, *pair.pose1, *pair.shape2, *pair.pose2);
+  if (!is_usable(*pair.pose1) || !is_usable(*pair.pose2)) return Verdict::NotFarther;
+  Bounds bounds(pair, Bounds::Aim::Verdict);
   bounds.run(distance, kMostEvaluations, pair.first_normal);
   out = bounds.best();
-  if (out.lower_bound > distance) return true;
-  if (bounds.is_below() || out.evaluations == 0) return false;
-  // Apart, every start leads to the same maximum. In an overlap the query without a start looks for the highest.
-  ProximityQuery query = pair;
-  query.first_normal = distance >= 0 ? &out.normal : nullptr;
-  const Proximity answer = find_proximity(query);
+  if (out.lower_bound > distance) return Verdict::Farther;
+  return bounds.is_below() || out.evaluations == 0 ? Verdict::NotFarther : Verdict::Open;
+}
+
+/// The query that answers an open pair. Apart, every start leads to the same maximum. In an overlap the query without a start looks
+/// for the highest.
+ProximityQuery open_query(ProximityQuery pair, double distance, const Clearance& out) {
+  pair.first_normal = distance >= 0 ? &out.normal : nullptr;
+  return pair;
+}
+
+bool decide_by_answer(const ProximityQuery& pair, double distance, const Proximity& answer, Clearance& out) {
   if (answer.status == Status::InvalidInput) return false;
   out.evaluations += answer.evaluations;
   if (answer.gap > out.lower_bound) {
@@ -140,7 +166,11 @@ bool is_farther_than(const Shape& shape1, const Pose& pose1, const Shape& shape2
   require_distance(distance);
   const bool is_warm = normal != nullptr && is_usable(*normal);
   Clearance out;
-  const bool is_farther = decide({&shape1, &pose1, &shape2, &pose2, is_warm ? normal : nullptr}, distance, out);
+  const ProximityQuery pair = {&shape1, &pose1, &shape2, &pose2, is_warm ? normal : nullptr};
+  const Verdict verdict = decide_by_bounds(pair, distance, out);
+  const bool is_farther = verdict == Verdict::Open
+                              ? decide_by_answer(pair, distance, find_proximity(open_query(pair, distance, out)), out)
+                              : verdict == Verdict::Farther;
   if (normal != nullptr) *normal = out.normal;
   if (evaluations != nullptr) *evaluations = out.evaluations;
   return is_farther;
@@ -151,11 +181,31 @@ std::size_t are_farther_than(std::span<const ProximityQuery> queries, double dis
   require_distance(distance);
   require_one_for_each("results", results.size(), queries.size());
   require_one_for_each("is_farther", is_farther.size(), queries.size());
-  std::size_t count = 0;
+  // The bounds leave few pairs open. These are asked together.
+  constexpr std::size_t kAtOnce = 32;
+  std::array<ProximityQuery, kAtOnce> open{};
+  std::array<std::size_t, kAtOnce> which{};
+  std::array<Proximity, kAtOnce> answers;
+  std::size_t size = 0, count = 0;
+  const auto answer_open = [&] {
+    find_proximities({open.data(), size}, {}, {answers.data(), size});
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::size_t k = which[i];
+      is_farther[k] = decide_by_answer(queries[k], distance, answers[i], results[k]);
+      count += is_farther[k];
+    }
+    size = 0;
+  };
   for (std::size_t k = 0; k < queries.size(); ++k) {
-    is_farther[k] = decide(queries[k], distance, results[k]);
+    const Verdict verdict = decide_by_bounds(queries[k], distance, results[k]);
+    is_farther[k] = verdict == Verdict::Farther;
     count += is_farther[k];
+    if (verdict != Verdict::Open) continue;
+    open[size] = open_query(queries[k], distance, results[k]);
+    which[size] = k;
+    if (++size == kAtOnce) answer_open();
   }
+  if (size > 0) answer_open();
   return count;
 }
 

@@ -218,18 +218,21 @@ class _Grains:
 
     def nearest_to(self, first):
         body1 = self.body(first)
-        nearest, least = None, inf
-        for index, (_, pose) in self.bodies.items():
-            # The bounding spheres of the two bodies bound their gap from below.
-            between = float(np.linalg.norm(pose.position - body1.pose.position))
-            if index == first or between - self._radius(first) - self._radius(index) > least:
-                continue
-            gap = sn.find_proximity(body1.shape, body1.pose, self.body(index).shape, pose).gap
-            if gap < least:
-                nearest, least = index, gap
-        if nearest is None:
+        # The bounding spheres of two bodies bound their gap from below. The gap of one body leaves few others to ask.
+        bounds = {
+            index: float(np.linalg.norm(pose.position - body1.pose.position)) - self._radius(first) - self._radius(index)
+            for index, (_, pose) in self.bodies.items()
+            if index != first
+        }
+        if not bounds:
             raise InputError("--bodies: there is no other body; allowed: bodies of a run of two or more")
-        return nearest
+        candidate = self.body(min(bounds, key=bounds.get))
+        least = sn.find_proximity(body1.shape, body1.pose, candidate.shape, candidate.pose).gap
+        near = [index for index, bound in bounds.items() if bound <= least]
+        bodies = [self.body(index) for index in near]
+        poses = sn.Poses([body.pose.position for body in bodies], rotation=[body.pose.rotation for body in bodies])
+        gaps = sn.find_proximities(body1.shape, body1.pose, [body.shape for body in bodies], poses).gap
+        return near[int(np.argmin(gaps))]
 
     def _kind(self, index):
         name = self.bodies[index][0]

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -63,7 +64,27 @@ TEST_CASE("is_farther_than: right for all kinds, and 1.2 evaluations at most whe
   CHECK(warm.evaluations <= warm.pairs);
 }
 
+// A point of both bodies decides. Polytopes and bodies of callbacks know none.
+TEST_CASE("is_farther_than: overlapping bodies are not farther than 0; round ones take 1.3 evaluations") {
+  for (const RandomKind& kind : random_kinds()) {
+    RandomBodies bodies(kind, 74);
+    Count all;
+    for (int k = 0; k < 200; ++k) {
+      const RandomPair pair = bodies.draw(-bodies.uniform(0.001, 0.5));
+      if (!(find_proximity(*pair.shape1, {}, *pair.shape2, pair.pose2).gap < -1e-6)) continue;
+      int evaluations = 0;
+      ++all.pairs;
+      all.wrong += ask(pair, 0.01, nullptr, evaluations) || ask(pair, 0, nullptr, evaluations);
+      all.evaluations += evaluations;
+    }
+    CHECK(all.wrong == 0);
+    const bool is_round = kind.name == "ellipsoid" || kind.name == "moderate" || kind.name == "any and capsule";
+    if (is_round) CHECK(all.evaluations <= 1.3 * all.pairs);
+  }
+}
+
 TEST_CASE("find_clearance: a lower bound of the gap, better with more evaluations") {
+  std::array<int, 3> better{};
   for (const RandomKind& kind : random_kinds()) {
     RandomBodies bodies(kind, 72);
     for (int k = 0; k < 100; ++k) {
@@ -77,11 +98,15 @@ TEST_CASE("find_clearance: a lower bound of the gap, better with more evaluation
         CHECK(bound.evaluations <= budget);
         CHECK(bound.lower_bound <= answer.gap + answer.global_error);
         CHECK(bound.lower_bound >= last);
+        better.at(static_cast<std::size_t>(budget) - 1) += bound.lower_bound > last;
         CHECK(std::abs(bound.normal.norm() - 1) < 1e-14);
         last = bound.lower_bound;
       }
     }
   }
+  MESSAGE("better: ", better[1], " with two evaluations, ", better[2], " with three, of ", better[0]);
+  CHECK(better[1] > 0.5 * better[0]);
+  CHECK(better[2] > 0.5 * better[0]);
 }
 
 TEST_CASE("are_farther_than: many pairs have the answers of each") {

@@ -84,10 +84,15 @@ bool ExpandingPolytope::enclose_origin() {
     if (!(nearest.normal.dot(point) < nearest.norm - gap_.rounding())) return false;
   }
   if (is_apart()) return false;
-  polytope_.add(best_.d + rho_ * best_.n);
-  for (const Vector3& point : cuts_.boundary_points()) polytope_.add(point);
+  set_goal();
+  if (gap_.traits1().is_symmetric && gap_.traits2().is_symmetric) polytope_.set_symmetry(gap_.offset());
+  polytope_.offer(best_.d + rho_ * best_.n);
+  for (const Vector3& point : cuts_.boundary_points()) polytope_.offer(point);
   return true;
 }
+
+// The rounding keeps the facets at the goal itself in the order that expand() asks for.
+void ExpandingPolytope::set_goal() { polytope_.set_goal(-(best_.s + rho_) - width() + gap_.rounding()); }
 
 void ExpandingPolytope::expand() {
   while (may_continue() && !is_apart()) {
@@ -148,11 +153,12 @@ void ExpandingPolytope::climb_from_tops() {
 void ExpandingPolytope::climb_from(const Vector3& normal) {
   const Status status = ascent_.climb(normal, best_.s);
   const GapJet& top = ascent_.best();
-  if (is_enclosed_) polytope_.add(top.d + rho_ * top.n);
+  if (is_enclosed_) polytope_.offer(top.d + rho_ * top.n);
   if (!(top.s > best_.s)) return;
   best_ = top;
   error_ = ascent_.error();
   status_ = status;
+  set_goal();
 }
 
 }  // namespace supernormal

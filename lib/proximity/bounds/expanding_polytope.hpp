@@ -47,6 +47,7 @@ class ExpandingPolytope {
 
   bool enclose_origin();
   void expand();
+  void set_goal();
   Vector3 evaluate(const Vector3& normal);
   void climb_if_higher();
   void climb_from(const Vector3& normal);

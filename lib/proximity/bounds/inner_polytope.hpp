@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,7 +42,19 @@ class InnerPolytope {
   bool add(const Vector3& point, const Nearest& facet);
   bool add(const Vector3& point);
 
-  /// The facet nearest to the origin, without the facets that were given up.
+  /// Offers a point of the body. nearest() adds it if it reaches the goal over the nearest facet. A point that does not would have
+  /// to be followed by a farther one there.
+  void offer(const Vector3& point) { offered_.push_back({point, false, false}); }
+
+  /// The body is point-symmetric about `centre` (m): the mirror images of the offered points are offered, too.
+  void set_symmetry(const Vector3& centre) { symmetry_ = centre; }
+
+  /// From now on new facets beyond this distance (m) are only known by the least of their distances. It may only fall. The surface
+  /// has no goal at its start.
+  void set_goal(double distance) { goal_ = distance + centre_.norm(); }
+
+  /// The facet nearest to the origin, without the facets that were given up and those beyond the goal. Infinitely far if there is
+  /// none.
   Nearest nearest();
 
   /// Gives up on a facet. It still bounds inner_radius(), but nearest() does not return it any more.
@@ -64,30 +77,47 @@ class InnerPolytope {
     Index facet;
     bool is_exact;  // whether it is the distance of the triangle and not of its plane
   };
+  struct Vertex {
+    Vector3 point;   // m
+    double squared;  // m^2; of its norm
+  };
+  struct Offer {
+    Vector3 point;  // m
+    bool is_taken, is_mirror_taken;
+  };
   struct Edge {
     Index from, to, outer;  // two vertices, and the facet that stays
+    Index outer_side;       // of this facet, across which the edge is
     Vector3 normal;         // of the new facet on the edge
   };
 
   static bool is_farther(const Entry& a, const Entry& b) { return a.distance > b.distance; }
   double height_above(Index facet, const Vector3& point) const;
+  Nearest nearest_of_heap();
+  bool take_offer(const Nearest& facet, Vector3& vertex);
+  bool is_beyond(const Vector3& vertex, const Nearest& facet) const;
   bool replace_visible(const Vector3& vertex, Index seen);
   bool find_horizon(const Vector3& point, Index seen, double level);
   void walk(const Vector3& point, double level, Index facet, Index across);
   bool is_closed_cone(const Vector3& apex);
+  void add_vertex(const Vector3& point);
   Index add_facet(const std::array<Index, 3>& vertex, const Vector3& normal);
   bool is_foot_inside(const Facet& facet) const;
   void drop_removed();
 
-  std::vector<Vector3> vertices_;
+  std::vector<Vertex> vertices_;
+  std::vector<Offer> offered_;
+  std::optional<Vector3> symmetry_;  // m; the centre of the body
   std::vector<Facet> facets_;
   std::vector<Entry> heap_;     // the nearest first; may contain removed facets
   std::vector<Edge> horizon_;   // in order around the added point
   std::vector<Index> visible_;  // the facets that the added point is beyond
   std::uint32_t visit_ = 0;
   Vector3 centre_ = Vector3::Zero();
-  double given_up_ = 0;  // m
-  double length_ = 0;    // m; of the longest vertex, which sets the rounding error
+  double goal_ = 0;         // m; from the centre of the surface
+  double beyond_goal_ = 0;  // m; the least height of the facets that were beyond the goal
+  double given_up_ = 0;     // m
+  double length_ = 0;       // m; of the longest vertex, which sets the rounding error
 };
 
 }  // namespace supernormal

@@ -112,6 +112,7 @@ bool CertifiedNewton::prove_by_tilts() {
   const Vector3 n = best().n;
   const double height = best().s + rolling_radius_;
   const StoppingRule rule = rule_.with_at_most(gap_.evaluations() + kMostTilts);
+  const Matrix3 curvature = gap_.curvature(best());
   double growth = 1;
   while (true) {
     const MinimumNormPoint nearest = minimum_norm_point(cuts_.points());
@@ -121,14 +122,17 @@ bool CertifiedNewton::prove_by_tilts() {
     const Vector3 beside = nearest.point - nearest.point.dot(n) * n;
     const double distance = beside.norm();
     if (!(distance > 0)) return false;
+    // The point of the best normal is as far on the other side at this tilt, by its radius of curvature. On a flat face no digit of
+    // the radius need be right, and the least tilt crosses it.
+    const double before = best().d.dot(beside) / distance, radius = beside.dot(curvature * beside) / (distance * distance);
+    const double crossing = before > 0 && radius > 0 ? 2 * before / radius : 0;
     const double least_tilt = rule.tolerance() / std::max(distance, gap_.length_unit());
-    const double tilt = std::min(growth * least_tilt, rule.tolerance() / distance);
+    const double tilt = std::min(std::max(growth * least_tilt, crossing), rule.tolerance() / distance);
     if (!evaluate((n + tilt / distance * beside).normalized(), Order::Point)) return false;
     beside_[beside_count_++] = {next().n, next().jet1.r, next().d};
-    // If the body is round in this direction, the point has only moved a part of the distance. With a larger tilt it is as far on
-    // the other side.
+    // If the radius was too large, the point has only moved a part of the way.
     const double reached = next().d.dot(beside) / distance;
-    growth = reached > 0 && reached < distance ? 2 * tilt / least_tilt * distance / (distance - reached) : 1;
+    growth = reached > 0 && reached < before ? 2 * tilt / least_tilt * before / (before - reached) : 1;
   }
 }
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <supernormal/proximity/solve.hpp>
+#include <supernormal/proximity/clearance.hpp>
 #include <supernormal/raycast/ray.hpp>
 #include <supernormal/shapes/superellipsoid.hpp>
 #include <utility>
@@ -118,7 +118,7 @@ std::vector<Stretch> covered(const Stretch& whole, std::vector<Stretch> others) 
 bool overlaps(const PlacedComponent& one, const PlacedComponent& other) {
   constexpr double kTouching = 1e-6;  // of the smaller body: tolerance for components that touch, given to six digits
   const double size = std::min(one.shape->half_extents().minCoeff(), other.shape->half_extents().minCoeff());
-  return find_proximity(*one.shape, one.pose, *other.shape, other.pose).gap < -kTouching * size;
+  return !is_farther_than(*one.shape, one.pose, *other.shape, other.pose, -kTouching * size);
 }
 
 /// Subtracts from `sum` the volume that a component shares with earlier ones.

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "random_geometry.hpp"
-#include "supernormal/proximity/solve.hpp"
+#include "supernormal/proximity/clearance.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 
 namespace transient {
@@ -92,7 +92,7 @@ void Throw::place_bodies(bool is_disturbed) {
       }
       for (std::size_t other = 0; other < poses.size(); ++other) {
         if ((poses[other].position - pose.position).norm() > 2 * spacing) continue;
-        if (find_proximity(*shapes_[other], poses[other], *shapes_.back(), pose).gap <= 0) return false;
+        if (!is_farther_than(*shapes_[other], poses[other], *shapes_.back(), pose, 0)) return false;
       }
       return true;
     };

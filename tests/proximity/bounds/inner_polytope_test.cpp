@@ -97,3 +97,47 @@ TEST_CASE("a facet that was given up still bounds the radius, but is not the nea
   CHECK(hull.nearest().distance > radius);
   CHECK(hull.inner_radius() == radius);
 }
+
+TEST_CASE("offered points make the hull reach the goal as added ones do, and their mirror images too") {
+  for (int seed = 1; seed <= 20; ++seed) {
+    const Vector3 centre(0.2, 0.1, -0.1);
+    std::vector<Vector3> points = random_normals(24, seed);
+    for (Vector3& point : points) point = point.cwiseProduct(Vector3(3, 2, 1)) + centre;
+    const auto tetrahedron = enclosing_tetrahedron(points);
+    REQUIRE(tetrahedron.has_value());
+    std::vector<Vector3> all = points;
+    for (const bool is_symmetric : {false, true}) {
+      if (is_symmetric) {
+        for (const Vector3& point : points) all.push_back(2 * centre - point);
+      }
+      const double radius = inner_radius_of(all);
+      for (const double share : {1.0, 0.5}) {
+        InnerPolytope hull;
+        REQUIRE(hull.start(*tetrahedron));
+        hull.set_goal(share * radius);
+        if (is_symmetric) hull.set_symmetry(centre);
+        for (const Vector3& point : points) hull.offer(point);
+        CHECK(hull.nearest().distance >= share * radius * (1 - 1e-12));
+        CHECK(hull.inner_radius() >= share * radius * (1 - 1e-12));
+        CHECK(hull.inner_radius() <= radius * (1 + 1e-12));
+      }
+    }
+  }
+}
+
+TEST_CASE("facets beyond the goal bound the radius, but are not the nearest") {
+  InnerPolytope hull;
+  REQUIRE(hull.start({Vector3(1, 1, 1), Vector3(1, -1, -1), Vector3(-1, 1, -1), Vector3(-1, -1, 1)}));
+  const double radius = hull.inner_radius();
+  hull.set_goal(1.5 * radius);
+  for (const double x : {-3.0, 3.0}) {
+    for (const double y : {-3.0, 3.0}) {
+      for (const double z : {-3.0, 3.0}) hull.add(Vector3(x, y, z));
+    }
+  }
+  CHECK(hull.nearest().distance == std::numeric_limits<double>::infinity());
+  CHECK(hull.inner_radius() >= 1.5 * radius);
+  CHECK(hull.inner_radius() <= 3 * (1 + 1e-12));
+  hull.offer(Vector3(9, 9, 9));
+  CHECK(hull.nearest().distance == std::numeric_limits<double>::infinity());
+}
