@@ -22,7 +22,7 @@ Cylinder::Cylinder(double radius, double half_length)
       half_length_(require_in("half-length", half_length, 0, kMaxLength, "m")) {}
 
 void Cylinder::evaluate(const Vector3& n, Order order, Jet& jet) const {
-  const double across = std::hypot(n.x(), n.y());
+  const double across = n.head<2>().norm();
   jet.h = radius_ * across + half_length_ * std::abs(n.z());
   if (order == Order::Value) return;
   const bool is_pole = across < kPole;
@@ -37,11 +37,11 @@ void Cylinder::evaluate(const Vector3& n, Order order, Jet& jet) const {
 
 void Cylinder::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const {
   const Vector3 end(0, 0, half_length_);
-  const double across = std::hypot(n.x(), n.y());
+  const double across = n.head<2>().norm();
   if (across < kCap) {
     // An equilateral triangle of points on the edge contains the cap's point nearest to `toward`. One of its vertices is in the
     // direction of `toward`.
-    const double distance = std::hypot(toward.x(), toward.y());
+    const double distance = toward.head<2>().norm();
     const Vector3 rim =
         distance > kPole * radius_ ? Vector3(toward.x(), toward.y(), 0) / distance * radius_ : Vector3(radius_, 0, 0);
     const Vector3 middle = -0.5 * rim;
@@ -76,7 +76,7 @@ MassProperties Cylinder::mass_properties() const {
 }
 
 void Cylinder::add_parameter_gradient(const Vector3& n, const Vector3& /*r*/, ParameterGradient& gradient) const {
-  gradient.add("radius", std::hypot(n.x(), n.y()));
+  gradient.add("radius", n.head<2>().norm());
   gradient.add("half_length", std::abs(n.z()));
 }
 

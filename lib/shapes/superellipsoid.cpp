@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "shapes/lanes/lane_body_of.hpp"
+#include "shapes/lanes/powers.hpp"
 #include "shapes/nested_norms.hpp"
 #include "shapes/norm_parameters.hpp"
 #include "shapes/sharp_section.hpp"
@@ -18,6 +19,9 @@ constexpr double kSharpExponent = 1.3;
 
 // With exponents up to this, the caps of a superellipsoid are wider than an ellipsoid's by at most 0.21 of the body's width.
 constexpr double kMostRound = 3;
+
+// power() takes exponents up to this.
+constexpr double kMostPower = 1000;
 
 /// An estimate of the smallest radius of curvature of a superellipse with half-axes 1. For an exponent e > 2 it is 1/(e - 1) at the
 /// rounded corners, within a factor of 1.5. Below 2 the radius is 0 at the vertices, but larger around them.
@@ -41,12 +45,14 @@ double relative_radius(double exponent) {
 double unit_rolling_radius(double delta, double epsilon) {
   if (delta < 2 || epsilon < 2) return 0;
   const double p = delta / (delta - 1), q = epsilon / (epsilon - 1);
-  const double largest_inner = std::exp2(1 / p - 0.5), largest_outer = std::exp2(1 / q - 0.5);
+  const auto raise = [](double base, double exponent) { return root(Real<1>(base), Real<1>(exponent)).v; };
+  const double largest_inner = raise(2, 1 / p - 0.5), largest_outer = raise(2, 1 / q - 0.5);
   const double along = largest_outer / (epsilon - 1) / largest_inner;
-  const double across = largest_inner / (delta - 1) / std::pow(largest_inner * largest_outer, q - 1);
+  const double across = largest_inner / (delta - 1) / raise(largest_inner * largest_outer, q - 1);
   const double slope = 2 - p;
   const double along_both = along * (1 + slope * slope);
-  const double discriminant = std::hypot(along_both - across, 2 * slope * std::sqrt(along * across));
+  const double difference = along_both - across;
+  const double discriminant = std::sqrt(difference * difference + 4 * slope * slope * along * across);
   return 2 * along * across / (along_both + across + discriminant);
 }
 
@@ -58,12 +64,12 @@ double rolling_radius_of(const Vector3& half_axes, double delta, double epsilon)
 
 /// m; the distance of a superellipse's farthest point from its centre. Let u and v be the coordinates over the half-axes:
 /// |u|^e + |v|^e = 1. By Hoelder's inequality the squared distance, a^2 u^2 + b^2 v^2, is at most the norm of (a^2, b^2) with the
-/// exponent e/(e - 2).
+/// exponent e/(e - 2). A smaller exponent of the norm gives a larger radius, so its limit does no harm.
 double largest_radius(double a, double b, double exponent) {
   const double larger = std::max(a, b), ratio = std::min(a, b) / larger;
   if (exponent <= 2) return larger;
-  const double power = 2 * exponent / (exponent - 2);
-  return larger * std::pow(1 + std::pow(ratio, power), 1 / power);
+  const double norm = std::min(2 * exponent / (exponent - 2), kMostPower);
+  return larger * root(Real<1>(1 + power(Real<1>(ratio), Real<1>(norm)).v), Real<1>(1 / norm)).v;
 }
 
 ShapeTraits traits_of(double delta, double epsilon) {

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 
+#include "shapes/lanes/powers.hpp"
 #include "shapes/nested_norms.hpp"
 #include "shapes/norm_parameters.hpp"
 #include "shapes/sharp_section.hpp"
@@ -162,7 +163,7 @@ Superovoid::Superovoid(const Vector3& half_axes, double delta, double epsilon, d
       epsilon_(require_in("epsilon", epsilon, kMinExponent, kMaxExponent)),
       taper_x_(taper_x),
       taper_y_(taper_y),
-      knee_(std::exp2(-1 / epsilon)),
+      knee_(power(Real<1>(2), Real<1>(-1 / epsilon)).v),
       norms_(std::make_shared<const NestedNorms>(delta, epsilon)) {
   require_convex_taper(delta, epsilon, taper_x, taper_y);
   half_extents_ = {support(Vector3::UnitX()), support(Vector3::UnitY()), half_axes_.z()};

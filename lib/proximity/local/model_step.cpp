@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "proximity/local/length_of.hpp"
 #include "proximity/local/strict_complementarity.hpp"
 #include "proximity/tuning.hpp"
 #include "shapes/finite.hpp"
@@ -147,7 +148,7 @@ ModelStep::FlatStep ModelStep::flat_step(const GapJet& jet, const LocalModel& lo
   if (!(gain_bound > 0)) return FlatStep::None;
   // The cut of this normal bounds the gain of s by the slope times the step, however flat the face.
   step.remaining_gain = std::max(step.remaining_gain, gain_bound);
-  const double length = std::hypot(u.x(), u.y());  // may be too small to square
+  const double length = length_of(u.x(), u.y());
   if (length < kTuning.creep * newton.norm() && gain_bound < kTuning.poor_fraction * step.gain) return FlatStep::Taken;
   const double shrink = length > radius ? radius / length : 1;
   u *= shrink;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "proximity/local/length_of.hpp"
+
 namespace supernormal {
 namespace {
 
@@ -40,7 +42,7 @@ double find_largest_gain(const Vector2& g, const Eigen2& e, double rounding) {
 Vector2 find_maximum(const Vector2& g, const Eigen2& e, double radius) {
   const double low = without_underflow(e.low_vector.dot(g));
   const double high = without_underflow(e.high_vector.dot(g));
-  const double slope = std::hypot(low, high);  // may be too small to square
+  const double slope = length_of(low, high);
   if (slope == 0 && !(e.low < 0)) return Vector2::Zero();
   // Tested before the divisions, which might overflow. If s is level in a direction and has no slope in it, nothing is gained by
   // that direction.

@@ -18,6 +18,7 @@
 #include "ode/collider_cost.hpp"
 #include "ode/collider_sweep.hpp"
 #include "ode/face_cost.hpp"
+#include "ode/pair_cost.hpp"
 #include "ode/scene_cost.hpp"
 #include "query_cost.hpp"
 #include "report/report.hpp"
@@ -30,6 +31,7 @@ constexpr std::size_t kAtlasPairs = 240;     // per class and situation: 6000 in
 constexpr std::size_t kAtlasMeshPairs = 12;  // each needs four meshes of every size
 constexpr std::size_t kAtlasBodies = 1000;   // per class, for bounding boxes
 constexpr std::size_t kAtlasPoses = 100;     // per collider
+constexpr std::size_t kPairRows = 6;         // of the table of --dcollide
 
 struct Options {
   std::size_t pairs = 6000;
@@ -40,6 +42,7 @@ struct Options {
   bool colliders = false;
   std::size_t poses = 200;
   bool faces = false;
+  bool dcollide = false;
   bool atlas = false;
   bool scene = false;
   bool literature = false;
@@ -80,6 +83,10 @@ void run(const Options& options) {
     write_face_costs(effort, std::cout);
     return;
   }
+  if (options.dcollide) {
+    write_pair_costs(options.pairs / kPairRows, options.seed, effort, std::cout);
+    return;
+  }
   std::vector<Pair> pairs = draw_pairs(options.pairs, options.seed);
   Methods methods = supernormal_methods();
   for (Methods more = libccd_methods(); auto& method : more) methods.push_back(std::move(method));
@@ -116,6 +123,7 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
     app.add_flag("--faces", options.faces, "times dCollide of bodies at rest, by their exponents, instead")->excludes(csv);
+    app.add_flag("--dcollide", options.dcollide, "times dCollide of two of our bodies beside libccd instead")->excludes(csv);
     app.add_flag("--atlas", options.atlas, "measures all levels instead: queries, meshes, colliders, scenes")->excludes(csv);
     app.add_flag("--scene", options.scene, "times a scene of grains in the form of several classes instead")->excludes(csv);
     app.add_flag("--literature", options.literature, "compares with the methods of the literature instead")->excludes(csv);
