@@ -1,7 +1,7 @@
 # The core (shapes, gap function, solvers, contact points) needs Eigen only. Every include of a core file must be on the list
 # below; by induction nothing that the core includes reaches ODE or lib/ode.
 #   cmake -D SOURCE_DIR=<root> -P core_includes_no_ode.cmake
-set(core "shapes|shapes/lanes|proximity|proximity/lanes|proximity/bounds|proximity/local|raycast|impact|contact|contact/ahead|contact/manifold|contact/mesh")
+set(core "shapes|shapes/lanes|proximity|proximity/lanes|proximity/bounds|proximity/derivatives|proximity/local|raycast|impact|contact|contact/ahead|contact/manifold|contact/mesh")
 set(allowed
     "^#include (<[a-z_]+>|<immintrin\\.h>|<cxxabi\\.h>|<Eigen/.+>|\"(supernormal/)?(${core})/[a-z0-9_]+\\.hpp\"|\"supernormal/export\\.h\")")
 

@@ -324,9 +324,10 @@ typedef struct snStatistics {
   snCount queries_cold;     /**< pairs solved without an earlier normal */
   snCount queries_warm;     /**< pairs solved from an earlier normal */
   snCount evaluations_cold; /**< evaluations of the gap function in cold queries */
-  snCount evaluations_warm; /**< evaluations of the gap function in warm queries */
-  snCount closed_forms;     /**< pairs solved without iteration, such as body and plane */
-  snCount contacts;         /**< contacts that dCollide was given */
+  snCount
+      evaluations_warm;  /**< evaluations of the gap function in warm queries; 0 for a pair that cannot have met since the last */
+  snCount closed_forms;  /**< pairs solved without iteration, such as body and plane */
+  snCount contacts;      /**< contacts that dCollide was given */
   snCount not_converged; /**< queries whose error exceeds the tolerance: the following three, and queries with a pose or shape that
                             is not finite */
   snCount stalled;       /**< no further ascent in double precision */

@@ -6,7 +6,10 @@
 ///                  LinearImage; your own as a class derived from Shape, or as a CallbackShape
 ///     two bodies   find_proximity(): signed distance, common normal, witness points, contact point; certify_depth proves the
 ///                  depth. A Sphere of radius 0 is a point, a Polytope of three points a triangle
+///     clearance    is_farther_than(), are_farther_than(), find_clearance(): proofs of a distance at the least cost
+///     derivatives  find_proximity_derivatives(), find_gap_gradient(): how gap, normal and points change with poses and parameters
 ///     many pairs   find_proximities(): the same answers; many ellipsoids and superellipsoids together cost less
+///     over time    least_gap_after(): what a motion has left of a proved gap, without a query
 ///     others       find_plane_proximity(), find_ray_hit(), find_ray_proximity(), MeshContacts, find_nearest_triangle()
 ///     in motion    find_time_of_impact(), find_plane_time_of_impact(), find_mesh_time_of_impact(): when bodies meet; pose_at()
 ///     contacts     find_contact_manifold(), find_plane_contact_manifold(), draw_in_corners(), reduced_to(); hertz_correction(),
@@ -42,10 +45,14 @@
 #include "supernormal/impact/motion.hpp"
 #include "supernormal/impact/time_of_impact.hpp"
 #include "supernormal/proximity/batch.hpp"
+#include "supernormal/proximity/clearance.hpp"
+#include "supernormal/proximity/derivatives.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/pose.hpp"
 #include "supernormal/proximity/proximity.hpp"
+#include "supernormal/proximity/relative_curvature.hpp"
+#include "supernormal/proximity/separation.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/raycast/ray.hpp"
 #include "supernormal/shapes/bounding_box.hpp"
@@ -57,6 +64,7 @@
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/linear_image.hpp"
 #include "supernormal/shapes/minkowski_sum.hpp"
+#include "supernormal/shapes/parameter_gradient.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/shape.hpp"

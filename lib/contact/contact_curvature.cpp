@@ -3,22 +3,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "proximity/lanes/lane_query.hpp"
+#include "proximity/limits.hpp"
 #include "proximity/tangent_plane.hpp"
+#include "shapes/validation.hpp"
 
 namespace supernormal {
 namespace {
 
-constexpr double kSharpest = 1e-9;    // smallest radius of curvature of an edge, in smallest half-extents
-constexpr double kFlattest = 1e12;    // a larger radius of curvature counts as flat, in smallest half-extents
 constexpr double kDifference = 1e-4;  // rad; boundary points are exact to rounding, so the differences are good to about 1e-8
-
-/// The tangent plane at m, with one basis vector along the flattest axis of the body. So the large radius of curvature of a face
-/// does not swamp the radius across it.
-TangentPlane plane_along(const Vector3& m, const Vector3& flatness) {
-  int axis = 0;
-  if (flatness.maxCoeff(&axis) > 0) return {m, Vector3::Unit(axis)};
-  return {m, m.unitOrthogonal()};
-}
 
 /// Estimates the radii of curvature by finite differences of boundary points.
 Symmetric2 find_radii(const Shape& shape, const TangentPlane& plane) {
@@ -36,10 +29,12 @@ Symmetric2 find_radii(const Shape& shape, const TangentPlane& plane) {
 Matrix3 find_curvature(const Shape& shape, const Pose& pose, const Vector3& n) {
   const Vector3 m = pose.rotation.transpose() * n;
   const Matrix3 H = shape.traits().has_hessian ? shape.jet(m).H : Matrix3(Matrix3::Zero());
-  const TangentPlane plane = plane_along(m, H.diagonal());
+  const TangentPlane plane = TangentPlane::along_flattest(m, H);
   const Eigen2 radii(shape.traits().has_hessian ? Symmetric2::project(plane, H) : find_radii(shape, plane));
   const double size = shape.half_extents().minCoeff();
-  const auto curvature = [&](double radius) { return radius < kFlattest * size ? 1 / std::max(radius, kSharpest * size) : 0.0; };
+  const auto curvature = [&](double radius) {
+    return radius < limits::kFlat * size ? 1 / std::max(radius, limits::kSharpest * size) : 0.0;
+  };
   const Vector3 first = pose.rotation * plane.lift(radii.high_vector);
   const Vector3 second = pose.rotation * plane.lift(radii.low_vector);
   return curvature(radii.high) * first * first.transpose() + curvature(radii.low) * second * second.transpose();
@@ -49,6 +44,22 @@ ContactCurvature find_contact_curvature(const Matrix3& sum, const Vector3& n) {
   const TangentPlane plane(n, n.unitOrthogonal());
   const Eigen2 curvature(Symmetric2::project(plane, sum));
   return {std::max(0.0, curvature.low), std::max(0.0, curvature.high)};
+}
+
+void find_proximities(std::span<const ProximityQuery> queries, const Settings& settings, std::span<Proximity> results,
+                      std::span<ContactCurvature> curvatures) {
+  require_one_for_each("curvatures", curvatures.size(), queries.size());
+  find_in_lanes(queries, settings, results, curvatures);
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    if (curvatures[k].larger != kUnknownCurvature) continue;
+    const Proximity& found = results[k];
+    const ProximityQuery& query = queries[k];
+    const bool overlap = found.status != Status::InvalidInput && found.gap < 0;
+    curvatures[k] = overlap ? find_contact_curvature(find_curvature(*query.shape1, *query.pose1, found.normal) +
+                                                         find_curvature(*query.shape2, *query.pose2, -found.normal),
+                                                     found.normal)
+                            : ContactCurvature();
+  }
 }
 
 }  // namespace supernormal

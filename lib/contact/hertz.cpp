@@ -1,7 +1,12 @@
 #include "supernormal/contact/hertz.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+
+#include "contact/hertz_coefficients.hpp"
 
 namespace supernormal {
 namespace {
@@ -52,12 +57,9 @@ double rebound(double b) {
   }
 }
 
-}  // namespace
-
-double hertz_correction(double ratio) {
-  if (ratio < 1 + 1e-6) return 1;
-  // Solve (a/b)^2 E - K = ratio (K - E) for the axis ratio. It is nearly a power law, so the secant method on the logarithms
-  // converges.
+/// Solves (a/b)^2 E - K = ratio (K - E) for the axis ratio. It is nearly a power law, so the secant method on the logarithms
+/// converges.
+double solve_correction(double ratio) {
   const auto excess = [&](double log_axes) {
     const double k = std::exp(log_axes);
     const auto [K, E] = elliptic_integrals(k);
@@ -66,7 +68,7 @@ double hertz_correction(double ratio) {
   double x = -2.0 / 3 * std::log(ratio);
   double f = excess(x);
   double slope = -1.6;
-  for (int i = 0; i < 30 && std::abs(f) > 1e-10; ++i) {
+  for (int i = 0; i < 30 && std::abs(f) > 1e-12; ++i) {
     const double step = -f / slope;
     const double next = excess(x + step);
     slope = (next - f) / step;
@@ -77,6 +79,26 @@ double hertz_correction(double ratio) {
   const auto [K, E] = elliptic_integrals(k);
   const double F1 = std::cbrt(4 / (std::numbers::pi * (1 - k * k)) * k * std::sqrt(k) * std::sqrt((E / (k * k) - K) * (K - E)));
   return 2 / std::numbers::pi * std::sqrt(k) / F1 * K;
+}
+
+}  // namespace
+
+double hertz_correction(double ratio) {
+  if (ratio < 1 + 1e-6) return 1;
+  constexpr double kLargest = std::uint64_t{1} << (2 * kHertzOctaves);
+  if (!(ratio < kLargest)) return solve_correction(ratio);
+  const auto bits = std::bit_cast<std::uint64_t>(std::sqrt(ratio));
+  constexpr auto kOne = std::bit_cast<std::uint64_t>(1.0);
+  constexpr std::uint64_t kMantissa = (std::uint64_t{1} << 52) - 1;
+  const HertzOctave& octave = kHertzTable[(bits - kOne) >> 52];
+  const double t = std::bit_cast<double>((bits & kMantissa) | kOne) - 1;
+  double P = octave.P[kHertzDegree];
+  double Q = octave.Q[kHertzDegree - 1];
+  for (int i = kHertzDegree - 1; i >= 0; --i) {
+    P = P * t + octave.P[i];
+    Q = Q * t + (i > 0 ? octave.Q[i - 1] : 1);
+  }
+  return std::min(1.0, P / Q);  // the rounding of a nearly round contact may lead beyond
 }
 
 double hertz_damping_ratio(double restitution) {

@@ -27,6 +27,12 @@ inline constexpr double kNothing = 1e-30;
 // rounding error.
 inline constexpr double kFlattest = 1e8;
 
+// The inverse of this length: larger curvatures of both bodies together are those of a vertex, and their inverse is nothing.
+inline constexpr double kLargestCurvature = 1e30;
+
+// Of the tolerance: a meeting halfway that gains less is on faces so flat that rounding moves the points. The proof takes tilts.
+inline constexpr double kLeastGain = 0.01;
+
 // Cosine: a normal this nearly perpendicular to another has no useful gnomonic coordinates.
 inline constexpr double kGrazing = 1e-6;
 
@@ -35,5 +41,9 @@ inline constexpr double kGrazing = 1e-6;
 // it.
 inline constexpr double kFlatContact = 1e4;
 inline constexpr double kNear = 1e-7;
+
+// Curvatures, in smallest half-extents. Edges have no smaller radius, and a larger radius counts as flat.
+inline constexpr double kSharpest = 1e-9;
+inline constexpr double kFlat = 1e12;
 
 }  // namespace supernormal::limits

@@ -37,9 +37,6 @@ Proximity solve(GapFunction& gap, const Settings& settings, const Vector3& start
   return solve_hybrid(gap, settings, start, wanted);
 }
 
-// The entries are tested first, because squares and sums of numbers out of range would raise floating-point exceptions.
-bool is_usable(const Vector3& normal) { return all_within(normal, 2) && std::abs(normal.squaredNorm() - 1) < 1e-6; }
-
 // The ascent only knows the faces and edges of body 2. It finds those on body 1 by cuts and, if both bodies have some, at its end
 // (MeetingPoint). So the body with faces and edges must be body 2.
 Proximity find_with_bodies_swapped(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
@@ -85,13 +82,15 @@ Proximity find_proximity(const ProximityQuery& query, const Settings& settings) 
 }
 
 void find_proximities(std::span<const ProximityQuery> queries, const Settings& settings, std::span<Proximity> results) {
+  find_in_lanes(queries, settings, results, {});
+}
+
+void find_in_lanes(std::span<const ProximityQuery> queries, const Settings& settings, std::span<Proximity> results,
+                   std::span<ContactCurvature> curvatures) {
   check(settings);
-  if (results.size() != queries.size()) {
-    throw std::invalid_argument("results has " + std::to_string(results.size()) + " elements, and there are " +
-                                std::to_string(queries.size()) + " queries");
-  }
+  require_one_for_each("results", results.size(), queries.size());
   const LaneKernels& kernels = lane_kernels();
-  LaneBatch in_lanes(settings, *kernels.kernels[kernels.count - 1], results);
+  LaneBatch in_lanes(settings, *kernels.kernels[kernels.count - 1], results, curvatures);
   for (std::size_t k = 0; k < queries.size(); ++k) {
     ProximityQuery query = queries[k];
     const bool is_usable_pair = is_usable(*query.pose1) && is_usable(*query.pose2);
@@ -100,6 +99,7 @@ void find_proximities(std::span<const ProximityQuery> queries, const Settings& s
       in_lanes.add(query, k);
     } else {
       results[k] = find_proximity(query, settings);
+      if (!curvatures.empty()) curvatures[k] = {kUnknownCurvature, kUnknownCurvature};
     }
   }
   in_lanes.solve_rest();

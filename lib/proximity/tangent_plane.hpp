@@ -31,6 +31,13 @@ struct TangentPlane {
     return {normal, Eigen::Vector3d::Unit(axis)};
   }
 
+  /// The plane with t1 along the axis of the frame of H along which the boundary is flattest. So the large radius of curvature of a
+  /// face does not swamp the radius across it. A point has no curvature and no such axis.
+  static TangentPlane along_flattest(const Eigen::Vector3d& normal, const Eigen::Matrix3d& H) {
+    int axis = 0;
+    return H.diagonal().maxCoeff(&axis) > 0 ? TangentPlane(normal, Eigen::Vector3d::Unit(axis)) : at(normal);
+  }
+
   /// The same plane in another frame, x' = R x.
   TangentPlane rotated(const Eigen::Matrix3d& R) const { return TangentPlane(R * n, R * t1, R * t2); }
 

@@ -1,4 +1,4 @@
-// Tests for poses that can be computed with.
+// Tests for poses and normals that can be computed with.
 #pragma once
 
 #include <cmath>
@@ -35,5 +35,9 @@ inline bool is_rotation(const Eigen::Matrix3d& R) { return all_within(R, 2) && r
 
 /// Whether a pose can be computed with: its numbers are in range, and its matrix is a rotation.
 inline bool is_usable(const Pose& pose) { return all_within(pose.position, kFarthest) && is_rotation(pose.rotation); }
+
+/// Whether queries start from a normal: it is a unit vector to 1e-6. The entries are tested first, because squares and sums of
+/// numbers out of range would raise floating-point exceptions.
+inline bool is_usable(const Eigen::Vector3d& normal) { return all_within(normal, 2) && std::abs(normal.squaredNorm() - 1) < 1e-6; }
 
 }  // namespace supernormal

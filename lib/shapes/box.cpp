@@ -38,4 +38,10 @@ MassProperties Box::mass_properties() const {
   return mass;
 }
 
+void Box::add_parameter_gradient(const Vector3& n, const Vector3& /*r*/, ParameterGradient& gradient) const {
+  gradient.add("x", std::abs(n.x()));
+  gradient.add("y", std::abs(n.y()));
+  gradient.add("z", std::abs(n.z()));
+}
+
 }  // namespace supernormal

@@ -49,4 +49,9 @@ MassProperties Capsule::mass_properties() const {
   return mass;
 }
 
+void Capsule::add_parameter_gradient(const Vector3& n, const Vector3& /*r*/, ParameterGradient& gradient) const {
+  gradient.add("radius", 1);
+  gradient.add("half_length", std::abs(n.z()));
+}
+
 }  // namespace supernormal

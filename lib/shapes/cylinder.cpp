@@ -75,4 +75,9 @@ MassProperties Cylinder::mass_properties() const {
   return mass;
 }
 
+void Cylinder::add_parameter_gradient(const Vector3& n, const Vector3& /*r*/, ParameterGradient& gradient) const {
+  gradient.add("radius", std::hypot(n.x(), n.y()));
+  gradient.add("half_length", std::abs(n.z()));
+}
+
 }  // namespace supernormal

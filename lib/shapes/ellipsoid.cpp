@@ -1,6 +1,7 @@
 #include "supernormal/shapes/ellipsoid.hpp"
 
 #include "shapes/lanes/lane_body_of.hpp"
+#include "shapes/norm_parameters.hpp"
 #include "shapes/validation.hpp"
 
 namespace supernormal {
@@ -30,6 +31,10 @@ void Ellipsoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
   const Vector3 aw = half_axes_.cwiseProduct(w);
   jet.H.noalias() = aw * (aw * -inverse).transpose();
   jet.H.diagonal() = squares_.cwiseProduct(rest) * inverse;
+}
+
+void Ellipsoid::add_parameter_gradient(const Vector3& n, const Vector3& r, ParameterGradient& gradient) const {
+  add_half_axes_gradient(half_axes_, n, r, gradient);
 }
 
 }  // namespace supernormal

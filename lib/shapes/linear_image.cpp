@@ -86,4 +86,12 @@ MassProperties LinearImage::mass_properties() const {
   return mass;
 }
 
+void LinearImage::add_parameter_gradient(const Vector3& n, const Vector3& r, ParameterGradient& gradient) const {
+  const Vector3 covector = matrix_.transpose() * n;
+  const double length = covector.norm();
+  const std::size_t first = gradient.size();
+  shape_->add_parameter_gradient(covector / length, inverse_ * r, gradient);
+  gradient.scale(length, first);
+}
+
 }  // namespace supernormal

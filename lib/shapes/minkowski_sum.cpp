@@ -91,4 +91,9 @@ double MinkowskiSum::min_curvature_radius_estimate() const {
   return first_->min_curvature_radius_estimate() + second_->min_curvature_radius_estimate();
 }
 
+void MinkowskiSum::add_parameter_gradient(const Vector3& n, const Vector3& /*r*/, ParameterGradient& gradient) const {
+  first_->add_parameter_gradient(n, first_->point(n), gradient);
+  second_->add_parameter_gradient(n, second_->point(n), gradient);
+}
+
 }  // namespace supernormal

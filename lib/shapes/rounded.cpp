@@ -56,4 +56,9 @@ Vector3 Rounded::half_extents() const { return core_->half_extents() + Vector3::
 
 double Rounded::min_curvature_radius_estimate() const { return core_->min_curvature_radius_estimate() + radius_; }
 
+void Rounded::add_parameter_gradient(const Vector3& n, const Vector3& r, ParameterGradient& gradient) const {
+  core_->add_parameter_gradient(n, r - radius_ * n, gradient);
+  gradient.add("radius", 1);
+}
+
 }  // namespace supernormal

@@ -13,6 +13,8 @@ bool Shape::crosses_curved_face(const Vector3& /*from*/, const Vector3& /*to*/, 
 
 bool Shape::surely_contains(const Vector3& /*point*/) const { return false; }
 
+void Shape::add_parameter_gradient(const Vector3& /*n*/, const Vector3& /*r*/, ParameterGradient& /*gradient*/) const {}
+
 Vector3 Shape::half_extents() const {
   Vector3 half;
   for (int axis = 0; axis < 3; ++axis) {

@@ -18,4 +18,8 @@ bool Sphere::surely_contains(const Vector3& point) const { return point.squaredN
 
 double Sphere::min_curvature_radius_estimate() const { return radius_; }
 
+void Sphere::add_parameter_gradient(const Vector3& /*n*/, const Vector3& /*r*/, ParameterGradient& gradient) const {
+  gradient.add("radius", 1);
+}
+
 }  // namespace supernormal

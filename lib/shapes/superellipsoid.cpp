@@ -5,6 +5,7 @@
 
 #include "shapes/lanes/lane_body_of.hpp"
 #include "shapes/nested_norms.hpp"
+#include "shapes/norm_parameters.hpp"
 #include "shapes/sharp_section.hpp"
 #include "shapes/superellipsoid_batch.hpp"
 #include "shapes/validation.hpp"
@@ -243,6 +244,14 @@ bool Superellipsoid::surely_contains(const Vector3& point) const {
 double Superellipsoid::min_curvature_radius_estimate() const {
   const double smallest = half_axes_.minCoeff();
   return smallest * (smallest / half_axes_.maxCoeff()) * std::min(relative_radius(delta_), relative_radius(epsilon_));
+}
+
+void Superellipsoid::add_parameter_gradient(const Vector3& n, const Vector3& r, ParameterGradient& gradient) const {
+  add_half_axes_gradient(half_axes_, n, r, gradient);
+  const Vector3 parts = n.cwiseProduct(r).cwiseMax(0);  // m; their sum is h
+  const double across = parts.x() + parts.y();
+  gradient.add("delta", across * entropy(parts.x(), parts.y()) / (delta_ * delta_));
+  gradient.add("epsilon", (across + parts.z()) * entropy(across, parts.z()) / (epsilon_ * epsilon_));
 }
 
 }  // namespace supernormal

@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "shapes/nested_norms.hpp"
+#include "shapes/norm_parameters.hpp"
 #include "shapes/sharp_section.hpp"
 #include "shapes/superovoid_convexity.hpp"
 #include "shapes/validation.hpp"
@@ -252,6 +253,29 @@ Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vecto
   const Vector3 through_point = meridian.dx * direction + Vector3(0, 0, along / half_axes_.z());
   const bool is_farther = moved.z() * along > 0 && meridian.dx * std::abs(moved.z()) > width * std::abs(through_point.z());
   return outer_is_flat || is_farther ? through_point : width * direction + Vector3(0, 0, moved.z());
+}
+
+// At the summit h does not change with the height, so the parameters act at the height of r alone (the envelope theorem).
+void Superovoid::add_parameter_gradient(const Vector3& n, const Vector3& r, ParameterGradient& gradient) const {
+  add_half_axes_gradient(half_axes_, n, r, gradient);
+  const Vector3 parts(std::max(n.x() * r.x(), 0.0), std::max(n.y() * r.y(), 0.0), 0);  // m
+  const double across = parts.x() + parts.y();                                         // w(s) N(s)
+  const double s = std::clamp(r.z() / half_axes_.z(), -1.0, 1.0);
+  const double X = 1 + taper_x_ * s, Y = 1 + taper_y_ * s;
+  gradient.add("delta", across * entropy(parts.x(), parts.y()) / (delta_ * delta_));
+  // w = (1 - |s|^epsilon)^(1/epsilon). Near an end of the body, w follows from the width and not from the height.
+  const double width = norms_->inner_support.value(half_axes_.x() * X * std::abs(n.x()), half_axes_.y() * Y * std::abs(n.y()));
+  const double w = across > 0 ? std::min(across / width, 1.0) : 0;
+  double by_epsilon = 0;
+  if (w > 0) {
+    const double rest = std::pow(w, epsilon_);  // 1 - |s|^epsilon
+    const double height = std::pow(std::abs(s), epsilon_);
+    const double log_height = rest < 0.5 ? std::log1p(-rest) : epsilon_ * std::log(std::max(std::abs(s), kDenormal));
+    by_epsilon = -across * (epsilon_ * std::log(w) + (rest > kDenormal ? height * log_height / rest : -1)) / (epsilon_ * epsilon_);
+  }
+  gradient.add("epsilon", by_epsilon);
+  gradient.add("taper_x", parts.x() * s / X);
+  gradient.add("taper_y", parts.y() * s / Y);
 }
 
 }  // namespace supernormal

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
@@ -29,6 +30,13 @@ inline double require_in(const char* name, double value, double low, double high
   const std::string tail = *unit == '\0' ? std::string() : std::string(" ") + unit;
   throw std::invalid_argument(std::string(name) + " = " + to_text(value) + tail + " is outside [" + to_text(low) + ", " +
                               to_text(high) + "]" + tail);
+}
+
+/// Throws std::invalid_argument if an array of answers has another length than the queries.
+inline void require_one_for_each(const char* name, std::size_t length, std::size_t queries) {
+  if (length == queries) return;
+  throw std::invalid_argument(std::string(name) + " has " + std::to_string(length) + " elements, and there are " +
+                              std::to_string(queries) + " queries");
 }
 
 /// Returns the half-axes a, b, c in m. Throws std::invalid_argument with the name of the first one outside [kMinLength,

@@ -3,14 +3,46 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+#include <span>
+#include <stdexcept>
+#include <vector>
 
+#include "proximity/lanes/lane_query.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/random_queries.hpp"
+#include "support/traps.hpp"
 
 using namespace supernormal;
+using namespace supernormal::test;
 
 namespace {
+
+/// Overlaps of all classes, and some pairs apart.
+class Overlaps : public RandomQueries {
+ public:
+  Overlaps() {
+    for (const RandomKind& kind : random_kinds()) {
+      RandomBodies& bodies = bodies_of(kind, 5);
+      for (int k = 0; k < 40; ++k) {
+        for (const double gap : {-0.1, -1e-2, -1e-4, 0.1}) add(bodies.draw(gap));
+      }
+    }
+    for (std::size_t k = 0; k < pair_count(); ++k) ask(k, normal(k));
+  }
+};
+
+ContactCurvature curvature_at(const ProximityQuery& query, const Vector3& n) {
+  return find_contact_curvature(find_curvature(*query.shape1, *query.pose1, n) + find_curvature(*query.shape2, *query.pose2, -n),
+                                n);
+}
 
 /// An ellipsoid that does not deliver its Hessian.
 class Reticent : public Shape {
@@ -21,6 +53,10 @@ class Reticent : public Shape {
  private:
   Ellipsoid body_;
 };
+
+double difference(const ContactCurvature& a, const ContactCurvature& b) {
+  return std::abs(a.larger - b.larger) + std::abs(a.smaller - b.smaller);
+}
 
 }  // namespace
 
@@ -58,4 +94,72 @@ TEST_CASE("a flat face has curvature 0 and an edge a large curvature") {
   const ContactCurvature principal = find_contact_curvature(edge, Vector3(1, 0, 1).normalized());
   CHECK(principal.larger > 10);
   CHECK(principal.smaller < 1e-9);
+}
+
+TEST_CASE("a query of many pairs gives the curvatures at their contacts") {
+  const Overlaps overlaps;
+  const std::vector<ProximityQuery>& queries = overlaps.queries();
+  std::vector<Proximity> found(queries.size()), alone(queries.size());
+  std::vector<ContactCurvature> curvatures(queries.size());
+  {
+    const Traps traps("curvatures of many pairs");
+    find_proximities(queries, {}, found, curvatures);
+  }
+  find_proximities(queries, {}, alone);
+  int overlapping = 0;
+  double worst = 0;
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    CAPTURE(k);
+    CHECK(found[k].gap == alone[k].gap);
+    CHECK(found[k].normal == alone[k].normal);
+    if (found[k].gap >= 0) {
+      CHECK(curvatures[k].smaller == 0);
+      CHECK(curvatures[k].larger == 0);
+      continue;
+    }
+    ++overlapping;
+    const ContactCurvature expected = curvature_at(queries[k], found[k].normal);
+    // Where a body is nearly flat or sharp, the rounding of the normal changes the curvature by more than its own rounding.
+    double spread = 0;
+    for (const Vector3& axis : {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)}) {
+      const Vector3 beside = (found[k].normal + 2 * std::numeric_limits<double>::epsilon() * axis).normalized();
+      spread = std::max(spread, difference(curvature_at(queries[k], beside), expected));
+    }
+    const double error = std::max(difference(curvatures[k], expected) - spread, 0.0);
+    worst = std::max(worst, error / std::max(expected.larger, std::numeric_limits<double>::min()));
+  }
+  MESSAGE("of ", overlapping, " overlaps: ", worst, " of the larger curvature");
+  CHECK(overlapping > 1000);
+  CHECK(worst < 1e-10);
+}
+
+TEST_CASE("the curvatures of many pairs have the same digits in every width") {
+  const Overlaps overlaps;
+  std::vector<ProximityQuery> queries;
+  for (const ProximityQuery& query : overlaps.queries()) {
+    if (is_for_lanes(*query.shape1, *query.shape2, {})) queries.push_back(query);
+  }
+  std::vector<std::vector<ContactCurvature>> all;
+  const Settings settings;
+  const LaneKernels& kernels = lane_kernels();
+  int known = 0;
+  for (int k = 0; k < kernels.count; ++k) {
+    std::vector<Proximity> found(queries.size());
+    std::vector<ContactCurvature>& curvatures = all.emplace_back(queries.size());
+    LaneBatch batch(settings, *kernels.kernels[k], found, curvatures);
+    for (std::size_t i = 0; i < queries.size(); ++i) batch.add(queries[i], i);
+    batch.solve_rest();
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      CHECK(curvatures[i].smaller == all[0][i].smaller);
+      CHECK(curvatures[i].larger == all[0][i].larger);
+      known += k == 0 && curvatures[i].larger > 0 ? 1 : 0;
+    }
+  }
+  MESSAGE(known, " of ", queries.size(), " from the lanes");
+  CHECK(known > 500);
+}
+
+TEST_CASE("curvatures of another length than the queries are refused") {
+  std::vector<ContactCurvature> two(2);
+  CHECK_THROWS_AS(find_proximities({}, {}, {}, two), std::invalid_argument);
 }

@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "proximity/lanes/lane_query.hpp"
+#include "proximity/among_many.hpp"
 #include "shapes/lanes/powers.hpp"
 #include "supernormal/proximity/batch.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "support/painted_stack.hpp"
-#include "support/random_bodies.hpp"
+#include "support/random_queries.hpp"
 #include "support/traps.hpp"
 
 using namespace supernormal;
@@ -23,38 +23,24 @@ using namespace supernormal::test;
 namespace {
 
 /// Pairs of all kinds at gaps from far apart to concentric, and queries of them from no normal, a good one and a poor one.
-class ManyPairs {
+class ManyPairs : public RandomQueries {
  public:
   explicit ManyPairs(bool all_shapes) {
     for (const RandomKind& kind : random_kinds()) {
       if (!all_shapes && kind.partner != RandomPartner::Superellipsoid) continue;
-      RandomBodies& bodies = *bodies_.emplace_back(std::make_unique<RandomBodies>(kind, 11));
+      RandomBodies& bodies = bodies_of(kind, 11);
       for (int round = 0; round < 6; ++round) {
-        for (const double gap : {1e3, 0.3, 1e-2, 1e-9, 0.0, -1e-9, -1e-3, -0.02, -0.3}) pairs_.push_back(bodies.draw(gap));
+        for (const double gap : {1e3, 0.3, 1e-2, 1e-9, 0.0, -1e-9, -1e-3, -0.02, -0.3}) add(bodies.draw(gap));
       }
       RandomPair concentric = bodies.draw(0);
       concentric.pose2.position.setZero();
-      pairs_.push_back(concentric);
+      add(concentric);
     }
-    for (const RandomPair& pair : pairs_) {
-      normals_.push_back(find_proximity(*pair.shape1, kPlace, *pair.shape2, pair.pose2, {.tolerance = 1e-3}).normal);
-    }
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      const RandomPair& pair = pairs_[k];
-      const Vector3* const firsts[] = {nullptr, &normals_[k], &normals_[(k + 1) % pairs_.size()]};
-      for (const Vector3* first : firsts) queries_.push_back({pair.shape1.get(), &kPlace, pair.shape2.get(), &pair.pose2, first});
+    for (std::size_t k = 0; k < pair_count(); ++k) {
+      for (const Vector3* first : {static_cast<const Vector3*>(nullptr), normal(k), normal((k + 1) % pair_count())}) ask(k, first);
     }
     std::shuffle(queries_.begin(), queries_.end(), std::mt19937(3));
   }
-
-  const std::vector<ProximityQuery>& queries() const { return queries_; }
-
- private:
-  inline static const Pose kPlace;
-  std::vector<std::unique_ptr<RandomBodies>> bodies_;  // they hold vertices that the pairs refer to
-  std::vector<RandomPair> pairs_;
-  std::vector<Vector3> normals_;
-  std::vector<ProximityQuery> queries_;
 };
 
 std::vector<Settings> all_settings() {
@@ -65,13 +51,6 @@ std::vector<Settings> all_settings() {
   all[4].certify_depth = true;
   all[5].tolerance = 1e-3;
   return all;
-}
-
-void find_in_lanes(std::span<const ProximityQuery> queries, const Settings& settings, const LaneKernel& kernel,
-                   std::span<Proximity> answers) {
-  LaneBatch batch(settings, kernel, answers);
-  for (std::size_t k = 0; k < queries.size(); ++k) batch.add(queries[k], k);
-  batch.solve_rest();
 }
 
 int count_different(const std::vector<ProximityQuery>& queries, const Settings& settings, const std::vector<Proximity>& answers) {

@@ -24,12 +24,16 @@ def shape_of(axes, delta, epsilon):
     return sn.Ellipsoid(axes) if delta == 2 and epsilon == 2 else sn.Superellipsoid(axes, delta, epsilon)
 
 
-@pytest.fixture(scope="module")
-def solved(reference):
+def solve(reference, settings=sn.Settings()):
     shapes1 = [shape_of(row[0:3], row[3], row[4]) for row in reference]
     shapes2 = [shape_of(row[5:8], row[8], row[9]) for row in reference]
     poses2 = sn.Poses(reference[:, 10:13], quaternion=reference[:, 13:17])
-    return sn.find_proximities(shapes1, sn.Pose(), shapes2, poses2)
+    return sn.find_proximities(shapes1, sn.Pose(), shapes2, poses2, settings)
+
+
+@pytest.fixture(scope="module")
+def solved(reference):
+    return solve(reference)
 
 
 def units(reference):
@@ -52,15 +56,17 @@ def test_the_normal_is_in_the_plane_of_the_gap(reference, solved):
     assert np.abs(np.linalg.norm(solved.normal, axis=1) - 1).max() < 1e-14
 
 
-def test_points_where_they_are_determined(reference, solved):
+def test_points_where_they_are_determined(reference):
     known = (reference[:, 27] == 1) & (reference[:, 28] == 1)
     assert known.sum() > 300
-    # A gap that is exact to e fixes points to about sqrt(e times the radius of curvature).
+    # A gap that is exact to e fixes points to about sqrt(2 e times the radius of curvature). On a side of exponent 140 the radius
+    # reaches 1e13 sizes: a gap to 1e-9 leaves the place on it open. The step to 1e-12 finds it.
+    solved = solve(reference, sn.Settings(tolerance=1e-12))
     size = np.maximum(reference[:, 0:3].max(axis=1), reference[:, 5:8].max(axis=1))[known]
     for points, column in ((solved.point1, 21), (solved.point2, 24)):
         distance = np.linalg.norm(points[known] - reference[known, column : column + 3], axis=1)
-        assert (distance <= 1e-3 * size).all()
-        assert np.median(distance / size) < 1e-7
+        assert (distance <= 1e-5 * size).all()
+        assert np.median(distance / size) < 1e-9
 
 
 HALF_TURN = (0, 1, 0, 0)

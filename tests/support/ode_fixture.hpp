@@ -96,6 +96,14 @@ inline void place(dGeomID geom, const Vec& p) { dGeomSetPosition(geom, dReal(p[0
 
 inline void move(dGeomID geom, const Vec& by) { place(geom, to_vec(dGeomGetPosition(geom)) + by); }
 
+/// Rotates a geom about an axis of the world.
+inline void turn_by(dGeomID geom, double angle, const Vec& axis) {
+  dMatrix3 turn, turned;
+  dRFromAxisAndAngle(turn, dReal(axis[0]), dReal(axis[1]), dReal(axis[2]), dReal(angle));
+  dMultiply0(turned, turn, dGeomGetRotation(geom), 3, 3, 3);
+  dGeomSetRotation(geom, turned);
+}
+
 inline constexpr bool kIsSinglePrecision = sizeof(dReal) == sizeof(float);
 
 /// A tolerance for double precision. In single precision it grows by the rounding of dReal: some units in the last place of poses,

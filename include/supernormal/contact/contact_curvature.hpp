@@ -1,7 +1,11 @@
 // The curvature of two bodies at their contact.
 #pragma once
 
+#include <span>
+
+#include "supernormal/proximity/batch.hpp"
 #include "supernormal/proximity/pose.hpp"
+#include "supernormal/proximity/relative_curvature.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {
@@ -12,13 +16,15 @@ namespace supernormal {
 /// smallest half-extent on an edge. If the shape delivers no H, K comes from finite differences of boundary points.
 SUPERNORMAL_API Matrix3 find_curvature(const Shape& shape, const Pose& pose, const Vector3& n);
 
-/// Principal values of the relative curvature K1 + K2, 1/m. The gap between the bodies grows as (smaller x^2 + larger y^2) / 2.
-struct ContactCurvature {
-  double smaller = 0;  ///< 1/m; along the direction in which the bodies separate most slowly
-  double larger = 0;   ///< 1/m; across this direction
-};
-
 /// The principal values of `sum` = K1 + K2 (1/m), the curvature tensors of the two bodies at a contact with the unit normal n.
 SUPERNORMAL_API ContactCurvature find_contact_curvature(const Matrix3& sum, const Vector3& n);
+
+/// find_proximities(), and the curvature of each overlap: curvatures[k] is find_contact_curvature() of the sum of both bodies'
+/// find_curvature() at results[k].normal, to rounding. It is 0 where the gap is not negative, and where the input is invalid.
+/// Where vector lanes have solved a pair, the query has already evaluated the Hessians, and the curvature is nearly free.
+///
+/// Throws std::invalid_argument as find_proximities() does, and if `curvatures` has another length than `queries`.
+SUPERNORMAL_API void find_proximities(std::span<const ProximityQuery> queries, const Settings& settings,
+                                      std::span<Proximity> results, std::span<ContactCurvature> curvatures);
 
 }  // namespace supernormal

@@ -15,6 +15,8 @@ class SUPERNORMAL_API Box final : public Shape {
   ShapeTraits traits() const override { return {.has_hessian = true, .is_symmetric = true, .has_nonsmooth_points = true}; }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
   bool surely_contains(const Vector3& point) const override;
+  /// The half-lengths "x", "y" and "z".
+  void add_parameter_gradient(const Vector3& n, const Vector3& r, ParameterGradient& gradient) const override;
   Vector3 half_extents() const override { return half_lengths_; }
   double min_curvature_radius_estimate() const override;
   MassProperties mass_properties() const override;

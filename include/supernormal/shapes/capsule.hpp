@@ -18,6 +18,8 @@ class SUPERNORMAL_API Capsule final : public Shape {
   }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
   bool surely_contains(const Vector3& point) const override;
+  /// "radius" and "half_length".
+  void add_parameter_gradient(const Vector3& n, const Vector3& r, ParameterGradient& gradient) const override;
   Vector3 half_extents() const override { return {radius_, radius_, half_length_ + radius_}; }
   double bounding_radius() const override { return half_extents().maxCoeff(); }
   double min_curvature_radius_estimate() const override;

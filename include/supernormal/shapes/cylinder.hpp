@@ -17,6 +17,8 @@ class SUPERNORMAL_API Cylinder final : public Shape {
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
   bool surely_contains(const Vector3& point) const override;
+  /// "radius" and "half_length".
+  void add_parameter_gradient(const Vector3& n, const Vector3& r, ParameterGradient& gradient) const override;
   Vector3 half_extents() const override { return {radius_, radius_, half_length_}; }
   double min_curvature_radius_estimate() const override;
   MassProperties mass_properties() const override;

@@ -15,6 +15,8 @@ class SUPERNORMAL_API Ellipsoid final : public Shape {
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
   ShapeTraits traits() const override { return {.has_hessian = true, .is_symmetric = true, .is_round = true}; }
   bool surely_contains(const Vector3& point) const override;
+  /// The half-axes "a", "b" and "c".
+  void add_parameter_gradient(const Vector3& n, const Vector3& r, ParameterGradient& gradient) const override;
   Vector3 half_extents() const override { return half_axes_; }
   double bounding_radius() const override { return half_extents().maxCoeff(); }
 

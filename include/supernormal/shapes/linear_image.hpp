@@ -20,6 +20,8 @@ class SUPERNORMAL_API LinearImage final : public Shape {
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
+  /// The parameters of the shape before the map.
+  void add_parameter_gradient(const Vector3& n, const Vector3& r, ParameterGradient& gradient) const override;
   Vector3 half_extents() const override { return half_extents_; }
   double bounding_radius() const override { return bounding_radius_; }
   double min_curvature_radius_estimate() const override;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "supernormal/export.h"
+#include "supernormal/shapes/parameter_gradient.hpp"
 
 namespace supernormal {
 
@@ -123,6 +124,10 @@ class SUPERNORMAL_API Shape {
   /// Whether the body surely contains the point (body's frame, m), to rounding. Bodies with a known equation decide this. False if
   /// it would need a search.
   virtual bool surely_contains(const Vector3& point) const;
+
+  /// Appends the derivatives of h(n) with respect to the shape's parameters, at fixed n. `r` is the boundary point r(n); on a face
+  /// or an edge, any point of it. A shape without parameters appends nothing.
+  virtual void add_parameter_gradient(const Vector3& n, const Vector3& r, ParameterGradient& gradient) const;
 
   /// m; half of the extents along the three axes of the body's frame.
   virtual Vector3 half_extents() const;

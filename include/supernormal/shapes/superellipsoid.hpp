@@ -32,6 +32,8 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
 
   bool surely_contains(const Vector3& point) const override;
+  /// The half-axes "a", "b" and "c", and the exponents "delta" and "epsilon".
+  void add_parameter_gradient(const Vector3& n, const Vector3& r, ParameterGradient& gradient) const override;
   Vector3 half_extents() const override { return half_axes_; }
   double bounding_radius() const override { return bounding_radius_; }
   double min_curvature_radius_estimate() const override;

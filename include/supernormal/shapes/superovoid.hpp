@@ -48,6 +48,8 @@ class SUPERNORMAL_API Superovoid final : public Shape {
 
   bool surely_contains(const Vector3& point) const override;
 
+  /// The half-axes "a", "b" and "c", the exponents "delta" and "epsilon", and "taper_x" and "taper_y".
+  void add_parameter_gradient(const Vector3& n, const Vector3& r, ParameterGradient& gradient) const override;
   /// The body extends from z = -c to c. Its widest section is above or below z = 0.
   Vector3 half_extents() const override { return half_extents_; }
   double bounding_radius() const override { return half_extents_.norm(); }

@@ -118,6 +118,10 @@ void Batch::solve_range(std::size_t first, std::size_t end) {
   for (std::size_t index = first; index < end; ++index) {
     Job& job = jobs_[index];
     prepared[count] = job.pair.prepare(job.cached, kind(), job.last);
+    if (prepared[count].least_gap > 0) {
+      finish_job(job, [&] { return BodyPair::finish_apart(prepared[count], job.last); });
+      continue;
+    }
     queries[count] = job.pair.query_of(prepared[count]);
     if (prepared[count].settings == prepared[0].settings) {
       together[count++] = index;

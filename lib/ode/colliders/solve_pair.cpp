@@ -29,10 +29,18 @@ Settings settings_for(const Settings& settings, QueryKind kind, double time) {
 }
 
 /// Contacts from the answer to a query. Sets the normal of `last`, which is in a frame with the orientation `frame`.
+/// `first_normal`: where the query started, in that frame, or null.
 ContactManifold finish(const PosedShape& one, const PosedShape& other, const Settings& asked, QueryKind kind, double time,
-                       bool is_warm, const Matrix3& frame, const Proximity& found, LastNormal& last) {
+                       const Vector3* first_normal, const Matrix3& frame, const Proximity& found, LastNormal& last) {
+  const bool is_warm = first_normal != nullptr;
   last.is_known = found.status != Status::InvalidInput;
-  last.normal.noalias() = frame.transpose() * found.normal;
+  // A first normal that separates the bodies is the answer. It stays to the bit, as where the query is skipped (finish_apart).
+  if (is_warm && found.status == Status::Apart && found.evaluations == 1) {
+    last.normal = *first_normal;
+  } else {
+    last.normal.noalias() = frame.transpose() * found.normal;
+  }
+  if (found.status == Status::Apart) last.gap = found.gap;
   if (time > 0 && is_for_contacts(kind)) {
     ContactManifold ahead = find_contacts_ahead(moving(one), moving(other), time, asked, found);
     count_query(ahead.deepest, is_warm);
@@ -65,6 +73,9 @@ PreparedPair BodyPair::prepare(const CachedNormal& cached, QueryKind kind, LastN
                      settings_for(combined(body1_->settings(), body2_->settings()), kind, look_ahead())};
   last.pose = RelativePose::of(query.pose1, query.pose2);
   query.is_warm = find_cached_normal(cached, last.pose, std::min(body1_->size(), body2_->size()), query.first_normal);
+  if (query.is_warm && query.settings.stop_when_apart && body1_->is_known() && body2_->is_known()) {
+    query.least_gap = cached_separation(cached, last.pose, body1_->radius(), body2_->radius());
+  }
   return query;
 }
 
@@ -76,8 +87,8 @@ ProximityQuery BodyPair::query_of(const PreparedPair& prepared) const {
 ContactManifold BodyPair::finish(const PreparedPair& prepared, const Proximity& found, QueryKind kind, LastNormal& last) const {
   const PosedShape one{geom1_, body1_->shape(), prepared.pose1};
   const PosedShape other{geom2_, body2_->shape(), prepared.pose2};
-  ContactManifold manifold =
-      ode::finish(one, other, prepared.settings, kind, look_ahead(), prepared.is_warm, prepared.pose1.rotation, found, last);
+  ContactManifold manifold = ode::finish(one, other, prepared.settings, kind, look_ahead(),
+                                         prepared.is_warm ? &prepared.first_normal : nullptr, prepared.pose1.rotation, found, last);
   if (is_swapped_) {
     manifold.deepest.normal = -manifold.deepest.normal;
     manifold.deepest.point1.swap(manifold.deepest.point2);
@@ -85,8 +96,20 @@ ContactManifold BodyPair::finish(const PreparedPair& prepared, const Proximity& 
   return manifold;
 }
 
+// What a query that evaluates first_normal would answer and store.
+ContactManifold BodyPair::finish_apart(const PreparedPair& prepared, LastNormal& last) {
+  Proximity apart;
+  apart.gap = last.gap = prepared.least_gap;
+  apart.status = Status::Apart;
+  last.is_known = true;
+  last.normal = prepared.first_normal;
+  count_query(apart, true);
+  return apart;
+}
+
 ContactManifold BodyPair::solve(const CachedNormal& cached, QueryKind kind, LastNormal& last) const {
   const PreparedPair prepared = prepare(cached, kind, last);
+  if (prepared.least_gap > 0) return finish_apart(prepared, last);
   return finish(prepared, find_proximity(query_of(prepared), prepared.settings), kind, last);
 }
 
@@ -100,13 +123,13 @@ ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, QueryKin
   const PosedShape one{ours, body.shape(), pose};
   const PosedShape other{collider.geom, collider.shape, collider.pose};
   const Matrix3& frame = collider.pose.rotation;
-  Vector3 first_normal;
-  const bool is_warm = find_cached_normal(reserve_entry(key), last.pose, body.size(), first_normal);
+  Vector3 cached_normal, first_normal;
+  const bool is_warm = find_cached_normal(reserve_entry(key), last.pose, body.size(), cached_normal);
   // The solver expects the normal in the frame of the first shape.
-  if (is_warm) first_normal = pose.rotation.transpose() * (frame * first_normal);
+  if (is_warm) first_normal = pose.rotation.transpose() * (frame * cached_normal);
   const Settings asked = settings_for(body.settings(), kind, time);
   const Proximity found = find_proximity(one.shape, one.pose, other.shape, other.pose, asked, is_warm ? &first_normal : nullptr);
-  ContactManifold manifold = finish(one, other, asked, kind, time, is_warm, frame, found, last);
+  ContactManifold manifold = finish(one, other, asked, kind, time, is_warm ? &cached_normal : nullptr, frame, found, last);
   last.store(key);
   return manifold;
 }

@@ -23,9 +23,11 @@ struct LastNormal {
   bool is_known = false;  ///< false: the query had no result
   RelativePose pose;
   Vector3 normal = Vector3::UnitX();
+  double gap = 0;  ///< m; proved at this normal, or 0
 
+  CachedNormal entry() const { return CachedNormal::of(pose, normal, gap); }
   void store(const PairKey& key) const {
-    if (is_known) fill_entry(key, pose, normal);
+    if (is_known) fill_entry(key, entry());
   }
 };
 
@@ -35,6 +37,7 @@ struct PreparedPair {
   Settings settings;
   Vector3 first_normal = Vector3::UnitX();  ///< in the frame of body 1
   bool is_warm = false;                     ///< whether first_normal is known
+  double least_gap = 0;                     ///< m; > 0: first_normal still separates the bodies, and there is nothing to ask
 };
 
 /// A pair of our bodies. Body 1 of the query is the older body, in either order of the arguments. Spaces pass a pair in either
@@ -51,10 +54,11 @@ class BodyPair {
   /// parallel while no geom moves.
   ContactManifold solve(const CachedNormal& cached, QueryKind kind, LastNormal& last) const;
 
-  /// The two halves of solve(), for many pairs at once: finish() takes the answer to query_of(prepared).
+  /// The parts of solve(), for many pairs at once: finish() takes the answer to query_of(prepared), unless prepared.least_gap > 0.
   PreparedPair prepare(const CachedNormal& cached, QueryKind kind, LastNormal& last) const;
   ProximityQuery query_of(const PreparedPair& prepared) const;
   ContactManifold finish(const PreparedPair& prepared, const Proximity& found, QueryKind kind, LastNormal& last) const;
+  static ContactManifold finish_apart(const PreparedPair& prepared, LastNormal& last);
 
  private:
   dGeomID geom1_, geom2_;

@@ -54,6 +54,7 @@ Body::Body(std::shared_ptr<const Shape> core)
     : core_(std::move(core)),
       shape_(core_),
       size_(shape_->half_extents().minCoeff()),
+      radius_(shape_->bounding_radius()),
       settings_(default_settings()),
       look_ahead_(default_look_ahead()),
       serial_(++last_serial) {}
@@ -122,7 +123,9 @@ void Body::set_shape(std::shared_ptr<const Shape> core, double rounding) {
   if (rounding != 0) shape = std::make_shared<Rounded>(core, rounding);  // the constructor refuses an invalid radius
   // These calls run user callbacks and may throw. Nothing has changed before them.
   const double size = shape->half_extents().minCoeff();
+  const double bounding_radius = shape->bounding_radius();
   size_ = size;
+  radius_ = bounding_radius;
   core_ = std::move(core);
   shape_ = std::move(shape);
   rounding_ = rounding;

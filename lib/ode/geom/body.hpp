@@ -53,6 +53,13 @@ class Body {
   /// The smallest half-extent of shape(), m.
   double size() const { return size_; }
 
+  /// Shape::bounding_radius() of shape(), m.
+  double radius() const { return radius_; }
+
+  /// Whether the shape changes by the setters only, and with it the serial number. A user's callbacks may answer anything at any
+  /// time.
+  bool is_known() const { return parameters_.index() != 0; }
+
   /// The serial number of the shape: 1, 2, ... in the order of creation and change. It is unique in the process, up to 2^32 shapes.
   /// Data cached under it, in any thread, belong to this shape only.
   std::uint32_t serial() const { return serial_; }
@@ -84,6 +91,7 @@ class Body {
   std::shared_ptr<const Shape> shape_;
   double rounding_ = 0;                                                                      // m
   double size_;                                                                              // m
+  double radius_;                                                                            // m
   std::variant<std::monostate, SuperellipsoidParameters, SuperovoidParameters> parameters_;  // monostate: a user shape
   Settings settings_;
   double look_ahead_;  // s

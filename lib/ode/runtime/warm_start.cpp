@@ -6,7 +6,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <memory>
+
+#include "supernormal/proximity/separation.hpp"
 
 namespace supernormal::ode {
 namespace {
@@ -19,7 +22,7 @@ struct Entry {
 static_assert(sizeof(Entry) == 64);
 
 constexpr double kSimilarOffset = 0.5;                         // relative to the size of the bodies
-constexpr int kOrientationUnit = 1 << 14;                      // units of RelativePose::Orientation in 1
+constexpr int kOrientationUnit = 1 << 14;                      // units of CachedNormal::orientation in 1
 constexpr double kLeastTrace = 1 + 2 * 0.8775825618903727162;  // 1 + 2 cos(0.5): the trace of a rotation by half a radian
 constexpr unsigned kCellBits = 13;                             // bits of PairKey::collider that hold the direction
 
@@ -48,20 +51,33 @@ std::size_t set_index(const PairKey& key) {
   return (key.body * kSetsPerBody + (hash >> (32U - kSpreadBits))) % kSets;
 }
 
-/// Rounds a number in [-2, 2) to units of 2^-14. Adds a number whose ulp is this unit, and takes the last bits of the sum. Any
-/// other number, infinity and NaN included, gives an arbitrary result.
+/// Rounds a number in [-2, 2) to the nearest unit of 2^-14. Adds a number whose ulp is this unit, and takes the last bits of the
+/// sum. Any other number, infinity and NaN included, gives an arbitrary result.
 std::int16_t to_units(double value) {
   constexpr double kLastPlaceIsUnit = 3 * 0x1p51 / kOrientationUnit;
   return static_cast<std::int16_t>(std::bit_cast<std::uint64_t>(value + kLastPlaceIsUnit));
 }
 
+using Orientation = std::array<std::int16_t, 9>;
+
+Orientation in_units(const Matrix3& rotation) {
+  Orientation orientation;
+  for (std::size_t k = 0; k < orientation.size(); ++k) orientation[k] = to_units(rotation.data()[k]);
+  return orientation;
+}
+
 /// Whether the angle t between two orientations is at most half a radian. The trace of R^T R' is 1 + 2 cos t. The orientation of an
 /// unknown pair is zero, which is similar to none.
-bool is_similar(const RelativePose::Orientation& a, const RelativePose::Orientation& b) {
+bool is_similar(const Orientation& a, const Orientation& b) {
   constexpr auto kLeast = static_cast<std::int32_t>(kLeastTrace * kOrientationUnit * kOrientationUnit);
   std::uint32_t trace = 0;  // at most 3 kOrientationUnit^2 for rotations; the core refuses other matrices
   for (std::size_t k = 0; k < a.size(); ++k) trace += static_cast<std::uint32_t>(a[k] * b[k]);
   return static_cast<std::int32_t>(trace) >= kLeast;
+}
+
+template <typename Number>
+Vector3 vector_of(const std::array<Number, 3>& numbers) {
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 bool same(const PairKey& a, const PairKey& b) { return a.body == b.body && a.collider == b.collider; }
@@ -94,9 +110,22 @@ RelativePose RelativePose::of(const Pose& frame, const Pose& other) {
   RelativePose relative;
   const Matrix3 to_frame = frame.rotation.transpose();
   relative.offset.noalias() = to_frame * (other.position - frame.position);
-  const Matrix3 rotation = to_frame * other.rotation;
-  for (std::size_t k = 0; k < relative.orientation.size(); ++k) relative.orientation[k] = to_units(rotation.data()[k]);
+  relative.rotation.noalias() = to_frame * other.rotation;
   return relative;
+}
+
+CachedNormal CachedNormal::of(const RelativePose& pose, const Vector3& normal, double gap) {
+  CachedNormal cached;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    cached.normal[axis] = normal[static_cast<int>(axis)];
+    cached.offset[axis] = static_cast<float>(pose.offset[static_cast<int>(axis)]);
+  }
+  cached.orientation = in_units(pose.rotation);
+  // A float with its lower half cleared is smaller by up to 2^-7. The conversion may have rounded up, by 2^-24.
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  const auto rounded = static_cast<float>(std::clamp(gap * (1 - 0x1p-23), 0.0, kLargest));
+  cached.gap = static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(rounded) >> 16U);
+  return cached;
 }
 
 void set_warm_start(bool on) noexcept { enabled.store(on, std::memory_order_relaxed); }
@@ -122,24 +151,32 @@ void prefetch_entry(const PairKey& key) noexcept {
 }
 
 bool find_cached_normal(const CachedNormal& cached, const RelativePose& pose, double size, Vector3& normal) noexcept {
-  const auto& [direction, offset, orientation] = cached;
-  const Vector3 moved = pose.offset - Vector3(offset[0], offset[1], offset[2]);
-  const bool found =
-      moved.squaredNorm() <= kSimilarOffset * kSimilarOffset * size * size && is_similar(pose.orientation, orientation);
-  if (found) normal = Vector3(direction[0], direction[1], direction[2]);
+  const Vector3 moved = pose.offset - vector_of(cached.offset);
+  const bool found = moved.squaredNorm() <= kSimilarOffset * kSimilarOffset * size * size &&
+                     is_similar(in_units(pose.rotation), cached.orientation);
+  if (found) normal = vector_of(cached.normal);
   return found;
 }
 
-void fill_entry(const PairKey& key, const RelativePose& pose, const Vector3& normal) noexcept {
+double cached_separation(const CachedNormal& cached, const RelativePose& pose, double radius_of_frame, double radius) noexcept {
+  if (cached.gap == 0) return 0;
+  const Vector3 normal = vector_of(cached.normal);
+  Matrix3 rotation;
+  for (std::size_t k = 0; k < cached.orientation.size(); ++k) rotation.data()[k] = cached.orientation[k] * (1.0 / kOrientationUnit);
+  const Vector3 offset = vector_of(cached.offset);
+  // What the numbers of the entry were rounded by: the offset by 2^-24 of its length, each entry of the rotation by half a unit,
+  // which turns a unit vector by at most three such halves.
+  const double rounded = offset.norm() * 0x1p-24 + radius * (1.5 / kOrientationUnit);
+  const double gap = std::bit_cast<float>(static_cast<std::uint32_t>(cached.gap) << 16U);
+  return least_gap_after({normal, gap - rounded, offset, rotation.transpose() * normal}, pose.offset,
+                         pose.rotation.transpose() * normal, radius_of_frame, radius);
+}
+
+void fill_entry(const PairKey& key, const CachedNormal& cached) noexcept {
   if (!table || !enabled.load(std::memory_order_relaxed)) return;
   for (Entry& entry : table[set_index(key)]) {
     if (!same(entry.key, key)) continue;
-    CachedNormal& cached = entry.cached;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      cached.normal[axis] = normal[static_cast<int>(axis)];
-      cached.offset[axis] = static_cast<float>(pose.offset[static_cast<int>(axis)]);
-    }
-    cached.orientation = pose.orientation;
+    entry.cached = cached;
     return;
   }
 }

@@ -29,11 +29,8 @@ std::uint32_t collider_kind(int geom_class, std::initializer_list<double> length
 
 /// The pose of one body in the frame of the other. The normal is in the same frame.
 struct RelativePose {
-  /// The entries of a rotation in units of 2^-14, enough for a comparison with half a radian.
-  using Orientation = std::array<std::int16_t, 9>;
-
-  Vector3 offset = Vector3::Zero();  ///< m
-  Orientation orientation{};         ///< always the identity for a sphere
+  Vector3 offset = Vector3::Zero();        ///< m
+  Matrix3 rotation = Matrix3::Identity();  ///< always the identity for a sphere
 
   static RelativePose of(const Pose& frame, const Pose& other);
 };
@@ -43,8 +40,12 @@ void set_warm_start(bool on) noexcept;
 /// The cached data of a pair. All zeros for an unknown pair, which no pose is similar to.
 struct CachedNormal {
   std::array<double, 3> normal{};
-  std::array<float, 3> offset{};
-  RelativePose::Orientation orientation{};
+  std::array<float, 3> offset{};              ///< m
+  std::array<std::int16_t, 9> orientation{};  ///< the entries of the rotation in units of 2^-14
+  std::uint16_t gap = 0;                      ///< m; the upper half of a float, rounded towards zero; 0: no separation is known
+
+  /// `gap`, m: a proved lower bound of s at the normal, or 0. A gap beyond the range of float is as good as its limit.
+  static CachedNormal of(const RelativePose& pose, const Vector3& normal, double gap);
 };
 
 /// Looks up the pair in this thread's table and makes it the most recently used. Returns its data: zeros on a cache miss, or when
@@ -60,7 +61,11 @@ void prefetch_entry(const PairKey& key) noexcept;
 /// body, or with another sphere in its place, it would give an arbitrary depth.
 bool find_cached_normal(const CachedNormal& cached, const RelativePose& pose, double size, Vector3& normal) noexcept;
 
+/// m; a lower bound of s at the cached normal in the new pose, positive if it still separates the bodies. 0 or less when it proves
+/// nothing, or no separation is known. The radii are Shape::bounding_radius() of the body with the frame, and of the other.
+double cached_separation(const CachedNormal& cached, const RelativePose& pose, double radius_of_frame, double radius) noexcept;
+
 /// Fills the reserved entry. Does nothing when the pair was evicted in between or warm start is off.
-void fill_entry(const PairKey& key, const RelativePose& pose, const Vector3& normal) noexcept;
+void fill_entry(const PairKey& key, const CachedNormal& cached) noexcept;
 
 }  // namespace supernormal::ode

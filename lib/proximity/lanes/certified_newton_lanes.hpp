@@ -29,7 +29,8 @@ constexpr int kRho = 18;
 constexpr int kUnit = kRho + 1;
 constexpr int kTolerance = kUnit + 1;
 constexpr int kRounding = kTolerance + 1;
-constexpr int kIsTracked = kRounding + 1;  // 1 if a first normal was given
+constexpr int kFollowed = kRounding + 1;   // the depth up to which a maximum is followed
+constexpr int kIsTracked = kFollowed + 1;  // 1 if a first normal was given
 constexpr int kNormal = kIsTracked + 1;
 constexpr int kEllipsoidFields = kNormal + 3;
 constexpr int kNorms1 = kEllipsoidFields;  // inner p - 1, inner 1/p, outer p - 1, outer 1/p
@@ -147,9 +148,9 @@ struct LaneSearch {
     return gather(pairs, count, [=](const LanePair& pair) { return (second ? pair.body2 : pair.body1)->*number; });
   }
 
-  /// The axis along which a body is thinnest.
-  SUPERNORMAL_INLINE static V thinnest_axis(V half) {
-    const M is_x = (half.x <= half.y) & (half.x <= half.z), is_y = ~is_x & (half.y <= half.z);
+  /// The axis along which a vector has its smallest component.
+  SUPERNORMAL_INLINE static V smallest_axis(V v) {
+    const M is_x = (v.x <= v.y) & (v.x <= v.z), is_y = ~is_x & (v.y <= v.z);
     const R x = select(is_x, R(1.0), R(0.0)), y = select(is_y, R(1.0), R(0.0));
     return {x, y, R(1.0) - x - y};
   }
@@ -195,7 +196,7 @@ struct LaneSearch {
           select(is_concentric, V{R(1.0), R(0.0), R(0.0)}, offset * (R(1.0) / select(is_concentric, R(1.0), distance)));
       V guessed = guess(rotation, half1, half2, size1, size2, direction);
       if (any(is_concentric)) {
-        const V axis = select(smallest(half1) <= smallest(half2), thinnest_axis(half1), rotation * thinnest_axis(half2));
+        const V axis = select(smallest(half1) <= smallest(half2), smallest_axis(half1), rotation * smallest_axis(half2));
         guessed = select(is_concentric, axis, guessed);
       }
       normal = select(is_given, normal, guessed);
@@ -209,6 +210,8 @@ struct LaneSearch {
     out.put(kUnit, unit_length, column);
     out.put(kTolerance, tolerance, column);
     out.put(kRounding, rounding, column);
+    const R radii = number(false, &LaneBody::curvature_radius) + number(true, &LaneBody::curvature_radius);
+    out.put(kFollowed, max(unit_length * settings.followed_depth, radii * settings.followed_per_radius), column);
     out.put(kIsTracked, is_tracked, column);
     out.put(kNormal, normal, column);
   }
@@ -220,6 +223,19 @@ struct LaneSearch {
     R s, h1;
     V d, r1;
   };
+
+  /// The pairs with another step than Newton's, and those that have none at all.
+  struct Improvement {
+    M is_improved, is_lost;
+  };
+
+  /// (A A - r r^T) / h of an ellipsoid, as below.
+  SUPERNORMAL_INLINE static S ellipsoid_hessian(V half, V n, R inverse_h) {
+    const V w = times(half, n) * inverse_h, a = times(half, w), squares = times(half, half) * inverse_h, w2 = times(w, w);
+    // 1 - w_x^2 = w_y^2 + w_z^2 keeps the digits of a needle's small radii (ellipsoid.cpp).
+    return {squares.x * (w2.y + w2.z), squares.y * (w2.z + w2.x), squares.z * (w2.x + w2.y),
+            -(a.x * a.y * inverse_h),  -(a.x * a.z * inverse_h),  -(a.y * a.z * inverse_h)};
+  }
 
   /// Of two ellipsoids: h = |A n| with A = diag(half), r = A A n / h, and H = (A A - r r^T) / h.
   struct Ellipsoids {
@@ -243,11 +259,7 @@ struct LaneSearch {
       return {dot(n, offset) - h1 - h2, h1, offset - r2 - r1, r1};
     }
     SUPERNORMAL_INLINE void hessians(V n, S& H1, S& H) const {
-      // 1 - w_x^2 = w_y^2 + w_z^2 keeps the digits of a needle's small radii (ellipsoid.cpp).
-      const V w = times(half1, n) * inverse1, a = times(half1, w), squares = times(half1, half1) * inverse1;
-      const V w2 = times(w, w);
-      H1 = {squares.x * (w2.y + w2.z), squares.y * (w2.z + w2.x), squares.z * (w2.x + w2.y),
-            -(a.x * a.y * inverse1),   -(a.x * a.z * inverse1),   -(a.y * a.z * inverse1)};
+      H1 = ellipsoid_hessian(half1, n, inverse1);
       const S B = rotated_diagonal(rotation, times(half2, half2) * inverse2);
       const V b = r2 * inverse2;
       H = {H1.xx + (B.xx - r2.x * b.x), H1.yy + (B.yy - r2.y * b.y), H1.zz + (B.zz - r2.z * b.z),
@@ -255,7 +267,9 @@ struct LaneSearch {
     }
     SUPERNORMAL_INLINE void put_body2(Table<kFoundFields, W>&) const {}  // evaluated anew where it is needed
     /// A step in the normal is the best for round bodies.
-    SUPERNORMAL_INLINE M improve(V, V, const Evaluation&, const Regular&, M, V&) const { return R(1.0) < R(0.0); }
+    SUPERNORMAL_INLINE Improvement improve(V, V, const Evaluation&, const Regular&, M, V&) const {
+      return {R(1.0) < R(0.0), R(1.0) < R(0.0)};
+    }
     SUPERNORMAL_INLINE M has_flat_faces() const { return R(1.0) < R(0.0); }
   };
 
@@ -302,48 +316,88 @@ struct LaneSearch {
     /// Bodies of which both norms are flat: delta and epsilon above 2.
     SUPERNORMAL_INLINE M is_flat(int gauges) const { return (R(1.0) < state.at(gauges)) & (R(1.0) < state.at(gauges + 2)); }
 
-    /// The tilts beyond n + step and m - step of the normals at the boundary points to which the step leads
-    /// (CertifiedNewton::through_boundary_points). Zero for a body that is not flat. For a body with one flat norm and one sharp
-    /// norm the step in the normal takes 8 % more evaluations, and each costs 20 % less. Returns the pairs that have no such step:
-    /// the normal of a flat body would rotate too far.
-    SUPERNORMAL_INLINE M tilts(V n, V m, V step1, V step2, V& tilt1, V& tilt2) const {
-      const Vec<P> normal = {{n.x, m.x}, {n.y, m.y}, {n.z, m.z}}, dn = {{step1.x, step2.x}, {step1.y, step2.y}, {step1.z, step2.z}};
-      const Sym<P> H = {{H1.xx, H2.xx}, {H1.yy, H2.yy}, {H1.zz, H2.zz}, {H1.xy, H2.xy}, {H1.xz, H2.xz}, {H1.yz, H2.yz}};
-      const Vec<P> target = jets.r + H * dn;
+    /// The bodies at boundary points where they meet to first order.
+    struct Meeting {
+      Vec<P> normal;              // of each body in its own frame; its component along the evaluated normal is 1
+      Sym<P> curvature;           // 1/m: by how much this normal changes with the point
+      typename P::Mask is_ahead;  // whether there is such a normal
+    };
+
+    SUPERNORMAL_INLINE Meeting meet(const Vec<P>& normal, const Vec<P>& point) const {
       const Vec<P> inverse = {P(1.0) / bodies.half.x, P(1.0) / bodies.half.y, P(1.0) / bodies.half.z};
-      // The gradient of the gauge function, by its two norms. Only its direction counts, so the outer norm takes no root.
-      const NormJet<P> inner = norm_jet(abs(target.x * inverse.x), abs(target.y * inverse.y),
-                                        {both(kGauges1, kGauges2), both(kGauges1 + 1, kGauges2 + 1)});
-      P along, z;
-      gradient_direction(inner.value, abs(target.z * inverse.z), both(kGauges1 + 2, kGauges2 + 2), along, z);
-      const Vec<P> gradient = {with_sign(inner.dx * along * inverse.x, target.x), with_sign(inner.dy * along * inverse.y, target.y),
-                               with_sign(z * inverse.z, target.z)};
-      const P height = dot(gradient, normal);
-      const typename P::Mask is_ahead = length(gradient) * limits::kGrazing < height;
-      const Vec<P> tilt = gradient * (P(1.0) / select(is_ahead, height, P(1.0))) - normal - dn;
-      const V none = {R(0.0), R(0.0), R(0.0)};
-      tilt1 = select(is_flat(kGauges1) & is_ahead.a, V{tilt.x.a, tilt.y.a, tilt.z.a}, none);
-      tilt2 = select(is_flat(kGauges2) & is_ahead.b, V{tilt.x.b, tilt.y.b, tilt.z.b}, none);
-      return (is_flat(kGauges1) & ~is_ahead.a) | (is_flat(kGauges2) & ~is_ahead.b);
+      const NormExponents<P> inner = {both(kGauges1, kGauges2), both(kGauges1 + 1, kGauges2 + 1)};
+      const LevelJet<P> level = level_jet(inverse, inner, both(kGauges1 + 2, kGauges2 + 2), point);
+      const P height = dot(level.gradient, normal);
+      Meeting out;
+      out.is_ahead = length(level.gradient) * limits::kGrazing < height;
+      const P scale = P(1.0) / select(out.is_ahead, height, P(1.0));
+      const Vec<P>& v = out.normal = level.gradient * scale;
+      // A point that moves by y along the plane across n moves by y - n (v . y) on the boundary. The same projection of the change
+      // of the gradient keeps n . v = 1.
+      const Vec<P> b = level.second * normal;
+      const P nb = dot(normal, b);
+      const Sym<P>& A = level.second;
+      out.curvature = Sym<P>{A.xx + v.x * (nb * v.x - b.x - b.x),
+                             A.yy + v.y * (nb * v.y - b.y - b.y),
+                             A.zz + v.z * (nb * v.z - b.z - b.z),
+                             A.xy + (nb * v.x * v.y - v.x * b.y - b.x * v.y),
+                             A.xz + (nb * v.x * v.z - v.x * b.z - b.x * v.z),
+                             A.yz + (nb * v.y * v.z - v.y * b.z - b.y * v.z)} *
+                      scale;
+      return out;
     }
 
-    /// Replaces Newton's step in the normal by one through the boundary points, for the wanted pairs with flat faces. Returns the
-    /// pairs that have no such step.
-    SUPERNORMAL_INLINE M improve(V n, V m, const Evaluation& now, const Regular& regular, M wanted, V& step) const {
+    /// Replaces Newton's step in the normal by one through the boundary points, for the wanted pairs. Lost are those of which the
+    /// normal of a flat body would rotate too far.
+    ///
+    /// The step leads both bodies to a common point. There their normals v1 and v2 differ. Two bodies with curvatures K1 and K2
+    /// have a common normal y further on, with v1 + K1 y = v2 - K2 y: Newton's method for the point. So each evaluation serves one
+    /// step in the normal and one in the point, and bricks on one another take half of the evaluations. On faces so flat that there
+    /// is no step in the normal, the bodies meet halfway. Where the curvatures are singular, Newton's equation for the normal is
+    /// solved with the tilts of the normals beyond the step, as CertifiedNewton::through_boundary_points does.
+    SUPERNORMAL_INLINE Improvement improve(V n, V m, const Evaluation& now, const Regular& regular, M wanted, V& step) const {
       const auto is_less = [](V tilt, V normal) {
         return (abs(tilt.x) <= abs(normal.x) * kTuning.same_tilt) & (abs(tilt.y) <= abs(normal.y) * kTuning.same_tilt) &
                (abs(tilt.z) <= abs(normal.z) * kTuning.same_tilt);
       };
-      const V step2 = -transposed_times(rotation, step);
-      const M open = wanted & (is_flat(kGauges1) | is_flat(kGauges2)) & ~(is_less(step, n) & is_less(step2, m));
-      if (!any(open)) return open;
-      // A step that is not regular may be of any length.
+      const V step_in_2 = -transposed_times(rotation, step);
+      const M open = wanted & ~(regular.is_regular & is_less(step, n) & is_less(step_in_2, m));
+      if (!any(open)) return {open, open};
       const V none = {R(0.0), R(0.0), R(0.0)};
-      V tilt1, tilt2;
-      const M is_lost = open & tilts(n, m, select(open, step, none), select(open, step2, none), tilt1, tilt2);
-      const V through = step + regular.solve(H1 * tilt1 - rotated2 * (rotation * tilt2));
-      step = select(open & (R(0.0) < dot(now.d, through)), through, step);
-      return is_lost;
+      const M has_step = open & regular.is_regular;
+      const V normal_step = select(has_step, step, none), across = now.d - n * now.s;
+      // Of two flat bodies each moves half of the way, beside a flat body the other hardly moves.
+      const R flattest = state.at(kUnit) * R(limits::kFlatContact);
+      const R flatness1 = min(trace(H1), flattest), flatness2 = min(trace(rotated2), flattest), flatness = flatness1 + flatness2;
+      const V share1 = across * (flatness1 / select(R(0.0) < flatness, flatness, R(1.0)));
+      const V move1 = select(has_step, H1 * normal_step, share1);
+      const V move2 = transposed_times(rotation, select(has_step, -(rotated2 * normal_step), share1 - across));
+      const Vec<P> normals = {{n.x, m.x}, {n.y, m.y}, {n.z, m.z}},
+                   moves = {{move1.x, move2.x}, {move1.y, move2.y}, {move1.z, move2.z}};
+      const Meeting meeting = meet(normals, jets.r + moves);
+      const V v1 = {meeting.normal.x.a, meeting.normal.y.a, meeting.normal.z.a};
+      const V v2 = -(rotation * V{meeting.normal.x.b, meeting.normal.y.b, meeting.normal.z.b});
+      const M is_ahead1 = meeting.is_ahead.a, is_ahead2 = meeting.is_ahead.b;
+
+      const auto& K = meeting.curvature;
+      const S K1 = {K.xx.a, K.yy.a, K.zz.a, K.xy.a, K.xz.a, K.yz.a}, K2 = {K.xx.b, K.yy.b, K.zz.b, K.xy.b, K.xz.b, K.yz.b};
+      const Regular curvatures(K1 + rotated(rotation, K2), R(0.0), n, R(1.0) / state.at(kUnit), limits::kLargestCurvature);
+      const M meets = is_ahead1 & is_ahead2 & curvatures.is_regular;
+      const V further = curvatures.solve(select(meets, v2 - v1, none));
+      // Rounding of large curvatures must not leave the plane across n.
+      const V turned = K1 * further;
+      const V to_meeting = v1 - n + (turned - n * dot(turned, n));
+
+      const V tilt1 = select(is_flat(kGauges1) & is_ahead1, v1 - n - step, none);
+      const V tilt2 = select(is_flat(kGauges2) & is_ahead2, v2 - n - step, none);
+      const V tilted = step + regular.solve(H1 * select(has_step, tilt1, none) + rotated2 * select(has_step, tilt2, none));
+
+      const V through = select(meets, to_meeting, tilted);
+      const R twice_gain = dot(now.d, through);
+      const M meets_halfway = meets & (state.at(kTolerance) * limits::kLeastGain < twice_gain);
+      const M is_improved = open & (R(0.0) < twice_gain) & (has_step | meets_halfway);
+      step = select(is_improved, through, step);
+      return {is_improved, open & ((is_flat(kGauges1) & ~is_ahead1) | (is_flat(kGauges2) & ~is_ahead2))};
     }
   };
 
@@ -353,7 +407,8 @@ struct LaneSearch {
     alignas(8 * W) double best_s[W];
     alignas(8 * W) double best_at[W];  // the evaluation of the best normal
     alignas(8 * W) double evaluations[W];
-    alignas(8 * W) double is_active[W];  // 1 or 0
+    alignas(8 * W) double is_active[W];   // 1 or 0
+    alignas(8 * W) double is_halfway[W];  // 1 or 0: the last step was without a step in the normal
     double cuts[W][kMostLaneEvaluations][3];
     Table<kFields, W>& state;
     Table<kFoundFields, W>& found;
@@ -421,7 +476,7 @@ struct LaneSearch {
     // Deeper than rho there may be several maxima, and Newton's steps may lead away from the one that is tracked.
     // A shallow one is followed to its top.
     const M is_deep = (R(0.5) < state.at(kIsTracked)) & ~is_provable;
-    const M may_follow = is_deep & (-now.s <= state.at(kUnit) * R(settings.followed_depth));
+    const M may_follow = is_deep & (-now.s <= state.at(kFollowed));
     const M is_left = is_first & is_deep & ~may_follow;
     round.is_followed = R(1.0) < R(0.0);
     round.is_open = is_active & is_left & ~(round.is_apart | round.is_proved);
@@ -441,16 +496,20 @@ struct LaneSearch {
     round.is_followed =
         goes_on & is_better & may_follow & regular.is_regular & (twice_gain * R(0.5 * kTuning.gain_safety) <= tolerance);
     goes_on = goes_on & ~round.is_followed;
-    const M is_lost = bodies.improve(n, m, now, regular, goes_on & is_better & regular.is_regular, step);
+    const Improvement improvement = bodies.improve(n, m, now, regular, goes_on & is_better, step);
+    const M has_step = regular.is_regular | improvement.is_improved;
     const M gains = tolerance < dot(now.d, step);
     // A face is level: no shorter step leads higher.
     const M is_level = bodies.has_flat_faces() & (best_s - state.at(kRounding) <= now.s);
+    // Nor does half of a step to a meeting that was not there.
+    const M was_halfway = R(0.5) < load<W>(lanes.is_halfway);
     const M is_last = R(settings.most_evaluations - 1.5) < evaluations;
-    const M is_stuck =
-        is_lost | (is_better & (~regular.is_regular | ~(is_provable | may_follow | gains))) | (~is_better & is_level) | is_last;
+    const M is_stuck = improvement.is_lost | (is_better & (~has_step | ~(is_provable | may_follow | gains))) |
+                       (~is_better & (is_level | was_halfway)) | is_last;
     round.is_open = round.is_open | (goes_on & is_stuck);
     goes_on = goes_on & ~is_stuck;
 
+    store(lanes.is_halfway, select(is_better & ~regular.is_regular, R(1.0), R(0.0)));
     step = select(goes_on & is_better, step, lanes.step.vec(0) * R(0.5));
     const R squared = dot(step, step);
     const M is_long = R(kTuning.longest_step * kTuning.longest_step) < squared;
@@ -470,10 +529,10 @@ struct LaneSearch {
     Table<kFoundFields, W> own_found;
     Lanes lanes = [&]() -> Lanes {
       if constexpr (W == 1) {
-        return {{}, {}, {}, {}, {}, {}, {}, pairs, ends, {}};
+        return {{}, {}, {}, {}, {}, {}, {}, {}, pairs, ends, {}};
       } else {
         own_found = {};
-        return {{}, {}, {}, {}, {}, {}, {}, own_state, own_found, {}};
+        return {{}, {}, {}, {}, {}, {}, {}, {}, own_state, own_found, {}};
       }
     }();
     int next = 0, active = 0;
@@ -592,8 +651,73 @@ struct LaneSearch {
     return is_good;
   }
 
+  /// The curvature tensor of a body in a basis of the plane perpendicular to the normal.
+  struct Curvature {
+    V t1, t2;
+    R xx, xy, yy;  // 1/m
+    M is_known;
+  };
+
+  /// find_curvature() (contact_curvature.cpp) of radii that are neither sharp nor flat, by the cofactors of H.
+  SUPERNORMAL_INLINE static Curvature curvature_of(const S& hessian, V n, R size) {
+    const R total = trace(hessian);
+    Curvature out;
+    out.is_known = (total < size * limits::kFlat) & (size * limits::kSharpest < total);
+    const S H = select(out.is_known, hessian, S{R(1.0), R(1.0), R(1.0), R(0.0), R(0.0), R(0.0)});
+    // Along the flattest axis, as there. It is far from the normal, since H n = 0.
+    const V axis = smallest_axis(-V{H.xx, H.yy, H.zz});
+    const V along = axis - n * dot(n, axis);
+    const R squared = dot(along, along);
+    const M is_plane = R(limits::kGrazing) < squared;
+    out.is_known = out.is_known & is_plane;
+    out.t1 = along * (R(1.0) / sqrt(select(is_plane, squared, R(1.0))));
+    out.t2 = cross(n, out.t1);
+    const V H1 = H * out.t1, H2 = H * out.t2;
+    const R xx = dot(out.t1, H1), xy = dot(out.t2, H1), yy = dot(out.t2, H2);
+    const Principal radii(xx, xy, yy);
+    out.is_known = out.is_known & (size * limits::kSharpest < radii.low);
+    const R inverse = R(1.0) / select(out.is_known, radii.high * radii.low, R(1.0));
+    out.xx = yy * inverse;
+    out.xy = -(xy * inverse);
+    out.yy = xx * inverse;
+    return out;
+  }
+
+  /// The eigenvalues of a symmetric 2 x 2 matrix with a positive trace (Eigen2 in tangent_plane.hpp).
+  struct Principal {
+    R low, high;
+    SUPERNORMAL_INLINE Principal(R xx, R xy, R yy) {
+      const R half_difference = (xx - yy) * R(0.5);
+      high = (xx + yy) * R(0.5) + sqrt(half_difference * half_difference + xy * xy);
+      const M is_positive = R(0.0) < high;
+      const R inverse = R(1.0) / select(is_positive, high, R(1.0));
+      low = xx * (yy * inverse) - xy * (xy * inverse);
+    }
+  };
+
+  /// The curvatures of the bodies together at their contacts.
+  SUPERNORMAL_INLINE static void find_curvatures(const Pairs& pairs, const Ends& ends, int column, bool of_ellipsoids, M wanted,
+                                                 R& smaller, R& larger) {
+    const Mat<R> rotation = {pairs.vec(kRotation, column), pairs.vec(kRotation + 3, column), pairs.vec(kRotation + 6, column)};
+    const V half1 = pairs.vec(kHalf1, column), half2 = pairs.vec(kHalf2, column);
+    const V n = ends.vec(kFoundNormal, column), m = -transposed_times(rotation, n);
+    const S H2 = of_ellipsoids ? ellipsoid_hessian(half2, m, R(1.0) / length(times(half2, m))) : ends.sym(kFoundHessian2, column);
+    const Curvature K1 = curvature_of(ends.sym(kFoundHessian1, column), n, smallest(half1));
+    const Curvature K2 = curvature_of(H2, m, smallest(half2));
+    // The first axis of the second basis in the first; the second axis is (s, -c), because m = -n.
+    const V t = rotation * K2.t1;
+    const R c = dot(K1.t1, t), s = dot(K1.t2, t);
+    const R mixed = c * s * K2.xy * R(2.0);
+    const Principal sum(K1.xx + (c * c * K2.xx + s * s * K2.yy + mixed),
+                        K1.xy + (c * s * (K2.xx - K2.yy) + (s * s - c * c) * K2.xy),
+                        K1.yy + (s * s * K2.xx + c * c * K2.yy - mixed));
+    const M is_known = wanted & K1.is_known & K2.is_known;
+    smaller = select(is_known, max(sum.low, R(0.0)), R(kUnknownCurvature));
+    larger = select(is_known, sum.high, R(kUnknownCurvature));
+  }
+
   SUPERNORMAL_INLINE static void finish(const LanePair* inputs, const Pairs& pairs, const Ends& ends, int column, int count,
-                                        bool of_ellipsoids, LaneAnswer* answers) {
+                                        bool of_ellipsoids, bool wants_curvature, LaneAnswer* answers) {
     const Place place1(inputs, count, false);
     const auto find = [&](auto&& has) {
       return R(0.5) < lanes_from<W>([&](int lane) { return lane < count && has(answers[lane]) ? 1.0 : 0.0; });
@@ -611,7 +735,12 @@ struct LaneSearch {
     }
     const auto to_world = [&place1](V point) { return place1.rotation * point + place1.position; };
     const V normal = unit(place1.rotation * n), point1 = to_world(r1), point2 = to_world(r1 + d), point = to_world(contact);
-    alignas(8 * W) double out[19][W];
+    R smaller = kUnknownCurvature, larger = kUnknownCurvature;
+    if (wants_curvature) {
+      const M wanted = is_complete & (ends.at(kFoundS, column) < R(0.0));
+      if (any(wanted)) find_curvatures(pairs, ends, column, of_ellipsoids, wanted, smaller, larger);
+    }
+    alignas(8 * W) double out[21][W];
     const auto put = [&out](int i, V v) {
       store(out[i], v.x);
       store(out[i + 1], v.y);
@@ -626,6 +755,8 @@ struct LaneSearch {
     put(10, point2);
     put(13, point);
     put(16, n);
+    store(out[19], smaller);
+    store(out[20], larger);
     const unsigned complete = lanes_of(is_complete);
     for (int lane = 0; lane < count; ++lane) {
       LaneAnswer& answer = answers[lane];
@@ -646,6 +777,7 @@ struct LaneSearch {
         answer.point2[i] = out[10 + i][lane];
         answer.contact[i] = out[13 + i][lane];
       }
+      for (int i = 0; i < 2; ++i) answer.curvature[i] = out[19 + i][lane];
     }
   }
 
@@ -668,7 +800,7 @@ struct LaneSearch {
           for (auto& row : ends.rows) row[column + lane] = row[here - 1];
         }
         finish(pairs + first + column, prepared, ends, column, here - column < W ? here - column : W, of_ellipsoids,
-               answers + first + column);
+               settings.wants_curvature, answers + first + column);
       }
     }
   }

@@ -25,9 +25,13 @@ bool is_of_ellipsoids(const LanePair& pair) {
   return pair.body1 != nullptr && pair.body1->is_ellipsoid && pair.body2 != nullptr && pair.body2->is_ellipsoid;
 }
 
-LaneSettings lane_settings(const Settings& settings) {
-  return {settings.tolerance, std::min({kMostLaneEvaluations, kTuning.newton_evaluations, settings.max_evaluations}),
-          settings.stop_when_apart, settings.certify_depth ? 0 : kTuning.unsearched_depth};
+LaneSettings lane_settings(const Settings& settings, bool wants_curvature) {
+  return {settings.tolerance,
+          std::min({kMostLaneEvaluations, kTuning.newton_evaluations, settings.max_evaluations}),
+          settings.stop_when_apart,
+          settings.certify_depth ? 0 : kTuning.unsearched_depth,
+          settings.certify_depth ? 0 : kTuning.depth_per_radius,
+          wants_curvature};
 }
 
 Vector3 vector_of(const double* numbers) { return {numbers[0], numbers[1], numbers[2]}; }
@@ -104,7 +108,7 @@ bool is_for_lanes(const Shape& shape1, const Shape& shape2, const Settings& sett
 Proximity find_in_one_lane(const ProximityQuery& pair, const Settings& settings) {
   const LanePair input = lane_pair(pair);
   LaneAnswer lane;
-  kOneLane.query(&input, 1, is_of_ellipsoids(input), lane_settings(settings), &lane);
+  kOneLane.query(&input, 1, is_of_ellipsoids(input), lane_settings(settings, false), &lane);
   return answer_of(pair, settings, lane);
 }
 
@@ -119,10 +123,12 @@ void LaneBatch::add(const ProximityQuery& query, std::size_t index) {
 
 void LaneBatch::solve(Group& group) {
   std::array<LaneAnswer, kAtOnce> answers;
-  kernel_.query(group.pairs.data(), static_cast<int>(group.count), &group == groups_.data(), lane_settings(settings_),
-                answers.data());
+  kernel_.query(group.pairs.data(), static_cast<int>(group.count), &group == groups_.data(),
+                lane_settings(settings_, !curvatures_.empty()), answers.data());
   for (std::size_t k = 0; k < group.count; ++k) {
-    results_[group.indices[k]] = answer_of(group.queries[k], settings_, answers[k]);
+    const std::size_t index = group.indices[k];
+    results_[index] = answer_of(group.queries[k], settings_, answers[k]);
+    if (!curvatures_.empty()) curvatures_[index] = {answers[k].curvature[0], answers[k].curvature[1]};
   }
   group.count = 0;
 }

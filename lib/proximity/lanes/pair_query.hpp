@@ -15,13 +15,17 @@ struct LanePair {
 
 /// What all pairs have in common.
 struct LaneSettings {
-  double tolerance;       ///< Settings::tolerance
-  int most_evaluations;   ///< of one pair, at least 1 and at most kMostLaneEvaluations
-  bool stop_when_apart;   ///< Settings::stop_when_apart
-  double followed_depth;  ///< of the length unit: in a shallower overlap the maximum of a first normal is followed, without a proof
+  double tolerance;      ///< Settings::tolerance
+  int most_evaluations;  ///< of one pair, at least 1 and at most kMostLaneEvaluations
+  bool stop_when_apart;  ///< Settings::stop_when_apart
+  /// In a shallower overlap the maximum of a first normal is followed, without a proof. The larger of both limits counts.
+  double followed_depth;       ///< of the length unit
+  double followed_per_radius;  ///< of the sum of both bodies' LaneBody::curvature_radius
+  bool wants_curvature;        ///< whether to find LaneAnswer::curvature
 };
 
 inline constexpr int kMostLaneEvaluations = 8;
+inline constexpr double kUnknownCurvature = -1;
 
 enum class LaneOutcome {
   Open,              ///< nothing is proved: the search goes on elsewhere from `normal`, with the cuts
@@ -56,6 +60,7 @@ struct LaneAnswer {
   double jet[kFoundFields];  ///< the evaluation of `normal`, if has_jet
   bool has_jet;
   double point1[3], point2[3], contact[3];
+  double curvature[2];  ///< 1/m; of the bodies together, the smaller first, or kUnknownCurvature; only if it is wanted
   /// m; d + rho n of every evaluation but the best; only if the outcome is Open
   double cuts[kMostLaneEvaluations][3];
 };

@@ -42,8 +42,8 @@ bool CertifiedNewton::is_proved() {
   return is_provable() && rule_.allows(error_);
 }
 
-bool CertifiedNewton::evaluate(const Vector3& n) {
-  gap_.evaluate(n, Order::Hessian, next());
+bool CertifiedNewton::evaluate(const Vector3& n, Order order) {
+  gap_.evaluate(n, order, next());
   cuts_.add(next().d + rolling_radius_ * next().n);
   return next().is_finite();
 }
@@ -130,7 +130,7 @@ bool CertifiedNewton::prove_by_tilts() {
     if (!(distance > 0)) return false;
     const double least_tilt = rule.tolerance() / std::max(distance, gap_.length_unit());
     const double tilt = std::min(growth * least_tilt, rule.tolerance() / distance);
-    if (!evaluate((n + tilt / distance * beside).normalized())) return false;
+    if (!evaluate((n + tilt / distance * beside).normalized(), Order::Point)) return false;
     beside_[beside_count_++] = {next().n, next().jet1.r, next().d};
     // If the body is round in this direction, the point has only moved a part of the distance. With a larger tilt it is as far on
     // the other side.

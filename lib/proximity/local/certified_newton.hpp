@@ -68,7 +68,7 @@ class CertifiedNewton {
   bool is_provable() const { return best().s + rolling_radius_ > 0; }
   bool is_proved();
   /// Evaluates at n, and returns whether the result is finite.
-  bool evaluate(const Vector3& n);
+  bool evaluate(const Vector3& n, Order order = Order::Hessian);
   /// Proposes an ascending step across the best normal, in gnomonic coordinates. Returns false if there is no reliable step.
   bool propose(Vector3& step) const;
   bool parametrizations_agree(const Vector3& step) const;

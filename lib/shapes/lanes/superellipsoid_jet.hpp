@@ -13,6 +13,10 @@ namespace {  // NOLINT(google-build-namespaces): real.hpp
 constexpr double kLanesFlatRatio = 1e-60;
 constexpr double kLanesLeastRatio = 1e-300;
 
+// Stands for the infinite curvature of an edge. It is beyond limits::kLargestCurvature, so that nothing is computed with it, and a
+// product of such numbers is still in range.
+constexpr double kLanesSharp = 1e40;
+
 /// A norm (x^p + y^p)^(1/p) of two numbers.
 template <typename T>
 struct NormExponents {
@@ -88,14 +92,6 @@ SUPERNORMAL_INLINE T norm_value(T x, T y, const NormExponents<T>& p) {
   return ratio.larger * root(ratio.power_1 * ratio.k + 1.0, p.inverse);
 }
 
-/// Two numbers with the ratio of the norm's first derivatives; the larger is 1.
-template <typename T>
-SUPERNORMAL_INLINE void gradient_direction(T x, T y, T p_minus_1, T& dx, T& dy) {
-  const Ratio<T> ratio = ratio_of(x, y, p_minus_1);
-  dx = select(ratio.x_is_larger, T(1.0), ratio.power_1);
-  dy = select(ratio.x_is_larger, ratio.power_1, T(1.0));
-}
-
 /// k^(p-2) at the ratio below which it stays constant.
 SUPERNORMAL_INLINE double flat_power(double p_minus_1) { return power(Real<1>(kLanesFlatRatio), Real<1>(p_minus_1 - 1)).v; }
 
@@ -115,6 +111,43 @@ SUPERNORMAL_INLINE NormBends<T> norm_bends(const NormJet<T>& norm, const NormExp
   const T small = scale * ratio.power_1 * ratio.k, large = scale * power_2;
   return {select(ratio.x_is_larger, small, large), -(scale * ratio.power_1), select(ratio.x_is_larger, large, small),
           norm.d_larger * norm.root * select(ratio.x_is_larger, T(1.0), power_2)};
+}
+
+/// The derivatives of a function that is constant on the boundary, at a point near it: the normal's direction, and how it changes.
+template <typename T>
+struct LevelJet {
+  Vec<T> gradient;
+  Sym<T> second;  // without xz and yz, which are 0
+};
+
+/// For a superellipsoid |rho|^epsilon + |z/c|^epsilon with the inner norm rho, over epsilon and the larger of the two to the power
+/// epsilon - 1. So the outer norm takes no root. `inverse`: 1/half-axes.
+template <typename T>
+SUPERNORMAL_INLINE LevelJet<T> level_jet(Vec<T> inverse, const NormExponents<T>& delta, T epsilon_minus_1, Vec<T> point) {
+  const auto at_zero = [](T power_1) {  // k^(p-2) for k = 0
+    return select(T(1.0) < power_1, T(0.0), select(power_1 < T(1.0), T(kLanesSharp), T(1.0)));
+  };
+  const NormJet<T> rho = norm_jet(abs(point.x * inverse.x), abs(point.y * inverse.y), delta);
+  const Ratio<T> outer = ratio_of(rho.value, abs(point.z * inverse.z), epsilon_minus_1);
+  const auto is_plain = T(kLanesFlatRatio) < outer.k;
+  const T power_2 = select(is_plain, outer.power_1 / select(is_plain, outer.k, T(1.0)), at_zero(epsilon_minus_1));
+  const Vec<T> axes = {with_sign(inverse.x, point.x), with_sign(inverse.y, point.y), with_sign(inverse.z, point.z)};
+  const T slope = select(outer.x_is_larger, T(1.0), outer.power_1);
+  LevelJet<T> out;
+  const T x = axes.x * rho.dx, y = axes.y * rho.dy;
+  out.gradient = {x * slope, y * slope, axes.z * select(outer.x_is_larger, outer.power_1, T(1.0))};
+  // The second derivatives of rho are bends / rho, and slope / rho is this power over the larger.
+  const NormBends<T> bends = norm_bends(rho, delta, at_zero(delta.power_1));
+  const T inverse_larger = T(1.0) / select(T(0.0) < outer.larger, outer.larger, T(1.0));
+  const T across = select(outer.x_is_larger, T(1.0), power_2) * inverse_larger;
+  const T along = select(outer.x_is_larger, power_2, T(1.0)) * inverse_larger;
+  out.second = {across * (epsilon_minus_1 * x * x + bends.xx * (axes.x * axes.x)),
+                across * (epsilon_minus_1 * y * y + bends.yy * (axes.y * axes.y)),
+                along * epsilon_minus_1 * (axes.z * axes.z),
+                across * (epsilon_minus_1 * x * y + bends.xy * (axes.x * axes.y)),
+                T(0.0),
+                T(0.0)};
+  return out;
 }
 
 /// The numbers of a body that an evaluation needs.

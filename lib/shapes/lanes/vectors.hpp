@@ -31,6 +31,7 @@ SUPERNORMAL_VEC Vec<T> operator-(Vec<T> a, Vec<T> b) { return {a.x - b.x, a.y - 
 SUPERNORMAL_VEC Vec<T> operator-(Vec<T> a) { return {-a.x, -a.y, -a.z}; }
 SUPERNORMAL_VEC Vec<T> operator*(Vec<T> a, T b) { return {a.x * b, a.y * b, a.z * b}; }
 SUPERNORMAL_VEC T dot(Vec<T> a, Vec<T> b) { return a.x * b.x + (a.y * b.y + a.z * b.z); }
+SUPERNORMAL_VEC Vec<T> cross(Vec<T> a, Vec<T> b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 SUPERNORMAL_VEC T length(Vec<T> a) { return sqrt(dot(a, a)); }
 SUPERNORMAL_VEC Vec<T> unit(Vec<T> a) { return a * (T(1.0) / length(a)); }
 SUPERNORMAL_VEC Vec<T> times(Vec<T> a, Vec<T> b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }

@@ -6,8 +6,9 @@ import re
 
 import gas
 import heap
+import liggghts
 import walls
-from driver import Driver, read_tables
+from driver import INPUTS, Driver, read_tables
 
 COPIES = {10240: (5, 2, 2), 100352: (7, 7, 4)}  # replications of the bed with 512 particles
 
@@ -75,7 +76,12 @@ def study_drum(driver):
         print(f"{what}: {value:.2g}", flush=True)
 
 
-STUDIES = {"cost": study_cost, "scaling": study_scaling, "gas": study_gas, "heap": heap.study, "drum": study_drum}
+def study_liggghts(driver):
+    """The cost of a step beside LIGGGHTS' superquadrics (../build_liggghts)."""
+    liggghts.study(driver, INPUTS.parents[2] / "build" / "liggghts" / "lmp_liggghts", processor_times)
+
+
+STUDIES = {"cost": study_cost, "scaling": study_scaling, "liggghts": study_liggghts, "gas": study_gas, "heap": heap.study, "drum": study_drum}
 
 
 def main():

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernel/contact_law.hpp"
-#include "supernormal/proximity/batch.hpp"
+#include "supernormal/contact/contact_curvature.hpp"
 
 namespace granular {
 
@@ -40,10 +40,10 @@ struct PairQuery {
   }
 };
 
-/// The contact from the answer to a query. `history` is advanced by `step` (s). With a step of 0 it is only read. The function
-/// neither allocates nor throws.
-PairContact contact_of(const supernormal::Proximity& found, const Body& body1, const Body& body2, const ContactMaterial& material,
-                       double step, ContactHistory& history);
+/// The contact from the answer to a query, with the curvature that find_proximities() gives. `history` is advanced by `step` (s).
+/// With a step of 0 it is only read. The function neither allocates nor throws.
+PairContact contact_of(const supernormal::Proximity& found, const supernormal::ContactCurvature& curvature, const Body& body1,
+                       const Body& body2, const ContactMaterial& material, double step, ContactHistory& history);
 
 /// The contact of two bodies. Set stop_when_apart in `settings`, so that a query ends at the first proof of separation. `history`
 /// gives the query its first normal and is advanced by `step` (s). With a step of 0 it is only read. The function neither allocates

@@ -1,6 +1,7 @@
 #include "styles/body_table.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -62,6 +63,7 @@ void BodyTable::assign_shapes() {
     }
   }
   bodies_.resize(count);
+  turns_.assign(count, {});
 }
 
 void BodyTable::read_motion() {
@@ -69,6 +71,11 @@ void BodyTable::read_motion() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const ParticleShape& shape = *shapes_[i];
     const double* q = ellipsoids_->bonus[atom.ellipsoid[i]].quat;
+    // The chord between unit quaternions is 2 sin(angle/4), and the angle is at most pi.
+    Turn& turn = turns_[i];
+    const Eigen::Vector4d now(q[0], q[1], q[2], q[3]);
+    turn.way += std::numbers::pi / std::numbers::sqrt2 * shape.bounding_radius * (now - turn.quaternion).norm();
+    turn.quaternion = now;
     Body& body = bodies_[i];
     body.shape = &shape.body;
     body.width = shape.width;
@@ -83,7 +90,7 @@ void BodyTable::read_motion() {
 }
 
 double BodyTable::bytes() const {
-  return static_cast<double>(bodies_.capacity() * sizeof(Body) + shapes_.capacity() * sizeof(void*) +
+  return static_cast<double>(bodies_.capacity() * (sizeof(Body) + sizeof(Turn)) + shapes_.capacity() * sizeof(void*) +
                              cache_.size() * (sizeof(ParticleShape) + 100));
 }
 

@@ -37,6 +37,8 @@ class BodyTable {
 
   const ParticleShape& shape(int i) const { return *shapes_[static_cast<std::size_t>(i)]; }
   const Body& body(int i) const { return bodies_[static_cast<std::size_t>(i)]; }
+  /// An upper bound of the way (m) of any point of the particle by rotation, since assign_shapes(). It never decreases.
+  double rotated(int i) const { return turns_[static_cast<std::size_t>(i)].way; }
   double bytes() const;  ///< memory in use
 
   /// The quaternion (w, x, y, z; body to world) of particle i, in memory of LAMMPS.
@@ -52,6 +54,11 @@ class BodyTable {
   ShapeCache cache_;
   std::vector<const ParticleShape*> shapes_;  // per particle
   std::vector<Body> bodies_;
+  struct Turn {
+    Eigen::Vector4d quaternion = Eigen::Vector4d::Zero();  // when last read
+    double way = 0;                                        // m
+  };
+  std::vector<Turn> turns_;
 };
 
 }  // namespace granular

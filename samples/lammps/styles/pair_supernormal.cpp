@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -22,6 +23,12 @@
 namespace granular {
 
 using namespace LAMMPS_NS;
+
+namespace {
+
+constexpr double kProofMargin = 1e-9;  // of the bounding radii; covers the rounding of a gap
+
+}  // namespace
 
 PairSupernormal::PairSupernormal(LAMMPS* lammps) : Pair(lammps) {
   query_settings_.stop_when_apart = true;
@@ -146,16 +153,37 @@ double PairSupernormal::init_one(int i, int j) {
 void PairSupernormal::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   sums_.fill(0);
-  if (neighbor->ago == 0) bodies_->assign_shapes();
+  if (neighbor->ago == 0) {
+    bodies_->assign_shapes();
+    forget_proofs();
+  }
   bodies_->read_motion();
   // In the setup of a run, the springs are already up to date.
   const double step = update->setupflag != 0 ? 0 : update->dt;
-  for (int k = 0; k < list->inum; ++k) list_neighbors(list->ilist[k], step);
+  for (int k = 0; k < list->inum; ++k) list_neighbors(k, step);
   solve_pending(step);
 }
 
+void PairSupernormal::forget_proofs() {
+  first_proof_.clear();
+  std::size_t count = 0;
+  for (int k = 0; k < list->inum; ++k) {
+    first_proof_.push_back(count);
+    count += static_cast<std::size_t>(list->numneigh[list->ilist[k]]);
+  }
+  proofs_.assign(count, std::numeric_limits<double>::infinity());
+}
+
+// The gap along a normal changes with the distance of the centres along it and, by rotation, at most as far as points of the bodies
+// move: |h(n') - h(n)| <= R |n' - n|.
+double PairSupernormal::separation(int i, int j, const Vector3& normal) const {
+  const Body &first = bodies_->body(i), &second = bodies_->body(j);
+  return normal.dot(second.pose.position - first.pose.position) - (bodies_->rotated(i) + bodies_->rotated(j));
+}
+
 // The pairs are solved many at once, in the order of the list: their forces are added in this order, too.
-void PairSupernormal::list_neighbors(int i, double step) {
+void PairSupernormal::list_neighbors(int number, double step) {
+  const int i = list->ilist[number];
   const int* neighbors = list->firstneigh[i];
   int* known = history_->firstflag[i];
   double* values = history_->firstvalue[i];
@@ -163,12 +191,19 @@ void PairSupernormal::list_neighbors(int i, double step) {
     const int j = neighbors[k] & NEIGHMASK;
     double* pair_values = values + k * ContactHistory::kSize;
     const Vector3 apart = Vector3::Map(atom->x[i]) - Vector3::Map(atom->x[j]);
+    double& proof = proofs_[first_proof_[static_cast<std::size_t>(number)] + static_cast<std::size_t>(k)];
     const double reach = bodies_->shape(i).bounding_radius + bodies_->shape(j).bounding_radius;
     if (apart.squaredNorm() >= reach * reach) {
       if (step > 0 && known[k] != 0) {
         known[k] = 0;
         ContactHistory().store(pair_values);
+        proof = std::numeric_limits<double>::infinity();
       }
+      continue;
+    }
+    const auto [first, second] = by_tag(i, j);
+    if (step > 0 && separation(first, second, Vector3::Map(pair_values)) > proof) {
+      sums_[Queries] += share(j);
       continue;
     }
     Pending& pending = pending_[pending_count_++];
@@ -176,8 +211,8 @@ void PairSupernormal::list_neighbors(int i, double step) {
     pending.j = j;
     pending.known = known + k;
     pending.values = pair_values;
+    pending.proof = &proof;
     pending.history = ContactHistory::load(pair_values);
-    const auto [first, second] = by_tag(i, j);
     pending.query.set(bodies_->body(first), bodies_->body(second), pending.history);
     if (pending_count_ == pending_.size()) solve_pending(step);
   }
@@ -187,31 +222,39 @@ void PairSupernormal::solve_pending(double step) {
   std::array<supernormal::ProximityQuery, std::tuple_size_v<decltype(pending_)>> queries{};
   std::array<supernormal::Proximity, std::tuple_size_v<decltype(pending_)>> found;
   for (std::size_t k = 0; k < pending_count_; ++k) queries[k] = pending_[k].query.query;
-  supernormal::find_proximities({queries.data(), pending_count_}, query_settings_, {found.data(), pending_count_});
+  std::array<supernormal::ContactCurvature, std::tuple_size_v<decltype(pending_)>> curvatures;
+  supernormal::find_proximities({queries.data(), pending_count_}, query_settings_, {found.data(), pending_count_},
+                                {curvatures.data(), pending_count_});
   for (std::size_t k = 0; k < pending_count_; ++k) {
     Pending& pending = pending_[k];
     const auto [first, second] = by_tag(pending.i, pending.j);
     const PairContact pair =
-        require_finite(contact_of(found[k], bodies_->body(first), bodies_->body(second),
+        require_finite(contact_of(found[k], curvatures[k], bodies_->body(first), bodies_->body(second),
                                   material(atom->type[pending.i], atom->type[pending.j]), step, pending.history),
                        first, second);
     if (step > 0) {
       *pending.known = 1;
       pending.history.store(pending.values);
+      // Twice the margin of separation().
+      const double rounding = kProofMargin * (bodies_->shape(first).bounding_radius + bodies_->shape(second).bounding_radius);
+      *pending.proof = pair.state == PairState::Apart ? separation(first, second, pending.history.normal) - found[k].gap + rounding
+                                                      : std::numeric_limits<double>::infinity();
     }
     count_and_apply(pending.i, pending.j, pair);
   }
   pending_count_ = 0;
 }
 
+// With newton off, two ranks count each pair of an owned particle and a ghost.
+double PairSupernormal::share(int j) const { return force->newton_pair != 0 || j < atom->nlocal ? 1 : 0.5; }
+
 void PairSupernormal::count_and_apply(int i, int j, const PairContact& pair) {
-  // With newton off, two ranks count each pair of an owned particle and a ghost.
-  const double share = force->newton_pair != 0 || j < atom->nlocal ? 1 : 0.5;
-  sums_[Queries] += share;
-  sums_[Evaluations] += share * pair.evaluations;
+  const double part = share(j);
+  sums_[Queries] += part;
+  sums_[Evaluations] += part * pair.evaluations;
   if (pair.state == PairState::Apart) return;
-  sums_[Contacts] += share;
-  sums_[Slipping] += pair.force.slips ? share : 0;
+  sums_[Contacts] += part;
+  sums_[Slipping] += pair.force.slips ? part : 0;
   apply(i, j, pair);
 }
 
@@ -287,7 +330,9 @@ double PairSupernormal::single(int i, int j, int /*itype*/, int /*jtype*/, doubl
 
 void PairSupernormal::transfer_history(double* from, double* to) { std::copy_n(from, ContactHistory::kSize, to); }
 
-double PairSupernormal::memory_usage() { return Pair::memory_usage() + bodies_->bytes(); }
+double PairSupernormal::memory_usage() {
+  return Pair::memory_usage() + bodies_->bytes() + static_cast<double>(proofs_.capacity() * sizeof(double));
+}
 
 void PairSupernormal::write_restart(FILE* file) { exchange_coefficients(file, true); }
 

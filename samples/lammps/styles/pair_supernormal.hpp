@@ -53,6 +53,7 @@ class PairSupernormal : public LAMMPS_NS::Pair {
     int i, j;
     int* known;
     double* values;
+    double* proof;
     ContactHistory history;
     PairQuery query;
   };
@@ -61,8 +62,11 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   PairContact require_finite(const PairContact& pair, int first, int second) const;
   std::pair<int, int> by_tag(int i, int j) const;
   void apply(int i, int j, const PairContact& pair);
-  void list_neighbors(int i, double step);
+  void forget_proofs();
+  double separation(int i, int j, const Vector3& normal) const;
+  void list_neighbors(int k, double step);
   void solve_pending(double step);
+  double share(int j) const;
   void count_and_apply(int i, int j, const PairContact& pair);
   void set_material(int low, int high, int low2, int high2, const ContactMaterial& material);
   void exchange_coefficients(FILE* file, bool write);
@@ -75,6 +79,10 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   LAMMPS_NS::FixNeighHistory* history_ = nullptr;
   std::array<Pending, 64> pending_;  // as many as fill vector lanes, and stay in the cache
   std::size_t pending_count_ = 0;
+  // Per neighbour: separation() less the gap when it was proved, or infinity. The last normal proves that the bodies are still
+  // apart while separation() exceeds this.
+  std::vector<double> proofs_;
+  std::vector<std::size_t> first_proof_;  // per particle of the list
   std::array<double, SumCount> sums_{};
   std::array<double, kSingles> singles_{};
 };

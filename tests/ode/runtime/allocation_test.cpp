@@ -1,11 +1,7 @@
-// Tests that colliders do not allocate. This executable replaces operator new for everything in it.
+// Tests that colliders do not allocate. counted_allocations.cpp replaces operator new for everything in this executable.
 #include <doctest/doctest.h>
 
 #include <array>
-#include <atomic>
-#include <cstddef>
-#include <cstdlib>
-#include <new>
 #include <span>
 #include <vector>
 
@@ -13,47 +9,16 @@
 #include "ode/mesh_fixture.hpp"
 #include "ode/terrain.hpp"
 #include "supernormal/effects.hpp"
+#include "support/counted_allocations.hpp"
 
 using namespace supernormal::test;
-
-namespace {
-
-std::atomic<long> allocations{0};
-
-void* allocate(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  void* const memory = alignment <= alignof(std::max_align_t)
-                           ? std::malloc(size)
-                           : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return allocate(size, 1); }
-void* operator new[](std::size_t size) { return allocate(size, 1); }
-void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-void* operator new(std::size_t size, std::align_val_t alignment) { return allocate(size, static_cast<std::size_t>(alignment)); }
-void* operator new[](std::size_t size, std::align_val_t alignment) { return allocate(size, static_cast<std::size_t>(alignment)); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 TEST_CASE("after the first call no collider, bounding box or query allocates") {
   OdeSession session;
   {
-    const long before = allocations;
+    const long before = allocations();
     const Geom counted(snCreateEllipsoid(nullptr, 1, 1, 1));
-    REQUIRE(allocations > before);  // the counter counts the library's allocations
+    REQUIRE(allocations() > before);  // the counter counts the library's allocations
   }
   Random random(26);
   std::vector<Geom> bodies;
@@ -99,9 +64,9 @@ TEST_CASE("after the first call no collider, bounding box or query allocates") {
   for (const int warm_start : {1, 0}) {
     snSetWarmStart(warm_start);
     for (const Geom& body : bodies) move(body, 0.01 * random.direction());
-    const long before = allocations;
+    const long before = allocations();
     everything();
-    CHECK(allocations == before);
+    CHECK(allocations() == before);
   }
   CHECK(contacts_seen > 1000);
 }
@@ -125,9 +90,9 @@ TEST_CASE("after the first batch no batch allocates") {
   collide_all();
   for (const dGeomID body : bodies)
     place(body, 1.001 * to_vec(dGeomGetPosition(body)));  // farther apart, so there are no more pairs than before
-  const long before = allocations;
+  const long before = allocations();
   collide_all();
-  CHECK(allocations == before);
+  CHECK(allocations() == before);
   CHECK(contacts_seen > 500);
   snBatchDestroy(batch);
   dSpaceDestroy(space);
@@ -151,11 +116,11 @@ TEST_CASE("effects set up contacts and add forces without allocation") {
   std::array<dContact, 8> contacts{};
   const int count = dCollide(puck, floor, 8, &contacts[0].geom, sizeof(dContact));
   REQUIRE(count > 1);
-  const long before = allocations;
+  const long before = allocations();
   for (int i = 0; i < 3; ++i) {
     CHECK(effects.set_up_contacts(std::span(contacts).first(static_cast<std::size_t>(count))) == count);
     effects.apply_forces();
   }
-  CHECK(allocations == before);
+  CHECK(allocations() == before);
   dWorldDestroy(world);
 }

@@ -40,18 +40,11 @@ struct Scene {
     }
     return all;
   }
-
-  static void turn_by(dGeomID geom, double angle, const Vec& axis) {
-    dMatrix3 turn, turned;
-    dRFromAxisAndAngle(turn, dReal(axis[0]), dReal(axis[1]), dReal(axis[2]), dReal(angle));
-    dMultiply0(turned, turn, dGeomGetRotation(geom), 3, 3, 3);
-    dGeomSetRotation(geom, turned);
-  }
 };
 
 }  // namespace
 
-TEST_CASE("warm start with every collider: a separated pair costs one evaluation from the second time on") {
+TEST_CASE("warm start with every collider: a separated pair costs at most one evaluation from the second time on") {
   OdeSession session;
   Random random(62);
   for (const ColliderKind kind : kSolidKinds) {
@@ -67,7 +60,8 @@ TEST_CASE("warm start with every collider: a separated pair costs one evaluation
       CHECK(collide(body, collider).empty());
       if (statistics().queries_warm == 0) continue;  // its direction is now in another cell
       ++remembered;
-      CHECK(statistics().evaluations_warm == 1);
+      // Of two of our bodies the last gap is known, and the motion cannot have closed it.
+      CHECK(statistics().evaluations_warm == (kind == ColliderKind::Body ? 0 : 1));
     }
     CHECK(remembered > 40);
   }
@@ -81,7 +75,7 @@ TEST_CASE("a body that rolls across a wide dBox keeps its warm start, at three e
   constexpr double kStep = 0.01;
   for (int step = 0; step < kSteps; ++step) {
     place(ball, {-5 + kStep * step, 3, 0.9});
-    Scene::turn_by(ball, kStep / 0.45, {0, 1, 0});
+    turn_by(ball, kStep / 0.45, {0, 1, 0});
     collide(ball, floor);
   }
   const snStatistics s = statistics();

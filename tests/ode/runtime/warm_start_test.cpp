@@ -45,7 +45,7 @@ std::vector<dContactGeom> two_steps(std::vector<Geom>& pile) {
 
 }  // namespace
 
-TEST_CASE("warm start: a separated pair costs one evaluation from the second time on") {
+TEST_CASE("warm start: from the second time on a separated pair costs one evaluation, and none if it cannot have met") {
   OdeSession session;
   Random random(24);
   int spheres_remembered = 0;
@@ -63,7 +63,7 @@ TEST_CASE("warm start: a separated pair costs one evaluation from the second tim
       if (collider == dGeomID(sphere) && statistics().queries_warm == 0) continue;  // its direction is now in another cell
       spheres_remembered += collider == dGeomID(sphere) ? 1 : 0;
       CHECK(statistics().queries_warm == 1);
-      CHECK(statistics().evaluations_warm == 1);
+      CHECK(statistics().evaluations_warm == (collider == dGeomID(sphere) ? 1 : 0));
     }
   }
   CHECK(spheres_remembered > 40);

@@ -1,0 +1,237 @@
+#include "proximity/derivatives/common_normal.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "proximity/limits.hpp"
+#include "proximity/tuning.hpp"
+#include "shapes/finite.hpp"
+
+namespace supernormal {
+namespace {
+
+// Gnomonic: after a smaller step the normal is exact to rounding, and the radii of curvature are known well enough.
+constexpr double kSmallStep = 1e-10;
+
+// A larger last step leaves derivatives that are no more than estimates.
+constexpr double kLargestStep = 1e-7;
+
+constexpr int kMaxEvaluations = 8;
+
+// In units of the last place of the bodies' sizes: vertices whose heights along a normal differ by less are tied.
+constexpr double kTieUnits = 32;
+
+// The weight of a vertex in a witness point, and the distance of a point from the border of its face, relative to the face: less is
+// rounding.
+constexpr double kNoWeight = 1e-9;
+
+// In units of the bodies' sizes: the curvature of a model whose own is not positive. At the maximum the weights do not depend on
+// it.
+constexpr double kLeastCurvature = 1e-3;
+
+/// The radii of curvature A in a basis whose first vector has the coordinates (cosine, sine).
+Symmetric2 rotated(const Symmetric2& A, double cosine, double sine) {
+  const double xx = A.xx * cosine - A.xy * sine, xy = A.xx * sine + A.xy * cosine;
+  const double yx = A.xy * cosine - A.yy * sine, yy = A.xy * sine + A.yy * cosine;
+  return {cosine * xx - sine * yx, cosine * xy - sine * yy, sine * xy + cosine * yy};
+}
+
+/// The radii in `own`, aligned with the body, for the basis t1 and t2 (the body's frame).
+BodyCurvature curvature_in(const TangentPlane& own, const Matrix3& H, const Vector3& t1, const Vector3& t2, double flattest) {
+  const Symmetric2 A = Symmetric2::project(own, H);
+  const double cosine = own.t1.dot(t1), sine = own.t1.dot(t2);
+  BodyCurvature out;
+  if (A.trace() <= flattest) {
+    out.A = rotated(A, cosine, sine);
+    return out;
+  }
+  const Eigen2 radii(A);
+  const auto in_basis = [&](const Vector2& v) { return Vector2(cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y()); };
+  if (radii.high > flattest) out.flatten(in_basis(radii.high_vector));
+  const Vector2 other = in_basis(radii.low_vector);
+  if (radii.low > flattest) {
+    out.flatten(other);
+  } else {
+    const double low = std::max(radii.low, 0.0);
+    out.A = {low * other.x() * other.x(), low * other.x() * other.y(), low * other.y() * other.y()};
+  }
+  return out;
+}
+
+/// The active vertices of a body, or its boundary point if it has none.
+ActiveVertices vertices_of(const Shape& shape, bool has_nonsmooth_points, const Vector3& n, const Jet& jet, const Vector3& toward) {
+  ActiveVertices vertices;
+  if (has_nonsmooth_points) shape.add_active_vertices(n, toward, vertices);
+  if (vertices.size() == 0) vertices.add(jet.r);
+  return vertices;
+}
+
+/// The finite radii, with a large one in place of an infinite one.
+Symmetric2 bounded(const BodyCurvature& body, double largest) {
+  Symmetric2 A = body.A;
+  for (int k = 0; k < body.flat_count; ++k) {
+    const Vector2& t = body.flat[static_cast<std::size_t>(k)];
+    A = A + Symmetric2{largest * t.x() * t.x(), largest * t.x() * t.y(), largest * t.y() * t.y()};
+  }
+  return A;
+}
+
+}  // namespace
+
+CommonNormal::CommonNormal(GapFunction& gap, const Vector3& start)
+    : gap_(gap),
+      has_nonsmooth_points_(gap.traits1().has_nonsmooth_points || gap.traits2().has_nonsmooth_points),
+      has_flat_faces_(gap.traits1().has_flat_faces || gap.traits2().has_flat_faces) {
+  std::array<Place, 2> places;
+  std::size_t best = 0;
+  if (!look_at(start, places[best])) return;
+  while (places[best].step.norm() > kSmallStep && gap_.evaluations() < kMaxEvaluations) {
+    if (!look_at(moved(places[best]), places[1 - best])) break;
+    // The pieces of a model may change, and the step with them. Smooth bodies converge.
+    if (!has_nonsmooth_points_ && !(places[1 - best].rest < places[best].rest)) break;
+    best = 1 - best;
+  }
+  finish(places[best]);
+}
+
+bool CommonNormal::look_at(const Vector3& n, Place& place) {
+  gap_.evaluate(n, Order::Hessian, place.jet);
+  const GapJet& jet = place.jet;
+  if (!jet.is_finite() || !all_finite(jet.jet1.H) || !all_finite(jet.jet2.H)) return false;
+  const double flattest = limits::kFlattest * gap_.length_unit();
+  const TangentPlane own1 = TangentPlane::along_flattest(jet.n, jet.jet1.H),
+                     own2 = TangentPlane::along_flattest(-jet.m, jet.jet2.H);
+  place.plane = own1;
+  const Matrix3& R = gap_.rotation();
+  const Vector3 t1 = R.transpose() * own1.t1, t2 = R.transpose() * own1.t2;
+  place.body1 = curvature_in(own1, jet.jet1.H, own1.t1, own1.t2, flattest);
+  place.body2 = curvature_in(own2, jet.jet2.H, t1, t2, flattest);
+  place.point1 = jet.jet1.r;
+  place.point2 = jet.jet2.r;
+  place.has_active_set = false;
+  place.is_strict = true;
+  if (has_nonsmooth_points_) {
+    find_active_set(place);
+  } else {
+    place.across = place.plane.project(jet.d);
+  }
+  place.response = TangentResponse::of(place.body1, place.body2, jet.s, gap_.length_unit());
+  if (!place.has_active_set) place.step = place.response.G * place.across;
+  place.rest = place.across.dot(place.response.G * place.across);
+  return std::isfinite(place.rest) && all_finite(place.step);
+}
+
+/// Finds which vertices of both bodies support the maximum of the model, the witness points between them, and the step. Then the
+/// radius of curvature along their edges is infinite.
+void CommonNormal::find_active_set(Place& place) const {
+  const GapJet& jet = place.jet;
+  const Matrix3& R = gap_.rotation();
+  const ActiveVertices one = vertices_of(gap_.shape1(), gap_.traits1().has_nonsmooth_points, jet.n, jet.jet1, jet.jet1.r + jet.d);
+  const ActiveVertices two = vertices_of(gap_.shape2(), gap_.traits2().has_nonsmooth_points, jet.m, jet.jet2,
+                                         R.transpose() * (jet.jet1.r - gap_.offset()));
+  std::array<Piece, std::size_t{ActiveVertices::kCapacity} * ActiveVertices::kCapacity> pieces;
+  std::size_t count = 0;
+  for (int i = 0; i < one.size(); ++i) {
+    for (int j = 0; j < two.size(); ++j) {
+      const double below1 = std::max(jet.jet1.h - jet.n.dot(one[i]), 0.0), below2 = std::max(jet.jet2.h - jet.m.dot(two[j]), 0.0);
+      pieces[count++] = {below1 + below2, place.plane.project(R * two[j] + (gap_.offset() - one[i]))};
+    }
+  }
+  const double size = gap_.shape1().half_extents().norm() + gap_.shape2().half_extents().norm();
+  const double flattest = limits::kFlattest * gap_.length_unit();
+  Symmetric2 A = (bounded(place.body1, flattest) + bounded(place.body2, flattest)).plus_identity(jet.s);
+  const double low = Eigen2(A).low, least = kLeastCurvature * size;
+  if (low < least && low <= 0) A = A.plus_identity(least - low);
+  place.peak = PiecewiseModel{{pieces.data(), count}, A}.maximize();
+  place.step = place.peak.u;
+
+  place.point1.setZero();
+  place.point2.setZero();
+  double weights = 0;
+  std::array<std::size_t, 3> active{};
+  std::size_t active_count = 0;
+  for (std::size_t k = 0; k < place.peak.count; ++k) {
+    const double weight = place.peak.weight[k];
+    const auto pair = static_cast<int>(place.peak.active[k]);
+    place.point1 += weight * one[pair / two.size()];
+    place.point2 += weight * two[pair % two.size()];
+    weights += weight;
+    if (weight > kNoWeight) active[active_count++] = place.peak.active[k];
+  }
+  place.point1 /= weights;
+  place.point2 /= weights;
+  place.across = place.plane.project(R * place.point2 + (gap_.offset() - place.point1));
+  place.is_strict = active_count == place.peak.count;
+  place.has_active_set = active_count > 1;
+
+  const auto vertex1 = [&](std::size_t pair) -> const Vector3& { return one[static_cast<int>(pair) / two.size()]; };
+  const auto vertex2 = [&](std::size_t pair) -> const Vector3& { return two[static_cast<int>(pair) % two.size()]; };
+  // The edges between active vertices, each of its own body.
+  const auto edge1 = [&](std::size_t pair) -> Vector2 { return place.plane.project(vertex1(pair) - vertex1(active[0])); };
+  const auto edge2 = [&](std::size_t pair) -> Vector2 { return place.plane.project(R * (vertex2(pair) - vertex2(active[0]))); };
+  const double nothing = kTieUnits * std::numeric_limits<double>::epsilon() * (size + jet.jet1.r.norm() + jet.jet2.r.norm());
+  for (std::size_t k = 1; k < active_count; ++k) {
+    const Vector2 first = edge1(active[k]), second = edge2(active[k]);
+    if (first.norm() > nothing) place.body1.flatten(first);
+    if (second.norm() > nothing) place.body2.flatten(second);
+  }
+  // Another vertex with the same height, off the active edges, takes over as soon as the bodies move. If both bodies then share a
+  // direction, their faces or edges have more than a point in common.
+  BodyCurvature all1 = place.body1, all2 = place.body2;
+  for (std::size_t pair = 0; pair < count; ++pair) {
+    if (pieces[pair].at(place.peak.u) > place.peak.gain + 0.5 * place.peak.u.dot(A * place.peak.u) + nothing) continue;
+    const Vector2 first = edge1(pair), second = edge2(pair);
+    if (first.norm() > nothing) all1.flatten(first);
+    if (second.norm() > nothing) all2.flatten(second);
+  }
+  if (all1.flat_count == place.body1.flat_count && all2.flat_count == place.body2.flat_count) return;
+  place.is_strict = false;
+  if (TangentResponse::of(all1, all2, jet.s, gap_.length_unit()).kind == TangentResponse::Kind::Free) {
+    place.body1 = all1;
+    place.body2 = all2;
+  }
+}
+
+/// The normal of the next evaluation. On a flat face the normal is a smooth function of the boundary point, and not the other way
+/// round, so the flatter body's point moves.
+Vector3 CommonNormal::moved(const Place& place) const {
+  const Vector3 dn = place.plane.lift(place.step);
+  const GapJet& jet = place.jet;
+  const Matrix3& R = gap_.rotation();
+  Vector3 next = jet.n + dn;
+  if (has_flat_faces_ && !place.has_active_set) {
+    const bool is_first = place.body1.A.trace() >= place.body2.A.trace();
+    const Vector3 own = is_first ? jet.n : jet.m, tilt = is_first ? dn : Vector3(-(R.transpose() * dn));
+    const Shape& shape = is_first ? gap_.shape1() : gap_.shape2();
+    if ((tilt.array().abs() > kTuning.same_tilt * own.array().abs()).any()) {
+      const Vector3 direction = shape.advance_normal(own, is_first ? jet.jet1 : jet.jet2, tilt);
+      if (all_finite(direction) && direction.dot(own) > 0) next = is_first ? direction : Vector3(-(R * direction));
+    }
+  }
+  // A step that leads across the normal of a curved face ends there.
+  Vector3 face;
+  if (gap_.traits1().has_nonsmooth_points && gap_.shape1().crosses_curved_face(jet.n, next, face)) return face;
+  if (gap_.traits2().has_nonsmooth_points && gap_.shape2().crosses_curved_face(jet.m, -(R.transpose() * next), face)) {
+    return -(R * face);
+  }
+  return next.normalized();
+}
+
+/// The last step moves the witness points to first order.
+void CommonNormal::finish(const Place& place) {
+  const Matrix3& R = gap_.rotation();
+  plane_ = place.plane;
+  response_ = place.response;
+  active_set_ = place.has_active_set;
+  is_strict_ = place.is_strict;
+  n_ = place.has_active_set ? (place.jet.n + place.plane.lift(place.step)).normalized()
+                            : (place.jet.n + place.plane.lift(place.response.G * place.across)).normalized();
+  point1_ = place.point1 + place.plane.lift(place.response.B1.transpose() * place.across);
+  lever2_ = R * place.point2 - place.plane.lift(place.response.B2.transpose() * place.across);
+  s_ = place.jet.s;
+  is_converged_ = place.step.norm() <= kLargestStep && all_finite(point1_) && all_finite(lever2_);
+}
+
+}  // namespace supernormal

@@ -1,0 +1,57 @@
+// A common normal to rounding, with what its derivatives need.
+#pragma once
+
+#include "proximity/derivatives/tangent_response.hpp"
+#include "proximity/local/piecewise_model.hpp"
+#include "supernormal/proximity/gap_function.hpp"
+
+namespace supernormal {
+
+/// The common normal near an answer's normal, by Newton's method over the pieces of both bodies.
+class CommonNormal {
+ public:
+  /// Starts at the unit normal `start` (body 1's frame). Both shapes need a Hessian.
+  CommonNormal(GapFunction& gap, const Vector3& start);
+
+  bool is_converged() const { return is_converged_; }  ///< whether the last step was small enough
+  bool has_active_set() const { return active_set_; }  ///< whether a witness point is on a face or edge of several vertices
+  bool is_strict() const { return is_strict_; }        ///< whether all multipliers are positive, and no other vertex is tied
+  const TangentResponse& response() const { return response_; }
+  const TangentPlane& plane() const { return plane_; }  ///< at the normal of the last evaluation, whose radii the response has
+
+  // In body 1's frame, after the last step, which needs no evaluation. It is at most kSmallStep.
+  Vector3 normal() const { return n_; }
+  Vector3 point1() const { return point1_; }  ///< m
+  Vector3 lever2() const { return lever2_; }  ///< m; witness point 2 relative to the origin of body 2's frame
+  double gap() const { return s_; }           ///< m
+
+ private:
+  /// What is known at one normal.
+  struct Place {
+    GapJet jet;
+    TangentPlane plane = TangentPlane::at(Vector3::UnitX());
+    BodyCurvature body1, body2;
+    PiecewiseModel::Peak peak;                                   // over the pieces, if there are several
+    Vector3 point1 = Vector3::Zero(), point2 = Vector3::Zero();  // m; each in its body's frame
+    TangentResponse response;
+    Vector2 across = Vector2::Zero();  // m; point 2 - point 1 across the normal
+    Vector2 step = Vector2::Zero();    // of the normal, gnomonic
+    double rest = 0;                   // m; about twice what the gap would gain by the step
+    bool has_active_set = false, is_strict = true;
+  };
+
+  bool look_at(const Vector3& n, Place& place);
+  void find_active_set(Place& place) const;
+  Vector3 moved(const Place& place) const;
+  void finish(const Place& place);
+
+  GapFunction& gap_;
+  const bool has_nonsmooth_points_, has_flat_faces_;
+  TangentPlane plane_ = TangentPlane::at(Vector3::UnitX());
+  TangentResponse response_;
+  Vector3 n_ = Vector3::UnitX(), point1_ = Vector3::Zero(), lever2_ = Vector3::Zero();
+  double s_ = 0;
+  bool is_converged_ = false, active_set_ = false, is_strict_ = true;
+};
+
+}  // namespace supernormal

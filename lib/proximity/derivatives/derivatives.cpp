@@ -1,0 +1,217 @@
+// The notation is in lib/proximity/README.md, "How the answer changes".
+#include "supernormal/proximity/derivatives.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "proximity/derivatives/common_normal.hpp"
+#include "proximity/usable_pose.hpp"
+
+namespace supernormal {
+namespace {
+
+using Row = Eigen::Matrix<double, 1, 12>;
+
+// The columns of the twists.
+constexpr int kV1 = 0, kW1 = 3, kV2 = 6, kW2 = 9;
+
+/// A common normal in the axes of the world. Points are relative to the origins of their bodies' frames.
+struct WorldNormal {
+  Vector3 n;
+  std::array<Vector3, 2> t;  // the basis of the tangent plane
+  Vector3 p1, p2;            // m; the witness points
+  double s;                  // m
+};
+
+TwistVector gradient_of(const Vector3& n, const Vector3& p1, const Vector3& p2) {
+  TwistVector gradient;
+  gradient << -n, n.cross(p1), n, p2.cross(n);
+  return gradient;
+}
+
+/// The derivatives of a common normal and its witness points, in components across the normal.
+///
+/// A point that follows the motion of its body differs from the witness point by H times the tilt of the normal in the frame of the
+/// body. In the frame of body 1 only the relative motion counts, so H1 times the tilt has no difference of large numbers, as flat
+/// as body 1 may be; the same holds for body 2.
+class Jacobians {
+ public:
+  Jacobians(const TangentResponse& response, const WorldNormal& at) : at_(at) {
+    const Vector3 opposite1 = at.p1 + at.s * at.n;  // point 2 from body 1's origin
+    const Vector3 opposite2 = at.p2 - at.s * at.n;  // point 1 from body 2's origin
+    for (std::size_t j = 0; j < 2; ++j) {
+      lever1_[j] = at.t[j].cross(at.p1);
+      lever2_[j] = at.t[j].cross(at.p2);
+      across_[j] = at.t[j].cross(at.n);
+      opposite1_[j] = at.t[j].cross(opposite1);
+      opposite2_[j] = at.t[j].cross(opposite2);
+    }
+    const Matrix2& G = response.G;
+    const Matrix2 P1 = response.B1.transpose(), P2 = response.B2.transpose(), Wt = response.W.transpose();
+    for (int i = 0; i < 2; ++i) {
+      const auto sum = [i](const Matrix2& M, const std::array<Vector3, 2>& v) { return Vector3(M(i, 0) * v[0] + M(i, 1) * v[1]); };
+      const auto k = static_cast<std::size_t>(i);
+      const Vector3 tilt = sum(G, at.t), follow1 = sum(P1, at.t), follow2 = sum(P2, at.t);
+      const Vector3 turn = sum(response.W, across_), turn_back = sum(Wt, across_);
+      normal_[k] << -tilt.transpose(), (sum(G, lever1_) - sum(response.B1, across_)).transpose(), tilt.transpose(),
+          (-sum(G, lever2_) - sum(response.B2, across_)).transpose();
+      point1_[k] << -follow1.transpose(), (sum(P1, opposite1_) + turn).transpose(), follow1.transpose(),
+          (-sum(P1, lever2_) - turn).transpose();
+      point2_[k] << follow2.transpose(), (-sum(P2, lever1_) + turn_back).transpose(), -follow2.transpose(),
+          (sum(P2, opposite2_) - turn_back).transpose();
+    }
+  }
+
+  TwistJacobian normal() const { return lift(normal_); }
+
+  TwistJacobian point1() const {
+    TwistJacobian J = lift(point1_);
+    add_rigid(at_.p1, kV1, J);
+    return J;
+  }
+
+  TwistJacobian point2() const {
+    TwistJacobian J = lift(point2_);
+    add_rigid(at_.p2, kV2, J);
+    return J;
+  }
+
+  /// The derivative of the gradient. The second derivative along a rotation vector w of exp([w]) R is its symmetric part.
+  TwistHessian hessian() const {
+    TwistHessian H;
+    const TwistJacobian N = normal();
+    H.middleRows<3>(kV1) = -N;
+    H.middleRows<3>(kV2) = N;
+    H.middleRows<3>(kW1).noalias() =
+        lever1_[0] * normal_[0] + lever1_[1] * normal_[1] - across_[0] * point1_[0] - across_[1] * point1_[1];
+    H.middleRows<3>(kW2).noalias() =
+        across_[0] * point2_[0] + across_[1] * point2_[1] - lever2_[0] * normal_[0] - lever2_[1] * normal_[1];
+    add_rotation(at_.p1, -1, kW1, H);
+    add_rotation(at_.p2, 1, kW2, H);
+    for (int i = 0; i < 12; ++i) {
+      for (int j = 0; j < i; ++j) H(i, j) = H(j, i) = 0.5 * (H(i, j) + H(j, i));
+    }
+    return H;
+  }
+
+ private:
+  TwistJacobian lift(const std::array<Row, 2>& rows) const { return at_.t[0] * rows[0] + at_.t[1] * rows[1]; }
+
+  /// The motion of a point p of the body: v + w x p.
+  static void add_rigid(const Vector3& p, int v, TwistJacobian& J) {
+    J.middleCols<3>(v).diagonal().array() += 1;
+    const int w = v + 3;
+    J(0, w + 1) += p.z();
+    J(0, w + 2) -= p.y();
+    J(1, w) -= p.z();
+    J(1, w + 2) += p.x();
+    J(2, w) += p.y();
+    J(2, w + 1) -= p.x();
+  }
+
+  /// n.(w x (w x p)), the second derivative at a fixed normal.
+  void add_rotation(const Vector3& p, double sign, int w, TwistHessian& H) const {
+    const Vector3 half = 0.5 * sign * p;
+    H.block<3, 3>(w, w) += half * at_.n.transpose() + at_.n * half.transpose();
+    H.block<3, 3>(w, w).diagonal().array() -= sign * p.dot(at_.n);
+  }
+
+  const WorldNormal& at_;
+  std::array<Vector3, 2> lever1_, lever2_, across_, opposite1_, opposite2_;  // t x p1, t x p2, t x n, t x the other body's point
+  std::array<Row, 2> normal_, point1_, point2_;                              // point1_ and point2_ without the motion of the body
+};
+
+/// Whether the opposite normal has the same gap: s(-n) = s(n) - 2 n.c for symmetric bodies.
+bool has_equal_opposite(const GapFunction& gap, const CommonNormal& common) {
+  if (!(common.gap() < 0 && gap.traits1().is_symmetric && gap.traits2().is_symmetric)) return false;
+  return 2 * std::abs(common.normal().dot(gap.offset())) <= 4 * gap.rounding();
+}
+
+DerivativeStatus status_of(const GapFunction& gap, const CommonNormal& common) {
+  using Kind = TangentResponse::Kind;
+  if (!common.is_converged()) return DerivativeStatus::NotConverged;
+  if (common.response().kind == Kind::Free) return DerivativeStatus::FreeOnFace;
+  if (common.response().kind == Kind::Singular) return DerivativeStatus::SingularCurvature;
+  if (has_equal_opposite(gap, common)) return DerivativeStatus::SeveralMaxima;
+  if (!common.is_strict()) return DerivativeStatus::Degenerate;
+  return common.has_active_set() ? DerivativeStatus::ActiveSet : DerivativeStatus::Smooth;
+}
+
+void set_flags(ProximityDerivatives& out) {
+  const bool is_regular = out.status == DerivativeStatus::Smooth || out.status == DerivativeStatus::ActiveSet;
+  out.has_normal = out.has_points = is_regular;
+  out.has_gap = is_regular || out.status == DerivativeStatus::Degenerate || out.status == DerivativeStatus::NoHessian;
+}
+
+/// Whether a query has ended near a common normal.
+bool is_answer(const Proximity& proximity) {
+  return proximity.status != Status::InvalidInput && proximity.status != Status::Apart && proximity.status != Status::Diverged;
+}
+
+void add_parameters(const GapFunction& gap, const Vector3& n, const Vector3& point1, const Vector3& lever2,
+                    ProximityDerivatives& out) {
+  const Matrix3 to_body2 = gap.rotation().transpose();
+  gap.shape1().add_parameter_gradient(n, point1, out.parameters1);
+  gap.shape2().add_parameter_gradient(-(to_body2 * n), to_body2 * lever2, out.parameters2);
+  out.parameters1.scale(-1);
+  out.parameters2.scale(-1);
+}
+
+}  // namespace
+
+// The answer's witness points are any points of flat faces. On the line between them, the point beside the contact is opposite the
+// other body's point.
+TwistVector find_gap_gradient(const Pose& pose1, const Pose& pose2, const Proximity& proximity) {
+  if (proximity.status == Status::InvalidInput) return TwistVector::Zero();
+  const Vector3& n = proximity.normal;
+  Vector3 point = proximity.point1;
+  const Vector3 between = proximity.point2 - proximity.point1;
+  const Vector3 across = between - between.dot(n) * n;
+  const double squared = across.squaredNorm();
+  const double along = across.dot(proximity.contact - proximity.point1);
+  if (along > 0) point += (along < squared ? along / squared : 1) * across;
+  return gradient_of(n, point - pose1.position, point - pose2.position);
+}
+
+ProximityDerivatives find_proximity_derivatives(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
+                                                const Proximity& proximity, const DerivativeSettings& settings) {
+  ProximityDerivatives out;
+  if (!is_usable(pose1) || !is_usable(pose2) || !all_finite(proximity.normal) || proximity.status == Status::InvalidInput)
+    return out;
+  out.common_normal = proximity.normal;
+  out.status = DerivativeStatus::NotConverged;
+  if (!is_answer(proximity)) return out;
+  GapFunction gap(shape1, pose1, shape2, pose2);
+  if (!gap.is_finite()) return out;
+  const Vector3 start = (pose1.rotation.transpose() * proximity.normal).normalized();
+  if (!gap.has_hessian()) {
+    out.status = DerivativeStatus::NoHessian;
+    out.gap_gradient = find_gap_gradient(pose1, pose2, proximity);
+    set_flags(out);
+    if (settings.parameters)
+      add_parameters(gap, start, shape1.point(start), gap.rotation() * shape2.point(-(gap.rotation().transpose() * start)), out);
+    return out;
+  }
+
+  const CommonNormal common(gap, start);
+  out.evaluations = gap.evaluations();
+  out.status = status_of(gap, common);
+  set_flags(out);
+  const Matrix3& R = pose1.rotation;
+  const WorldNormal at{
+      R * common.normal(), {R * common.plane().t1, R * common.plane().t2}, R * common.point1(), R * common.lever2(), common.gap()};
+  out.common_normal = at.n;
+  out.gap_gradient = gradient_of(at.n, at.p1, at.p2);
+  if (settings.parameters) add_parameters(gap, common.normal(), common.point1(), common.lever2(), out);
+  if (!out.has_normal) return out;
+  const Jacobians jacobians(common.response(), at);
+  out.normal = jacobians.normal();
+  out.point1 = jacobians.point1();
+  out.point2 = jacobians.point2();
+  if (settings.hessian) out.gap_hessian = jacobians.hessian();
+  return out;
+}
+
+}  // namespace supernormal

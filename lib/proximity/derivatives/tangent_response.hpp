@@ -1,0 +1,42 @@
+// How a common normal responds to motions of the two bodies, in its tangent plane.
+#pragma once
+
+#include <array>
+
+#include "proximity/local/local_model.hpp"
+
+namespace supernormal {
+
+using Matrix2 = Eigen::Matrix2d;
+
+/// The radii of curvature of one body in a tangent plane. Along at most two directions the radius is infinite: along an edge, a
+/// face, or where a smooth body is flat to rounding.
+struct BodyCurvature {
+  Symmetric2 A;                   ///< m; the finite radii
+  std::array<Vector2, 2> flat{};  ///< unit; the directions of infinite radius. Two of them span the plane
+  int flat_count = 0;
+
+  /// Makes the radius infinite along `direction`, of any length but 0. Directions closer than about 1e-7 rad are the same.
+  void flatten(const Vector2& direction);
+
+  /// Whether the radius is infinite along `direction`, a unit vector.
+  bool is_flat_along(const Vector2& direction) const;
+};
+
+/// With M = A1 + A2 + s I: G = M^-1, B1 = G A1, B2 = G A2 and W = A1 G A2, in the limit of infinite radii. Every derivative
+/// consists of these. None contains a difference of large numbers: A1 - A1 G A1, for example, is W + s B1^T.
+struct TangentResponse {
+  enum class Kind { Regular, Singular, Free };
+
+  Kind kind = Kind::Singular;
+  Matrix2 G = Matrix2::Zero();   ///< 1/m; the tilt of the normal by the displacement of point 2 across it
+  Matrix2 B1 = Matrix2::Zero();  ///< the tilt by a rotation of body 1
+  Matrix2 B2 = Matrix2::Zero();  ///< the tilt by a rotation of body 2
+  Matrix2 W = Matrix2::Zero();   ///< m
+
+  /// `s` and `length_unit` in m. Singular if M is not positive definite beyond rounding in the directions of finite radius, Free if
+  /// the flat parts of both bodies share a direction.
+  static TangentResponse of(const BodyCurvature& body1, const BodyCurvature& body2, double s, double length_unit);
+};
+
+}  // namespace supernormal

@@ -1,0 +1,121 @@
+// Whether bodies are farther apart than a distance, beside the gap of the query.
+#include "supernormal/proximity/clearance.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "support/random_bodies.hpp"
+#include "support/refusal.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+namespace {
+
+struct Count {
+  int pairs = 0, evaluations = 0, wrong = 0;
+};
+
+bool ask(const RandomPair& pair, double distance, Vector3* normal, int& evaluations) {
+  return is_farther_than(*pair.shape1, {}, *pair.shape2, pair.pose2, distance, normal, &evaluations);
+}
+
+}  // namespace
+
+// Bodies nearer to one another than half of the smaller half-extent need a better normal than the first guess, and more
+// evaluations.
+TEST_CASE("is_farther_than: right for all kinds, and 1.2 evaluations at most where the bodies are twice as far apart") {
+  Count twice, warm, all;
+  for (const RandomKind& kind : random_kinds()) {
+    RandomBodies bodies(kind, 71);
+    for (int k = 0; k < 400; ++k) {
+      const bool is_near = k % 4 == 0;
+      const RandomPair pair = bodies.draw(is_near ? bodies.uniform(0.02, 0.5) : bodies.uniform(0.5, 8));
+      const Proximity answer = find_proximity(*pair.shape1, {}, *pair.shape2, pair.pose2);
+      if (answer.status != Status::Converged) continue;
+      for (const double fraction : {0.2, 0.5, 0.99, 1.0 + 1e-6, 1.5, 4.0}) {
+        int evaluations = 0;
+        Vector3 normal = Vector3::Zero();
+        const bool is_farther = ask(pair, fraction * answer.gap, &normal, evaluations);
+        ++all.pairs;
+        all.evaluations += evaluations;
+        all.wrong += is_farther != (fraction < 1);
+        if (fraction != 0.5 || is_near) continue;
+        ++twice.pairs;
+        twice.evaluations += evaluations;
+        CHECK(ask(pair, fraction * answer.gap, &normal, evaluations));
+        ++warm.pairs;
+        warm.evaluations += evaluations;
+      }
+    }
+  }
+  MESSAGE("evaluations: ", twice.evaluations / static_cast<double>(twice.pairs), " twice as far, ",
+          warm.evaluations / static_cast<double>(warm.pairs), " with the last normal, ",
+          all.evaluations / static_cast<double>(all.pairs), " of all");
+  CHECK(all.wrong == 0);
+  CHECK(twice.evaluations <= 1.2 * twice.pairs);
+  CHECK(warm.evaluations <= warm.pairs);
+}
+
+TEST_CASE("find_clearance: a lower bound of the gap, better with more evaluations") {
+  for (const RandomKind& kind : random_kinds()) {
+    RandomBodies bodies(kind, 72);
+    for (int k = 0; k < 100; ++k) {
+      const RandomPair pair = bodies.draw(bodies.uniform(-0.3, 2));
+      Settings settings;
+      settings.certify_depth = true;
+      const Proximity answer = find_proximity(*pair.shape1, {}, *pair.shape2, pair.pose2, settings);
+      double last = -std::numeric_limits<double>::infinity();
+      for (const int budget : {1, 2, 3}) {
+        const Clearance bound = find_clearance(*pair.shape1, {}, *pair.shape2, pair.pose2, 1e300, budget);
+        CHECK(bound.evaluations <= budget);
+        CHECK(bound.lower_bound <= answer.gap + answer.global_error);
+        CHECK(bound.lower_bound >= last);
+        CHECK(std::abs(bound.normal.norm() - 1) < 1e-14);
+        last = bound.lower_bound;
+      }
+    }
+  }
+}
+
+TEST_CASE("are_farther_than: many pairs have the answers of each") {
+  const RandomKind kind = random_kinds().front();
+  RandomBodies bodies(kind, 73);
+  std::vector<RandomPair> pairs;
+  for (int k = 0; k < 100; ++k) pairs.push_back(bodies.draw(bodies.uniform(0, 2)));
+  const Pose origin;
+  std::vector<ProximityQuery> queries;
+  for (const RandomPair& pair : pairs) queries.push_back({pair.shape1.get(), &origin, pair.shape2.get(), &pair.pose2});
+  std::vector<Clearance> results(pairs.size());
+  const auto flags = std::make_unique<bool[]>(pairs.size());
+  const std::size_t count = are_farther_than(queries, 0.5, results, {flags.get(), pairs.size()});
+  std::size_t expected = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    int evaluations = 0;
+    const bool is_farther = ask(pairs[k], 0.5, nullptr, evaluations);
+    CHECK(is_farther == flags[k]);
+    CHECK(evaluations == results[k].evaluations);
+    expected += is_farther;
+  }
+  CHECK(count == expected);
+  CHECK_THROWS_AS(are_farther_than(queries, 0.5, results, {flags.get(), 3}), std::invalid_argument);
+}
+
+TEST_CASE("clearance: bad input is refused, or gives no bound") {
+  const Ellipsoid body(Vector3(1, 2, 3));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(is_farther_than(body, {}, body, {{9, 0, 0}, Matrix3::Identity()}, nan), std::invalid_argument);
+  CHECK_THROWS_AS(find_clearance(body, {}, body, {}, 1, 0), std::invalid_argument);
+  CHECK_THROWS_AS(find_clearance(body, {}, body, {}, 1, 4), std::invalid_argument);
+  CHECK_THROWS_AS(find_clearance(body, {}, body, {}, nan), std::invalid_argument);
+  Pose broken;
+  broken.position.x() = nan;
+  CHECK_FALSE(is_farther_than(body, broken, body, {}, -100));
+  CHECK(find_clearance(body, broken, body, {}).lower_bound == -std::numeric_limits<double>::infinity());
+}

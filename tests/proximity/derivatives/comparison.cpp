@@ -1,0 +1,403 @@
+#include "proximity/derivatives/comparison.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <ostream>
+#include <sstream>
+
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/polytope.hpp"
+#include "supernormal/shapes/superovoid.hpp"
+
+namespace supernormal::test {
+namespace {
+
+using Values = Eigen::Matrix<Real, 10, 1>;  // gap, normal, point 1, point 2
+
+constexpr int kKinds = 16, kSmoothKinds = 10;
+constexpr const char* kKindNames[kKinds] = {"ellipsoid", "needle",     "moderate", "boxy",       "extreme boxy", "octahedral",
+                                            "mixed",     "superovoid", "rounded",  "sum",        "image",        "box",
+                                            "capsule",   "cylinder",   "polytope", "rounded box"};
+// An extended difference that is known less well than a tenth of the allowed error decides nothing.
+constexpr double kResolution = 0.1;
+
+/// f'(0) or f''(0) by differences in ever smaller steps, extrapolated to step 0 (Ridders).
+template <typename Value>
+struct Extrapolated {
+  Value value;
+  double error = std::numeric_limits<double>::infinity();
+};
+
+template <typename Value, typename Difference>
+Extrapolated<Value> extrapolate(const Difference& difference, Real first_step, int levels) {
+  std::vector<std::vector<Value>> table;
+  Extrapolated<Value> best;
+  const auto size = [](const Value& v) {
+    if constexpr (std::is_same_v<Value, Real>) {
+      return static_cast<double>(std::abs(v));
+    } else {
+      return static_cast<double>(v.norm());
+    }
+  };
+  Real step = first_step;
+  for (int level = 0; level < levels; ++level, step /= 4) {
+    table.emplace_back();
+    table[level].push_back(difference(step));
+    Real factor = 16;
+    for (int order = 1; order <= level; ++order, factor *= 16) {
+      const Value& coarse = table[level - 1][order - 1];
+      const Value& fine = table[level][order - 1];
+      table[level].push_back(Value((factor * fine - coarse) / (factor - 1)));
+      const double error = std::max(size(Value(table[level][order] - fine)), size(Value(table[level][order] - coarse)));
+      if (error < best.error) best = {table[level][order], error};
+    }
+  }
+  return best;
+}
+
+Values values_of(const LongAnswer& answer, const LongPose& pose1, bool& is_exact) {
+  is_exact = is_exact && answer.is_exact;
+  Values v;
+  v << answer.gap, answer.normal, answer.point1 - pose1.position, answer.point2 - pose1.position;
+  return v;
+}
+
+/// The comparison of one pair.
+class Comparison {
+ public:
+  Comparison(const DerivativePair& pair, std::string name, Tally& tally)
+      : pair_(pair), name_(std::move(name)), tally_(tally), pose1_(exact_pose(pair.pose1)), pose2_(exact_pose(pair.pose2)) {}
+
+  void run() {
+    ++tally_.pairs;
+    const Shape &shape1 = *pair_.body1.shape, &shape2 = *pair_.body2.shape;
+    const Proximity answer = find_proximity(shape1, pair_.pose1, shape2, pair_.pose2);
+    found_ = find_proximity_derivatives(shape1, pair_.pose1, shape2, pair_.pose2, answer);
+    ++tally_.statuses[found_.status];
+    tally_.evaluations += found_.evaluations;
+    auto& kind = tally_.kinds[pair_.kind];
+    ++kind[0];
+    kind[1] += found_.has_normal;
+    const bool is_finite = found_.gap_gradient.allFinite() && found_.normal.allFinite() && found_.point1.allFinite() &&
+                           found_.point2.allFinite() && found_.gap_hessian.allFinite();
+    tally_.not_finite += !is_finite;
+    if (!found_.has_normal) return;
+    unit_ = std::min(shape1.half_extents().norm(), shape2.half_extents().norm());
+    // Between a vertex and an edge the gap itself is the radius of curvature.
+    const auto is_sharp = [](const Shape& shape) {
+      return shape.traits().has_nonsmooth_points && shape.min_curvature_radius_estimate() == 0;
+    };
+    if (is_sharp(shape1) && is_sharp(shape2)) step_ = std::min(1.0, std::abs(answer.gap) / unit_);
+    const LongNormal reference(pair_.body1, pose1_, pair_.body2, pose2_, found_.common_normal);
+    bool is_exact = true;
+    base_ = values_of(reference.solve(pose1_, pose2_), pose1_, is_exact);
+    if (!is_exact || (base_.segment<3>(1).cast<double>() - found_.common_normal).norm() > 1e-6) {
+      ++tally_.unreferenced;
+      return;
+    }
+    ++kind[2];
+    compare_first(reference);
+    compare_second(reference);
+    compare_parameters(reference);
+  }
+
+ private:
+  LongAnswer moved(const LongNormal& reference, const Eigen::Matrix<Real, 12, 1>& twist) const {
+    return reference.solve(pose1_.moved(twist.segment<3>(0), twist.segment<3>(3)),
+                           pose2_.moved(twist.segment<3>(6), twist.segment<3>(9)));
+  }
+
+  /// 1 rad, or the unit of length.
+  Real scale(int k) const { return k % 6 < 3 ? static_cast<Real>(unit_) : 1; }
+
+  void compare_first(const LongNormal& reference) {
+    Eigen::Matrix<double, 10, 12> claimed;
+    claimed << found_.gap_gradient.transpose(), found_.normal, found_.point1, found_.point2;
+    Eigen::Matrix<double, 10, 12> numeric;
+    Eigen::Matrix<double, 1, 12> errors;
+    bool is_exact = true;
+    for (int k = 0; k < 12; ++k) {
+      const auto difference = [&](Real step) -> Values {
+        Eigen::Matrix<Real, 12, 1> twist = Eigen::Matrix<Real, 12, 1>::Zero();
+        twist[k] = step * scale(k);
+        const Values ahead = values_of(moved(reference, twist), pose1_, is_exact);
+        const Values behind = values_of(moved(reference, -twist), pose1_, is_exact);
+        return (ahead - behind) / (2 * step);
+      };
+      const auto derivative = extrapolate<Values>(difference, 1e-3L * step_, 6);
+      numeric.col(k) = derivative.value.cast<double>();
+      errors[k] = derivative.error;
+      claimed.col(k) *= static_cast<double>(scale(k));
+    }
+    if (!is_exact) {
+      ++tally_.unreferenced;
+      return;
+    }
+    const auto check = [&](Quantity what, int row, int rows, double least) {
+      const double size = claimed.middleRows(row, rows).norm() + least;
+      count(what, (claimed - numeric).middleRows(row, rows).norm() / size, errors.norm() / size);
+    };
+    check(kGap, 0, 1, unit_);
+    check(kNormal, 1, 3, 1);
+    check(kPoint1, 4, 3, unit_);
+    check(kPoint2, 7, 3, unit_);
+  }
+
+  void compare_second(const LongNormal& reference) {
+    std::mt19937_64 engine(7);
+    std::normal_distribution<double> gauss;
+    for (int k = 0; k < 3; ++k) {
+      TwistVector direction;
+      for (int i = 0; i < 12; ++i) direction[i] = gauss(engine) * static_cast<double>(scale(i));
+      direction /= std::sqrt(12);
+      bool is_exact = true;
+      const auto difference = [&](Real step) -> Real {
+        const Eigen::Matrix<Real, 12, 1> twist = step * direction.cast<Real>();
+        const Real ahead = values_of(moved(reference, twist), pose1_, is_exact)[0];
+        const Real behind = values_of(moved(reference, -twist), pose1_, is_exact)[0];
+        return (ahead - 2 * base_[0] + behind) / (step * step);
+      };
+      const auto derivative = extrapolate<Real>(difference, 2e-3L * step_, 5);
+      if (!is_exact) return;
+      Eigen::Matrix<double, 12, 12> H = found_.gap_hessian;
+      for (int i = 0; i < 12; ++i) {
+        H.row(i) *= static_cast<double>(scale(i));
+        H.col(i) *= static_cast<double>(scale(i));
+      }
+      const double size = H.norm() + unit_;
+      count(kHessian, std::abs(direction.dot(found_.gap_hessian * direction) - static_cast<double>(derivative.value)) / size,
+            derivative.error / size);
+    }
+  }
+
+  void compare_parameters(const LongNormal& reference) {
+    for (const bool is_first : {true, false}) {
+      const ParameterGradient& claimed = is_first ? found_.parameters1 : found_.parameters2;
+      const LongBody &exact1 = *pair_.body1.exact, &exact2 = *pair_.body2.exact;
+      const LongBody& body = is_first ? exact1 : exact2;
+      // An ellipsoid has no exponents.
+      for (std::size_t k = 0; k < std::min(claimed.size(), body.parameter_count()); ++k) {
+        bool is_exact = true;
+        const std::string parameter = claimed[k].name;
+        const bool is_length = parameter.size() == 1 || parameter == "radius" || parameter == "half_length";
+        const Real first_step = (is_length ? 1e-3L * static_cast<Real>(unit_) : 1e-3L);
+        const auto difference = [&](Real step) -> Real {
+          const auto ahead = body.with_change(k, step), behind = body.with_change(k, -step);
+          const LongAnswer up =
+              is_first ? reference.solve(pose1_, pose2_, *ahead, exact2) : reference.solve(pose1_, pose2_, exact1, *ahead);
+          const LongAnswer down =
+              is_first ? reference.solve(pose1_, pose2_, *behind, exact2) : reference.solve(pose1_, pose2_, exact1, *behind);
+          is_exact = is_exact && up.is_exact && down.is_exact;
+          return (up.gap - down.gap) / (2 * step);
+        };
+        const auto derivative = extrapolate<Real>(difference, first_step * step_, 6);
+        const double size = std::abs(claimed[k].value) + (is_length ? 1 : 0.1 * unit_);
+        if (is_exact) {
+          count(kParameters, std::abs(claimed[k].value - static_cast<double>(derivative.value)) / size, derivative.error / size);
+        }
+      }
+    }
+  }
+
+  void count(Quantity what, double difference, double error) {
+    static constexpr const char* kNames[kQuantities] = {"gap", "normal", "point1", "point2", "hessian", "parameters"};
+    Tally::Figures& figures = tally_.figures[what];
+    if (!(error <= kResolution * kLargestErrors[what])) {
+      ++figures.undecided;
+      return;
+    }
+    ++figures.compared;
+    figures.worst = std::max(figures.worst, difference);
+    if (difference <= kLargestErrors[what]) return;
+    ++figures.wrong;
+    if (tally_.first_wrong.size() > 3000) return;
+    std::ostringstream text;
+    text << name_ << ' ' << pair_.kind << ": " << kNames[what] << " off by " << difference << " (reference " << error
+         << "), status " << static_cast<int>(found_.status) << '\n';
+    tally_.first_wrong += text.str();
+  }
+
+  const DerivativePair& pair_;
+  const std::string name_;
+  Tally& tally_;
+  const LongPose pose1_, pose2_;
+  ProximityDerivatives found_;
+  Values base_;
+  double unit_ = 1;
+  Real step_ = 1;  // of the differences, relative to the usual
+};
+
+}  // namespace
+
+Vector3 DerivativePairs::direction() {
+  std::normal_distribution<double> gauss;
+  return Vector3{gauss(engine_), gauss(engine_), gauss(engine_)}.normalized();
+}
+
+Vector3 DerivativePairs::lengths(double low, double high) {
+  return Vector3{log_uniform(low, high), log_uniform(low, high), log_uniform(low, high)};
+}
+
+PairedBody DerivativePairs::smooth(int kind) {
+  const auto superellipsoid = [this](double low, double high, double least, double most) {
+    const Vector3 a = lengths(low, high);
+    const double delta = log_uniform(least, most);
+    return paired_superellipsoid(a, delta, log_uniform(least, most));
+  };
+  switch (kind) {
+    case 0:
+      return paired_ellipsoid(lengths(0.5, 1.5));
+    case 1:
+      return paired_ellipsoid(lengths(0.05, 5));
+    case 2:
+      return superellipsoid(0.5, 1.5, 1.3, 5);
+    case 3:
+      return superellipsoid(0.5, 1.5, 6, 20);
+    case 4:
+      return superellipsoid(0.5, 1.5, 50, 200);
+    case 5:
+      return superellipsoid(0.5, 1.5, 1.02, 1.3);
+    case 6:
+      return superellipsoid(0.5, 1.5, 1.05, 50);
+    case 7: {
+      const Vector3 a = lengths(0.5, 1.5);
+      const double delta = log_uniform(1.3, 5), epsilon = log_uniform(1.3, 5);
+      const double taper = uniform(-0.9, 0.9) * Superovoid::max_taper(epsilon);
+      return paired_superovoid(a, delta, epsilon, taper, taper);
+    }
+    case 8:
+      return rounded(superellipsoid(0.5, 1.5, 1.05, 20), log_uniform(0.01, 0.5));
+    case 9: {
+      const PairedBody first = superellipsoid(0.5, 1.5, 1.3, 8);
+      return sum(first, paired_ellipsoid(lengths(0.2, 1)));
+    }
+    default: {
+      Matrix3 matrix = Eigen::AngleAxisd(uniform(0, 3), direction()).toRotationMatrix();
+      for (int i = 0; i < 9; ++i) matrix(i) += 0.3 * uniform(-1, 1);
+      return image(superellipsoid(0.5, 1.5, 1.3, 8), matrix);
+    }
+  }
+}
+
+PairedBody DerivativePairs::any(int kind) {
+  if (kind <= kSmoothKinds) return smooth(kind);
+  const Vector3 a = lengths(0.5, 1.5);
+  switch (kind) {
+    case 11:
+      return paired_box(a);
+    case 12:
+      return paired_capsule(a.x(), a.z());
+    case 13:
+      return paired_cylinder(a.x(), a.z());
+    case 14: {
+      auto points = std::make_shared<std::vector<Vector3>>();
+      const int count = std::uniform_int_distribution<int>(3, 12)(engine_);
+      for (int k = 0; k < count; ++k) points->push_back(a.cwiseProduct(direction()));
+      return paired_polytope(points);
+    }
+    default:
+      return rounded(paired_box(a), log_uniform(0.01, 0.5));
+  }
+}
+
+/// In the body's frame, unit.
+Vector3 DerivativePairs::normal_of_face_or_edge(int kind, const Shape& shape) {
+  const double angle = uniform(0, 6.28);
+  const bool is_face = uniform(0, 1) < 0.5;
+  switch (kind) {
+    case 12:
+      return {std::cos(angle), std::sin(angle), 0};
+    case 13:
+      return is_face ? Vector3(0, 0, 1) : Vector3(std::cos(angle), std::sin(angle), 0);
+    case 14: {
+      const auto points = dynamic_cast<const Polytope&>(shape).points();
+      const auto any = [&] { return points[std::uniform_int_distribution<std::size_t>(0, points.size() - 1)(engine_)]; };
+      for (int k = 0; k < 100; ++k) {
+        const Vector3 a = any(), b = any(), c = any(), n = (b - a).cross(c - a);
+        if (n.norm() < 1e-3) continue;
+        const Vector3 unit = n.normalized();
+        if (shape.support(unit) - unit.dot(a) < 1e-12) return unit;
+      }
+      return direction();
+    }
+    default: {
+      const int axis = std::uniform_int_distribution<int>(0, 2)(engine_);
+      if (is_face) return Vector3::Unit(axis);
+      Vector3 n = direction();
+      n[axis] = 0;
+      return n.normalized();
+    }
+  }
+}
+
+/// A random boundary point with this normal.
+Vector3 DerivativePairs::witness(const Shape& shape, const Vector3& n) {
+  const double h = shape.support(n);
+  ActiveVertices vertices;
+  shape.add_active_vertices(n, shape.point(n), vertices);
+  Vector3 mean = Vector3::Zero();
+  double weights = 0;
+  for (int k = 0; k < vertices.size(); ++k) {
+    if (h - n.dot(vertices[k]) > 1e-12) continue;
+    const double weight = uniform(0.1, 1);
+    mean += weight * vertices[k];
+    weights += weight;
+  }
+  return weights > 0 ? Vector3(mean / weights) : shape.point(n);
+}
+
+DerivativePair DerivativePairs::draw() {
+  const int kind1 = count_ % kKinds;
+  // Half of the partners are of the same kind, the others of any.
+  const int kind2 = (count_ / kKinds) % 2 == 0 ? kind1 : std::uniform_int_distribution<int>(0, kKinds - 1)(engine_);
+  DerivativePair pair{std::string(kKindNames[kind1]), any(kind1), any(kind2), {}, {}};
+  const auto rotation = [this] { return Eigen::AngleAxisd(uniform(0, 3.14), direction()).toRotationMatrix(); };
+  pair.pose1.rotation = rotation();
+  pair.pose2.rotation = rotation();
+  pair.pose1.position = lengths(0.1, 10);
+  // Half of the bodies with faces are placed at the normal of a face or of an edge.
+  Vector3 n = direction();
+  if (kind1 > kSmoothKinds && uniform(0, 1) < 0.5) {
+    n = pair.pose1.rotation * normal_of_face_or_edge(kind1, *pair.body1.shape);
+  } else if (kind2 > kSmoothKinds && uniform(0, 1) < 0.5) {
+    n = -(pair.pose2.rotation * normal_of_face_or_edge(kind2, *pair.body2.shape));
+  } else if (kind1 > kSmoothKinds && kind2 > kSmoothKinds) {
+    n = pair.pose1.rotation.col(2).cross(pair.pose2.rotation.col(2)).normalized();  // edges along z
+  }
+  const Vector3 half1 = pair.body1.shape->half_extents(), half2 = pair.body2.shape->half_extents();
+  const double largest = std::min(half1.maxCoeff(), half2.maxCoeff()), smallest = std::min(half1.minCoeff(), half2.minCoeff());
+  const int place = (count_ / (2 * kKinds)) % 4;
+  const double gap = place == 0   ? largest * uniform(0, 2)
+                     : place == 1 ? 1e-6 * largest * uniform(0, 1)
+                                  : -smallest * uniform(0, 0.3);
+  const Vector3 point1 = pair.pose1.rotation * witness(*pair.body1.shape, pair.pose1.rotation.transpose() * n);
+  const Vector3 point2 = pair.pose2.rotation * witness(*pair.body2.shape, -(pair.pose2.rotation.transpose() * n));
+  pair.pose2.position = pair.pose1.position + point1 + gap * n - point2;
+  ++count_;
+  return pair;
+}
+
+void compare(const DerivativePair& pair, const std::string& name, Tally& tally) { Comparison(pair, name, tally).run(); }
+
+void print(std::ostream& out, const Tally& tally) {
+  static constexpr const char* kStatuses[] = {"smooth",         "active set", "degenerate",    "free on a face", "singular",
+                                              "several maxima", "no Hessian", "not converged", "invalid"};
+  static constexpr const char* kNames[kQuantities] = {"gap", "normal", "point 1", "point 2", "Hessian of the gap", "parameters"};
+  out << tally.pairs << " pairs, " << tally.not_finite << " with numbers that are not finite, " << tally.unreferenced
+      << " beyond the reference, " << tally.evaluations / static_cast<double>(tally.pairs) << " evaluations\n";
+  for (const auto& [status, count] : tally.statuses) out << "  " << kStatuses[static_cast<int>(status)] << ": " << count << '\n';
+  out << "quantity | compared | undecided | wrong | worst relative error\n";
+  for (int k = 0; k < kQuantities; ++k) {
+    const Tally::Figures& f = tally.figures[static_cast<std::size_t>(k)];
+    out << kNames[k] << " | " << f.compared << " | " << f.undecided << " | " << f.wrong << " | " << f.worst << '\n';
+  }
+  out << "kind: pairs, all derivatives defined, compared\n";
+  for (const auto& [kind, counts] : tally.kinds)
+    out << "  " << kind << ": " << counts[0] << ", " << counts[1] << ", " << counts[2] << '\n';
+  out << tally.first_wrong;
+}
+
+}  // namespace supernormal::test

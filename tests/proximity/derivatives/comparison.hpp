@@ -1,0 +1,65 @@
+// Random pairs of all classes, and the comparison of their derivatives with differences of the reference.
+#pragma once
+
+#include <array>
+#include <iosfwd>
+#include <map>
+#include <random>
+#include <string>
+
+#include "proximity/derivatives/long_normal.hpp"
+#include "supernormal/proximity/derivatives.hpp"
+
+namespace supernormal::test {
+
+struct DerivativePair {
+  std::string kind;
+  PairedBody body1, body2;
+  Pose pose1, pose2;
+};
+
+/// Draws pairs: the kinds of bodies in turn, apart, touching and overlapped by up to 0.3 of the smallest half-extent.
+class DerivativePairs {
+ public:
+  explicit DerivativePairs(unsigned seed) : engine_(seed) {}
+  DerivativePair draw();
+
+ private:
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
+  Vector3 direction();
+  Vector3 lengths(double low, double high);
+  PairedBody smooth(int kind);
+  PairedBody any(int kind);
+  Vector3 normal_of_face_or_edge(int kind, const Shape& shape);
+  Vector3 witness(const Shape& shape, const Vector3& n);
+
+  std::mt19937_64 engine_;
+  int count_ = 0;
+};
+
+/// What differs, relative to the norm of the derivative in units of the bodies' size.
+enum Quantity { kGap, kNormal, kPoint1, kPoint2, kHessian, kParameters, kQuantities };
+
+/// The figures of many comparisons.
+struct Tally {
+  struct Figures {
+    int compared = 0, undecided = 0, wrong = 0;
+    double worst = 0;
+  };
+  std::array<Figures, kQuantities> figures;
+  std::map<DerivativeStatus, int> statuses;
+  int pairs = 0, not_finite = 0, evaluations = 0, unreferenced = 0;
+  std::map<std::string, std::array<int, 3>> kinds;  // pairs, all derivatives defined, referenced
+  std::string first_wrong;
+};
+
+/// Largest relative errors that count as right.
+inline constexpr std::array<double, kQuantities> kLargestErrors = {1e-6, 1e-6, 1e-6, 1e-6, 1e-4, 1e-6};
+
+/// Compares one pair and adds it to the tally. `name` is for the report.
+void compare(const DerivativePair& pair, const std::string& name, Tally& tally);
+
+void print(std::ostream& out, const Tally& tally);
+
+}  // namespace supernormal::test

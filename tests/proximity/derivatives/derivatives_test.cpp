@@ -1,0 +1,165 @@
+// Derivatives of the gap, the common normal and the witness points. The program `derivatives` compares more pairs.
+#include "supernormal/proximity/derivatives.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <memory>
+
+#include "proximity/derivatives/comparison.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/polytope.hpp"
+#include "supernormal/shapes/sphere.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+#include "support/traps.hpp"
+#include "support/without_hessian.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+namespace {
+
+const Matrix3 kTilted = Eigen::Quaterniond(0.5, 0.1, -0.7, 0.2).normalized().toRotationMatrix();
+const Matrix3 kSteep = Eigen::Quaterniond(-0.3, 0.8, 0.2, 0.4).normalized().toRotationMatrix();
+
+ProximityDerivatives derivatives(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2) {
+  const Proximity answer = find_proximity(shape1, pose1, shape2, pose2);
+  const Traps traps("derivatives");
+  return find_proximity_derivatives(shape1, pose1, shape2, pose2, answer);
+}
+
+bool is_finite(const ProximityDerivatives& d) {
+  return d.gap_gradient.allFinite() && d.normal.allFinite() && d.point1.allFinite() && d.point2.allFinite() &&
+         d.gap_hessian.allFinite();
+}
+
+/// (v1, w1, v2, w2) to (v2, w2, v1, w1).
+Eigen::Matrix<double, 12, 12> swap() {
+  Eigen::Matrix<double, 12, 12> out = Eigen::Matrix<double, 12, 12>::Zero();
+  out.topRightCorner<6, 6>().setIdentity();
+  out.bottomLeftCorner<6, 6>().setIdentity();
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("derivatives: random pairs of all classes agree with differences in long double") {
+  DerivativePairs pairs(5);
+  Tally tally;
+  for (int k = 0; k < 64; ++k) compare(pairs.draw(), std::to_string(k), tally);
+  CHECK_MESSAGE(tally.first_wrong.empty(), tally.first_wrong);
+  CHECK(tally.not_finite == 0);
+  CHECK(tally.unreferenced <= 3);
+  for (const Tally::Figures& figures : tally.figures) {
+    CHECK(figures.compared >= 55);
+    CHECK(figures.wrong == 0);
+  }
+}
+
+TEST_CASE("derivatives: two spheres have the closed forms of two points") {
+  const Sphere sphere1(0.5), sphere2(0.3);
+  const Pose pose2{{2, 1, -2}, kTilted};
+  const ProximityDerivatives d = derivatives(sphere1, {}, sphere2, pose2);
+  const Vector3 n = pose2.position / 3;
+  const Matrix3 tilt = (Matrix3::Identity() - n * n.transpose()) / 3;
+  CHECK(d.status == DerivativeStatus::Smooth);
+  CHECK((d.gap_gradient.segment<3>(6) - n).norm() <= 1e-15);
+  CHECK(d.gap_gradient.segment<3>(9).norm() <= 1e-15);
+  CHECK((d.normal.middleCols<3>(6) - tilt).norm() <= 1e-15);
+  CHECK((d.point1.middleCols<3>(6) - 0.5 * tilt).norm() <= 1e-15);
+  CHECK((d.point2.middleCols<3>(6) - Matrix3::Identity() + 0.3 * tilt).norm() <= 1e-15);
+  CHECK((d.gap_hessian.block<3, 3>(6, 6) - tilt).norm() <= 1e-15);
+  CHECK(d.parameters1.size() == 1);
+  CHECK(d.parameters1[0].value == -1);
+}
+
+TEST_CASE("derivatives: swapped bodies and moved frames have the same, also far from the origin") {
+  DerivativePairs pairs(6);
+  int compared = 0;
+  for (int k = 0; k < 640; ++k) {
+    const DerivativePair pair = pairs.draw();
+    const Shape &shape1 = *pair.body1.shape, &shape2 = *pair.body2.shape;
+    const ProximityDerivatives d = derivatives(shape1, pair.pose1, shape2, pair.pose2);
+    CHECK(is_finite(d));
+    if (!d.has_normal) continue;
+    Proximity answer;
+    answer.status = Status::Converged;
+    answer.normal = -d.common_normal;
+    const ProximityDerivatives swapped = find_proximity_derivatives(shape2, pair.pose2, shape1, pair.pose1, answer);
+    const Vector3 far(3e6, -1e6, 2e6);
+    const auto moved = [&](const Pose& pose) { return Pose{kSteep * pose.position + far, kSteep * pose.rotation}; };
+    answer.normal = kSteep * d.common_normal;
+    const Pose moved1 = moved(pair.pose1),
+               moved2{moved1.position + kSteep * (pair.pose2.position - pair.pose1.position), kSteep * pair.pose2.rotation};
+    const ProximityDerivatives there = find_proximity_derivatives(shape1, moved1, shape2, moved2, answer);
+    if (!swapped.has_normal || !there.has_normal) continue;
+    ++compared;
+    CAPTURE(k);
+    CAPTURE(pair.kind);
+    Eigen::Matrix<double, 12, 12> turn = Eigen::Matrix<double, 12, 12>::Zero();
+    for (int i = 0; i < 12; i += 3) turn.block<3, 3>(i, i) = kSteep.transpose();
+    CHECK((swapped.gap_gradient - swap() * d.gap_gradient).norm() <= 1e-7 * d.gap_gradient.norm());
+    CHECK((swapped.normal + d.normal * swap()).norm() <= 1e-6 * d.normal.norm() + 1e-12);
+    CHECK((swapped.gap_hessian - swap() * d.gap_hessian * swap()).norm() <= 1e-6 * d.gap_hessian.norm());
+    // The positions there are rounded to 5e-10 m, which moves the bodies.
+    if (k % 64 < 32 && d.normal.norm() < 100)
+      CHECK((there.normal - kSteep * d.normal * turn).norm() <= 1e-5 * d.normal.norm() + 1e-9);
+  }
+  CHECK(compared > 600);
+}
+
+TEST_CASE("derivatives: the gradient of the answer alone is the exact gradient, to the answer's error") {
+  DerivativePairs pairs(7);
+  for (int k = 0; k < 640; ++k) {
+    const DerivativePair pair = pairs.draw();
+    Settings settings;
+    settings.tolerance = 1e-14;
+    const Proximity answer = find_proximity(*pair.body1.shape, pair.pose1, *pair.body2.shape, pair.pose2, settings);
+    const ProximityDerivatives d = find_proximity_derivatives(*pair.body1.shape, pair.pose1, *pair.body2.shape, pair.pose2, answer);
+    if (!d.has_gap || answer.status != Status::Converged) continue;
+    const TwistVector gradient = find_gap_gradient(pair.pose1, pair.pose2, answer);
+    CAPTURE(k);
+    CAPTURE(pair.kind);
+    CHECK((gradient.segment<3>(6) - answer.normal).norm() == 0);
+    CHECK((gradient - d.gap_gradient).norm() <= 1e-4 * d.gap_gradient.norm());
+  }
+}
+
+TEST_CASE("derivatives: the status says what is not defined, and nothing is NaN") {
+  const Box box(Vector3(1, 2, 3));
+  const Superellipsoid sharp(Vector3(1, 1, 1), 1.01, 1.01), brick(Vector3(1, 1, 1), 200, 200);
+  const Ellipsoid ellipsoid(Vector3(1, 2, 3));
+  const auto status = [](const Shape& a, const Shape& b, const Pose& pose) {
+    const ProximityDerivatives d = derivatives(a, {}, b, pose);
+    CHECK(is_finite(d));
+    const bool is_defined = d.status == DerivativeStatus::Smooth || d.status == DerivativeStatus::ActiveSet;
+    CHECK(d.has_normal == is_defined);
+    if (!d.has_normal) CHECK((d.normal.isZero(0) && d.point1.isZero(0) && d.gap_hessian.isZero(0)));
+    return d.status;
+  };
+  CHECK(status(ellipsoid, ellipsoid, {{5, 4, 3}, kTilted}) == DerivativeStatus::Smooth);
+  CHECK(status(box, ellipsoid, {{3, 0.2, 0.1}, kTilted}) == DerivativeStatus::ActiveSet);
+  CHECK(status(box, box, {{2.5, 0.2, 0.3}, Matrix3::Identity()}) == DerivativeStatus::FreeOnFace);
+  CHECK(status(brick, brick, {{0.1, 0.2, 2.1}, Matrix3::Identity()}) == DerivativeStatus::FreeOnFace);
+  CHECK(status(ellipsoid, ellipsoid, {Vector3::Zero(), kTilted}) == DerivativeStatus::SeveralMaxima);
+  CHECK(status(Sphere(1), Sphere(0.5), {Vector3::Zero(), kTilted}) == DerivativeStatus::SingularCurvature);
+  CHECK(status(Sphere(0), Sphere(0), {Vector3::Zero(), kTilted}) != DerivativeStatus::Smooth);
+  CHECK(status(without_hessian(std::make_shared<Ellipsoid>(Vector3(1, 2, 3))), ellipsoid, {{5, 4, 3}, kTilted}) ==
+        DerivativeStatus::NoHessian);
+  // The point of the sphere is above the border of the face.
+  CHECK(status(box, Sphere(0.5), {{2, 2, 0}, Matrix3::Identity()}) == DerivativeStatus::Degenerate);
+
+  Pose broken;
+  broken.position.x() = std::numeric_limits<double>::quiet_NaN();
+  const Proximity answer = find_proximity(ellipsoid, {}, sharp, {{4, 0, 0}, kTilted});
+  CHECK(find_proximity_derivatives(ellipsoid, broken, sharp, {}, answer).status == DerivativeStatus::InvalidInput);
+  CHECK(find_proximity_derivatives(ellipsoid, {}, sharp, {}, {}).status == DerivativeStatus::InvalidInput);
+  CHECK(find_gap_gradient({}, {}, {}).isZero(0));
+  Settings early;
+  early.stop_when_apart = true;
+  const Proximity apart = find_proximity(ellipsoid, {}, sharp, {{9, 3, 0}, kTilted}, early);
+  CHECK(apart.status == Status::Apart);
+  CHECK(find_proximity_derivatives(ellipsoid, {}, sharp, {{9, 3, 0}, kTilted}, apart).status == DerivativeStatus::NotConverged);
+}

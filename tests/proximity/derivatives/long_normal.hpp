@@ -1,0 +1,42 @@
+// The common normal in long double, and derivatives of it by differences.
+#pragma once
+
+#include "proximity/derivatives/long_body.hpp"
+#include "supernormal/proximity/pose.hpp"
+
+namespace supernormal::test {
+
+struct LongPose {
+  Real3 position = Real3::Zero();
+  Real33 rotation = Real33::Identity();
+
+  /// Moved by v (m) and rotated by exp([w]), w in rad, about its origin.
+  LongPose moved(const Real3& v, const Real3& w) const;
+};
+
+/// The pose in long double, its matrix made orthonormal beyond double precision.
+LongPose exact_pose(const Pose& pose);
+
+struct LongAnswer {
+  Real gap = 0;
+  Real3 normal = Real3::Zero(), point1 = Real3::Zero(), point2 = Real3::Zero();
+  bool is_exact = false;  // whether the residual is rounding
+};
+
+/// The stationary point of s near a normal, with the faces and edges of that normal kept.
+class LongNormal {
+ public:
+  /// `normal`: world frame.
+  LongNormal(PairedBody body1, const LongPose& pose1, PairedBody body2, const LongPose& pose2, const Vector3& normal);
+
+  /// The answer after both poses have moved, or with other bodies of the same kinds.
+  LongAnswer solve(const LongPose& pose1, const LongPose& pose2, const LongBody& exact1, const LongBody& exact2) const;
+  LongAnswer solve(const LongPose& pose1, const LongPose& pose2) const { return solve(pose1, pose2, *body1_.exact, *body2_.exact); }
+
+ private:
+  PairedBody body1_, body2_;
+  Real3 normal1_;                       // the start in body 1's frame
+  std::vector<Real3> edges1_, edges2_;  // each in its body's frame
+};
+
+}  // namespace supernormal::test
