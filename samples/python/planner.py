@@ -193,27 +193,25 @@ def random_path(random: np.random.Generator) -> Numbers:
 # %% The figure
 def draw(outcome: Outcome, first: Numbers, file: pathlib.Path) -> None:
     import matplotlib.pyplot as plt
-    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-    figure = plt.figure(figsize=(9, 5))
+    figure = plt.figure(figsize=(9, 6))
     axes: Any = figure.add_subplot(projection="3d")
 
     def add(shape: sn.Shape, position: Numbers, rotation: Numbers, colour: str, alpha: float) -> None:
         mesh = shape.tessellate(0.01)
         points = mesh.points @ rotation.T + position
-        axes.add_collection3d(Poly3DCollection(points[mesh.triangles], facecolor=colour, edgecolor="none", alpha=alpha))
+        axes.plot_trisurf(*points.T, triangles=mesh.triangles, color=colour, alpha=alpha, linewidth=0, clip_on=False)
 
     for shape, pose in OBSTACLES:
-        add(shape, pose.position, pose.rotation, "tab:blue", 0.3)
+        add(shape, pose.position, pose.rotation, "#90c0f0", 0.4)
     for position, rotation in zip(*poses_of(np.vstack([START, outcome.path, GOAL]))):
-        add(ROBOT, position, rotation, "tab:orange", 0.5)
-    axes.plot(*first[:, :3].T, "k:", linewidth=1)
-    axes.plot(*np.vstack([START, outcome.path, GOAL])[:, :3].T, "k.-", linewidth=1)
-    axes.set(xlim=(-1.6, 1.6), ylim=(-1.2, 1.2), zlim=(-0.8, 0.8), xlabel="x in m", ylabel="y in m", zlabel="z in m")
-    axes.set_box_aspect((3.2, 2.4, 1.6), zoom=1.2)
-    axes.view_init(30, -75)
-    figure.tight_layout()
-    figure.savefig(file, dpi=80)
+        add(ROBOT, position, rotation, "#ffb060", 0.8)
+    for path, style in ((first, "k:"), (outcome.path, "k.-")):
+        axes.plot(*np.vstack([START, path, GOAL])[:, :3].T, style, linewidth=1)
+    axes.set(xlim=(-1.9, 1.9), ylim=(-1, 1), zlim=(-0.8, 0.8), xlabel="x in m", ylabel="y in m", zlabel="z in m")
+    axes.set_box_aspect((3.8, 2, 1.6), zoom=1.4)
+    axes.view_init(60, -85)
+    figure.savefig(file, dpi=70, bbox_inches="tight", pad_inches=0.3)
 
 
 def main() -> None:

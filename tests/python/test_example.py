@@ -86,3 +86,20 @@ def test_the_gap_in_torch(planner, tmp_path):
     run = run_sample(tmp_path, "torch_gap.py")
     assert "gradcheck: passed for 50 pairs, 17 of them overlapped" in run.stdout
     assert re.search(r"after \d+ steps of Adam 0 overlap, the deepest by 0.0000 m", run.stdout)
+
+
+def test_the_notebook_runs(tmp_path, monkeypatch):
+    nbformat = pytest.importorskip("nbformat", reason="python3-nbformat is not installed")
+    nbclient = pytest.importorskip("nbclient", reason="python3-nbclient is not installed")
+    for module, package in (("ipykernel", "python3-ipykernel"), ("matplotlib", "python3-matplotlib")):
+        pytest.importorskip(module, reason=f"{package} is not installed")
+    for name in ("MPLCONFIGDIR", "IPYTHONDIR", "JUPYTER_RUNTIME_DIR"):
+        monkeypatch.setenv(name, str(tmp_path / name))
+    notebook = nbformat.read(SAMPLES / "gap_gradient.ipynb", as_version=4)
+    nbformat.validate(notebook)
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert not any(cell.outputs or cell.execution_count for cell in code)  # as it is committed
+
+    nbclient.NotebookClient(notebook, kernel_name="python3", timeout=120).execute()
+    figures = [output for cell in code for output in cell.outputs if "image/png" in output.get("data", {})]
+    assert len(figures) == 1
