@@ -87,14 +87,8 @@ std::unique_ptr<Body> Body::of(const std::shared_ptr<const Shape>& shape) {
 }
 
 std::unique_ptr<Body> Body::copy() const {
-  auto body = std::make_unique<Body>(core_);
-  body->shape_ = shape_;
-  body->rounding_ = rounding_;
-  body->size_ = size_;
-  body->parameters_ = parameters_;
-  body->settings_ = settings_;
-  body->look_ahead_ = look_ahead_;
-  body->release_ = release_;
+  std::unique_ptr<Body> body(new Body(*this));
+  body->serial_ = ++last_serial;
   return body;
 }
 

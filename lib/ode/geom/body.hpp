@@ -39,7 +39,6 @@ class Body {
   static std::unique_ptr<Body> of(const std::shared_ptr<const Shape>& shape);
 
   ~Body();
-  Body(const Body&) = delete;
   Body(Body&&) = delete;
   Body& operator=(const Body&) = delete;
   Body& operator=(Body&&) = delete;
@@ -85,6 +84,8 @@ class Body {
   void arm_release_callback() noexcept;
 
  private:
+  Body(const Body&) = default;  // for copy(): with the serial number of the other
+
   void set_shape(std::shared_ptr<const Shape> core, double rounding);
 
   std::shared_ptr<const Shape> core_;  // without rounding
