@@ -77,7 +77,8 @@ typedef struct snShape {
   void (*point)(const void* user, const dReal direction[3], dReal point[3]);     /**< r(n), m */
   void (*hessian)(const void* user, const dReal direction[3], dReal hessian[9]); /**< m, row-major; may be NULL */
   void* user;                                                                    /**< passed to each call */
-  void (*release)(void* user); /**< called when the geom dies; may be NULL; not called if the create call refuses */
+  void (*release)(void* user); /**< called when the geom and its copies have died; may be NULL; not called if the create call
+                                  refuses */
 } snShape;
 
 /** The callbacks are tested in 26 directions. Results must be finite, and the size in [1e-30, 1e30]. To 1e-6 of the size,
@@ -103,6 +104,26 @@ SUPERNORMAL_API int snGeomSuperovoidGetParams(dGeomID geom, dReal* a, dReal* b, 
 /** Sweeps the body by a sphere of `radius` in [0, 1e30]: the body grows by it, and its edges become round. Replaces an earlier
  * rounding; 0 removes it. */
 SUPERNORMAL_API int snGeomSetRounding(dGeomID geom, dReal radius);
+
+/* --- bodies as text, and copies ---------------------------------------------------------------------------------------- */
+
+/** Writes the text of the body's shape, rounding included, such as
+ * Rounded(core=Superellipsoid(half_axes=(0.02, 0.015, 0.008), delta=8, epsilon=8), radius=0.001). Like snprintf, it writes at most
+ * `capacity` - 1 characters and a 0, and returns the length of the whole text; with a capacity of 0, `text` may be NULL. The digits
+ * read back as the same numbers. Returns -1 (and snLastError) for a body of snCreateConvex, whose callbacks have no text. */
+SUPERNORMAL_API int snGeomDescribe(dGeomID geom, char* text, int capacity);
+
+/** Creates the body of a text of snGeomDescribe, or of any other shape of the C++ core or of the Python package: Sphere, Ellipsoid,
+ * Superellipsoid, Superovoid, Box, Capsule, Cylinder, Polytope, Rounded, MinkowskiSum, LinearImage; see
+ * include/supernormal/shapes/description.hpp. Rounding, half-axes, exponents and tapers can be read and set as if they were set by
+ * the functions above. The body must have a width of 2e-30 m or more along each axis. Refuses any other text with the place of the
+ * mistake. */
+SUPERNORMAL_API dGeomID snCreateFromDescription(dSpaceID space, const char* text);
+
+/** Creates a copy of a body of ours, bodies of snCreateConvex included: shape, rounding, solver settings, look-ahead time, place
+ * and orientation in the world, category and collide bits, and whether it is enabled. The copy has no dBodyID, no offset and no
+ * data. Copies of a body of snCreateConvex share its callbacks; `release` is called when the last of them dies. */
+SUPERNORMAL_API dGeomID snGeomCopy(dSpaceID space, dGeomID geom);
 
 /* --- queries of one body ----------------------------------------------------------------------------------------------- */
 

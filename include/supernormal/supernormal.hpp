@@ -18,6 +18,7 @@
 ///                  find_manifold_of_gaps(), find_plane_manifold_of_gaps(), nearness(), reach_towards()
 ///     one body     find_bounding_box(), Shape::mass_properties(), Shape::point(), find_curvature(), find_contact_curvature(),
 ///                  projected_area(), surface_area(), tessellate()
+///     travel       describe(), read_shape(), read_pose(): shapes and poses as text, and back; clone(); ==
 ///
 /// Units and frames: lengths are in m, or in any other unit that is used throughout. x_world = rotation x_body + position. Normals
 /// are unit vectors and point from body 1 to body 2. A gap is positive if the bodies are apart, and negative if they overlap.
@@ -59,6 +60,7 @@
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/capsule.hpp"
 #include "supernormal/shapes/cylinder.hpp"
+#include "supernormal/shapes/description.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/linear_image.hpp"
 #include "supernormal/shapes/minkowski_sum.hpp"

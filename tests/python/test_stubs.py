@@ -109,8 +109,9 @@ def test_stubtest_finds_no_difference():
     run("mypy.stubtest", *(f"supernormal.{stub.stem}" for stub in PACKAGE.glob("*.pyi")), *options)
 
 
-def test_the_package_and_the_example_are_typed():
+def test_the_package_and_the_examples_are_typed():
     pytest.importorskip("mypy", reason="mypy is not installed")
     options = ["--strict", "--config-file", str(HERE / "mypy.ini"), "--cache-dir=/dev/null"]
     run("mypy", *options, "-p", "supernormal")
-    run("mypy", *options, str(HERE.parents[1] / "samples" / "python" / "tour.py"))
+    for program in sorted((HERE.parents[1] / "samples" / "python").glob("*.py")):
+        run("mypy", *options, str(program))

@@ -112,14 +112,45 @@ def test_what_may_change_has_no_hash():
             hash(value)
 
 
-@pytest.mark.parametrize("shape", [shape for shape in SHAPES if type(shape) not in (sn.CallbackShape, sn.Polytope)], ids=name)
-def test_the_text_of_a_shape_makes_it_again(shape):
-    assert eval(repr(shape), vars(sn)) == shape
+DESCRIBED = [shape for shape in SHAPES if type(shape) is not sn.CallbackShape]
+
+
+@pytest.mark.parametrize("value", [*DESCRIBED, THERE, UNHASHED[1]], ids=name)
+def test_the_text_of_a_value_makes_it_again(value):
+    assert eval(repr(value), vars(sn)) == value
     assert repr(sn.Sphere(0.1)) == "Sphere(radius=0.1)"
 
 
-def test_the_text_of_a_pose_makes_it_again():
-    assert eval(repr(THERE), vars(sn)) == THERE
+def test_long_lists_have_short_texts():
+    assert repr(sn.Poses(np.zeros((101, 3)))) == "Poses(of 101 bodies)"
+    assert repr(sn.Polytope(np.eye(101, 3))) == "Polytope(of 101 points)"
+    assert sn.read_shape(sn.describe(sn.Polytope(np.eye(101, 3)))) == sn.Polytope(np.eye(101, 3))
+
+
+@pytest.mark.parametrize("shape", DESCRIBED, ids=name)
+def test_the_description_of_a_shape_is_read_by_python_and_by_the_core(shape):
+    text = sn.describe(shape)
+    made = sn.read_shape(text)
+    assert type(made) is type(shape) and made == shape and sn.describe(made) == text
+    assert eval(text, vars(sn)) == shape and sn.read_shape(repr(shape)) == shape
+    assert pickle.loads(pickle.dumps(made)) == shape and repr(made) == repr(shape)
+
+
+def test_the_description_of_a_pose():
+    assert sn.read_pose(sn.describe(THERE)) == THERE == eval(sn.describe(THERE), vars(sn)) == sn.read_pose(repr(THERE))
+    signed = sn.Pose((-0.0, 1, 2))
+    assert np.signbit(sn.read_pose(sn.describe(signed)).position[0]) and np.signbit(eval(sn.describe(signed), vars(sn)).position[0])
+
+
+def test_what_has_no_description_and_what_is_none():
+    with pytest.raises(ValueError, match=r"shape.core is a supernormal::CallbackShape, which has no description"):
+        sn.describe(sn.Rounded(SHAPES[-1], 1))
+    with pytest.raises(ValueError, match=r'text at character 15 is "__import__\(\)\)", but must be a finite number'):
+        sn.read_shape("Sphere(radius=__import__())")
+    with pytest.raises(ValueError, match=r"delta = 1 is outside \[1.01, 1000\]"):
+        sn.read_shape("Superellipsoid(half_axes=(1, 1, 1), delta=1, epsilon=2)")
+    with pytest.raises(ValueError, match="rotation"):
+        sn.read_pose("Pose(position=(0, 0, 0), rotation=((1, 0, 0), (0, 1, 0), (0, 0, 3)))")
 
 
 @pytest.mark.parametrize("value", EVERYTHING, ids=name)

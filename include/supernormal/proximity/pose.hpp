@@ -2,6 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
+#include <string_view>
+
+#include "supernormal/export.h"
 
 namespace supernormal {
 
@@ -11,6 +15,17 @@ namespace supernormal {
 struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< m
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< orthonormal, right-handed
+
+  /// Whether all numbers are equal.
+  bool operator==(const Pose& other) const { return position == other.position && rotation == other.rotation; }
 };
+
+/// The text of a pose: Pose(position=(x, y, z), rotation=((…), (…), (…))), the matrix by rows. Numbers have the fewest digits that
+/// read back as the same double.
+SUPERNORMAL_API std::string describe(const Pose& pose);
+
+/// The pose with this description. Throws std::invalid_argument for any other text, with the place and what is expected there, or
+/// if the matrix is not a rotation (Pose) or a coordinate is not within 1e150 m.
+SUPERNORMAL_API Pose read_pose(std::string_view text);
 
 }  // namespace supernormal

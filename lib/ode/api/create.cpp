@@ -43,9 +43,10 @@ extern "C" dGeomID snCreateCapsule(dSpaceID space, dReal radius, dReal length) {
 extern "C" dGeomID snCreateConvex(dSpaceID space, const snShape* shape) {
   return guarded("snCreateConvex", dGeomID{}, [&] {
     auto body = std::make_unique<Body>(make_user_shape(shape));
+    body->set_release_callback(shape->release, shape->user);
     Body& alive = *body;
     const dGeomID geom = create_geom(space, std::move(body));
-    alive.set_release_callback(shape->release, shape->user);  // only now: a refused call must not call release
+    alive.arm_release_callback();  // only now: a refused call must not call release
     return geom;
   });
 }

@@ -14,6 +14,27 @@
 #include "supernormal/shapes/superovoid.hpp"
 
 namespace supernormal::ode {
+
+/// Calls `release` when it dies, if it is armed.
+class ReleaseCallback {
+ public:
+  ReleaseCallback(void (*release)(void*), void* user) : release_(release), user_(user) {}
+  ~ReleaseCallback() {
+    if (is_armed_) release_(user_);
+  }
+  ReleaseCallback(const ReleaseCallback&) = delete;
+  ReleaseCallback(ReleaseCallback&&) = delete;
+  ReleaseCallback& operator=(const ReleaseCallback&) = delete;
+  ReleaseCallback& operator=(ReleaseCallback&&) = delete;
+
+  void arm() noexcept { is_armed_ = true; }
+
+ private:
+  void (*release_)(void*);
+  void* user_;
+  bool is_armed_ = false;
+};
+
 namespace {
 
 std::atomic<std::uint32_t> last_serial{0};
@@ -42,8 +63,41 @@ Body::Body(const SuperellipsoidParameters& parameters) : Body(make_superellipsoi
 
 Body::Body(const SuperovoidParameters& parameters) : Body(make_superovoid(parameters)) { parameters_ = parameters; }
 
-Body::~Body() {
-  if (release_ != nullptr) release_(user_);
+Body::~Body() = default;
+
+std::unique_ptr<Body> Body::of(const std::shared_ptr<const Shape>& shape) {
+  if (const auto* rounded = dynamic_cast<const Rounded*>(shape.get()); rounded != nullptr && rounded->radius() > 0) {
+    auto body = of({shape, &rounded->core()});
+    // Another rounding within remains a part of the core.
+    if (body->rounding_ > 0) body = std::make_unique<Body>(std::shared_ptr<const Shape>(shape, &rounded->core()));
+    body->set_rounding(rounded->radius());
+    return body;
+  }
+  if (const auto* ellipsoid = dynamic_cast<const Ellipsoid*>(shape.get())) {
+    return std::make_unique<Body>(SuperellipsoidParameters{ellipsoid->half_axes(), 2, 2});
+  }
+  if (const auto* powers = dynamic_cast<const Superellipsoid*>(shape.get())) {
+    return std::make_unique<Body>(SuperellipsoidParameters{powers->half_axes(), powers->delta(), powers->epsilon()});
+  }
+  if (const auto* egg = dynamic_cast<const Superovoid*>(shape.get())) {
+    return std::make_unique<Body>(
+        SuperovoidParameters{{egg->half_axes(), egg->delta(), egg->epsilon()}, egg->taper_x(), egg->taper_y()});
+  }
+  return std::make_unique<Body>(shape);
+}
+
+std::unique_ptr<Body> Body::copy() const {
+  std::unique_ptr<Body> body(new Body(*this));
+  body->serial_ = ++last_serial;
+  return body;
+}
+
+void Body::set_release_callback(void (*release)(void*), void* user) {
+  if (release != nullptr) release_ = std::make_shared<ReleaseCallback>(release, user);
+}
+
+void Body::arm_release_callback() noexcept {
+  if (release_ != nullptr) release_->arm();
 }
 
 void Body::set_superellipsoid(const SuperellipsoidParameters& parameters) {

@@ -26,17 +26,25 @@ struct SuperovoidParameters {
   double taper_y = 0;
 };
 
+class ReleaseCallback;
+
 /// The C++ object behind a geom. It does not depend on the pose.
 class Body {
  public:
   explicit Body(const SuperellipsoidParameters& parameters);
   explicit Body(const SuperovoidParameters& parameters);
   explicit Body(std::shared_ptr<const Shape> core);
+
+  /// The body of a shape of the core. Its parameters and its rounding are those of the shape.
+  static std::unique_ptr<Body> of(const std::shared_ptr<const Shape>& shape);
+
   ~Body();
-  Body(const Body&) = delete;
   Body(Body&&) = delete;
   Body& operator=(const Body&) = delete;
   Body& operator=(Body&&) = delete;
+
+  /// The same shape and settings with a serial number of its own. The copies share the release callback.
+  std::unique_ptr<Body> copy() const;
 
   /// The shape, rounding included.
   const Shape& shape() const { return *shape_; }
@@ -71,13 +79,13 @@ class Body {
   void set_superovoid(const SuperovoidParameters& parameters);
   void set_rounding(double radius);
 
-  /// Calls `release` once, from the destructor; null: no callback.
-  void set_release_callback(void (*release)(void*), void* user) {
-    release_ = release;
-    user_ = user;
-  }
+  /// Calls `release` once, from the destructor of the last copy, if the callback is armed; null: no callback.
+  void set_release_callback(void (*release)(void*), void* user);
+  void arm_release_callback() noexcept;
 
  private:
+  Body(const Body&) = default;  // for copy(): with the serial number of the other
+
   void set_shape(std::shared_ptr<const Shape> core, double rounding);
 
   std::shared_ptr<const Shape> core_;  // without rounding
@@ -89,8 +97,7 @@ class Body {
   Settings settings_;
   double look_ahead_;  // s
   std::uint32_t serial_;
-  void (*release_)(void*) = nullptr;
-  void* user_ = nullptr;
+  std::shared_ptr<ReleaseCallback> release_;  // null: none
 };
 
 /// The class data of a geom of ours in ODE. Initially zero, aligned as by malloc, neither constructed nor destroyed.

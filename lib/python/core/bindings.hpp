@@ -11,6 +11,7 @@ void bind_settings(pybind11::module_& m);
 void bind_shapes(pybind11::module_& m);
 void bind_composed_shapes(pybind11::module_& m);
 void bind_shape_sequence(pybind11::module_& m);
+void bind_descriptions(pybind11::module_& m);
 void bind_proximity(pybind11::module_& m);
 void bind_contact(pybind11::module_& m);
 void bind_raycast(pybind11::module_& m);

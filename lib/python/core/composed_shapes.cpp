@@ -163,7 +163,13 @@ void bind_polytope(py::module_& m) {
       "points: (N, 3), m, N >= 1, within 1e30; ValueError otherwise.");
   type.def(py::init(&make_polytope), py::arg("points"))
       .def_property_readonly("points", &points_of, "(N, 3), m; a copy")
-      .def("__repr__", [](const Polytope& self) { return "Polytope(of " + std::to_string(self.points().size()) + " points)"; });
+      .def("__repr__", [](const py::object& self) {
+        const auto points = self.cast<const Polytope&>().points();
+        if (points.size() > kMostInText) return call_text(self, points.size(), "points");
+        py::list rows;
+        for (const Vector3& point : points) rows.append(plain(point));
+        return call_text(self, {"points"}, py::make_tuple(rows));
+      });
   // == does not compare arrays by value. It does compare their bytes.
   bind_value(
       type, [](const std::shared_ptr<Polytope>& self) { return py::make_tuple(points_of(*self).attr("tobytes")()); },

@@ -8,7 +8,6 @@
 #include <pybind11/pybind11.h>
 
 #include <exception>
-#include <optional>
 
 namespace supernormal::python {
 
@@ -33,19 +32,33 @@ inline bool has_the_lock() {
   return own != nullptr && own == pybind11::detail::get_thread_state_unchecked();
 }
 
+/// Python's state of this thread. A thread that Python did not start gets one at its first call and keeps it: each creation is a
+/// risk while the interpreter ends.
+PyThreadState* state_of_this_thread();
+
 /// Like pybind11::gil_scoped_acquire: holds the lock during its lifetime.
 class HoldingTheLock {
  public:
   HoldingTheLock() {
     // The thread that ends the interpreter already holds the lock when it destroys the program's objects.
     if (has_the_lock()) return;
-    // For a thread without a state, pybind11 creates one in an interpreter that may be gone.
+    // The state comes first: once the interpreter has ended there is none. PyEval_RestoreThread() sees the end, and reads no state
+    // then.
+    PyThreadState* const state = state_of_this_thread();
     if (Py_IsInitialized() == 0) wait_for_the_end_of_the_process();
-    outlive_the_interpreter([this] { lock_.emplace(); });
+    outlive_the_interpreter([state] { PyEval_RestoreThread(state); });
+    acquired_ = true;
+  }
+  HoldingTheLock(const HoldingTheLock&) = delete;
+  HoldingTheLock& operator=(const HoldingTheLock&) = delete;
+  HoldingTheLock(HoldingTheLock&&) = delete;
+  HoldingTheLock& operator=(HoldingTheLock&&) = delete;
+  ~HoldingTheLock() {
+    if (acquired_) PyEval_SaveThread();
   }
 
  private:
-  std::optional<pybind11::gil_scoped_acquire> lock_;
+  bool acquired_ = false;
 };
 
 /// Like pybind11::gil_scoped_release: releases the lock during its lifetime.

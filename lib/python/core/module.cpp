@@ -33,6 +33,7 @@ PYBIND11_MODULE(_core, m) {
   bind_shapes(m);
   bind_composed_shapes(m);
   bind_shape_sequence(m);
+  bind_descriptions(m);
   bind_proximity(m);
   bind_contact(m);
   bind_raycast(m);

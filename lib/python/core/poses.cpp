@@ -59,15 +59,6 @@ void refuse_two_orientations(bool rotation, bool quaternion) {
   if (rotation && quaternion) throw std::invalid_argument("rotation and quaternion are both given; give one of them");
 }
 
-Pose make_pose(const Vector3& position, const std::optional<Matrix3>& rotation, const std::optional<Eigen::Vector4d>& quaternion) {
-  refuse_two_orientations(rotation.has_value(), quaternion.has_value());
-  Pose pose;
-  pose.position = require_place({"position"}, position);
-  if (rotation) pose.rotation = require_rotation({"rotation"}, *rotation);
-  if (quaternion) pose.rotation = require_quaternion({"quaternion"}, quaternion->data());
-  return pose;
-}
-
 void require_as_many(const char* name, py::ssize_t count, py::ssize_t wanted) {
   if (count == wanted) return;
   throw std::invalid_argument(std::string(name) + " has " + std::to_string(count) + " entries and position " +
@@ -113,6 +104,17 @@ py::object are_equal(const Poses& self, const py::object& other) {
   return py::bool_(std::ranges::equal(self.poses, other.cast<const Poses&>().poses, is_same));
 }
 
+std::string text_of(const py::object& self) {
+  const std::vector<Pose>& poses = self.cast<const Poses&>().poses;
+  if (poses.size() > kMostInText) return call_text(self, poses.size(), "bodies");
+  py::list positions, rotations;
+  for (const Pose& pose : poses) {
+    positions.append(plain(pose.position));
+    rotations.append(plain(pose.rotation));
+  }
+  return call_text(self, {"position", "rotation"}, py::make_tuple(positions, rotations));
+}
+
 constexpr const char* kPoseDoc = R"(The position and orientation of a body: x_world = rotation @ x_body + position.
 
 position: (3,), m, each coordinate within 1e150.
@@ -127,6 +129,15 @@ position: (N, 3), m; rotation: (N, 3, 3) or None; quaternion: (N, 4), w, x, y, z
 as for Pose. A message names the entry.)";
 
 }  // namespace
+
+Pose make_pose(const Vector3& position, const std::optional<Matrix3>& rotation, const std::optional<Eigen::Vector4d>& quaternion) {
+  refuse_two_orientations(rotation.has_value(), quaternion.has_value());
+  Pose pose;
+  pose.position = require_place({"position"}, position);
+  if (rotation) pose.rotation = require_rotation({"rotation"}, *rotation);
+  if (quaternion) pose.rotation = require_quaternion({"quaternion"}, quaternion->data());
+  return pose;
+}
 
 void bind_poses(py::module_& m) {
   py::class_<Pose> pose(m, "Pose", kPoseDoc);
@@ -150,7 +161,7 @@ void bind_poses(py::module_& m) {
              return self.poses[i];
            })
       .def("__eq__", &are_equal, py::arg("other"))
-      .def("__repr__", [](const Poses& self) { return "Poses(of " + std::to_string(self.poses.size()) + " bodies)"; });
+      .def("__repr__", &text_of);
   bind_copies(
       poses, [](const std::shared_ptr<Poses>& self) { return py::make_tuple(positions_of(*self), rotations_of(*self)); },
       [](const py::tuple& of) {

@@ -12,6 +12,10 @@ std::string call_text(const py::handle& self, const std::vector<const char*>& na
   return text + ")";
 }
 
+std::string call_text(const py::handle& self, std::size_t count, const char* what) {
+  return py::type::of(self).attr("__name__").cast<std::string>() + "(of " + std::to_string(count) + " " + what + ")";
+}
+
 py::dict attributes_of(const py::handle& self) { return py::getattr(self, "__dict__", py::dict()); }
 
 }  // namespace supernormal::python

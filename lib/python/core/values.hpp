@@ -22,6 +22,12 @@ inline pybind11::tuple plain(const Eigen::Matrix3d& M) {
 /// "Sphere(radius=1.0)", with the class name of the object.
 std::string call_text(const pybind11::handle& self, const std::vector<const char*>& names, const pybind11::tuple& arguments);
 
+/// Longer lists have a text with their length only, which makes no object again. A program prints thousands by mistake.
+inline constexpr std::size_t kMostInText = 100;
+
+/// "Poses(of 1000 bodies)", with the class name of the object.
+std::string call_text(const pybind11::handle& self, std::size_t count, const char* what);
+
 /// The attributes that a program added to an object of its own subclass. Empty for our classes.
 pybind11::dict attributes_of(const pybind11::handle& self);
 

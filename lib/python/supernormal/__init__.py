@@ -40,6 +40,7 @@ from ._core import (
     Superellipsoid,
     Superovoid,
     Tessellation,
+    describe,
     find_contact_curvature,
     find_contact_manifold,
     find_curvature,
@@ -52,6 +53,8 @@ from ._core import (
     find_ray_hit,
     find_ray_hits,
     find_time_of_impact,
+    read_pose,
+    read_shape,
 )
 
 __all__ = [
@@ -84,6 +87,7 @@ __all__ = [
     "Superellipsoid",
     "Superovoid",
     "Tessellation",
+    "describe",
     "find_contact_curvature",
     "find_contact_manifold",
     "find_curvature",
@@ -96,4 +100,6 @@ __all__ = [
     "find_ray_hit",
     "find_ray_hits",
     "find_time_of_impact",
+    "read_pose",
+    "read_shape",
 ]

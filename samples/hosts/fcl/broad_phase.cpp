@@ -1,0 +1,193 @@
+// The core below a broad phase that exists: FCL's dynamic AABB tree. It takes bodies from text, moves them, and reports which
+// overlap.
+//   fcl_broad_phase_host [FILE]     lines of a shape and a pose, as describe() writes them; without FILE, 500 bodies are drawn
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <map>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "smooth_shape.hpp"
+
+namespace {
+
+using namespace supernormal;
+
+struct Placed {
+  std::shared_ptr<const Shape> shape;
+  Pose pose;
+};
+
+/// A body of each line. The text of a pose begins where the text of the shape ends.
+std::vector<Placed> read_bodies(std::istream& file) {
+  std::vector<Placed> bodies;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number) {
+    if (line.empty()) continue;
+    const std::size_t pose = line.rfind("Pose(");
+    if (pose == std::string::npos) throw std::invalid_argument("line " + std::to_string(number) + " has no Pose(…)");
+    try {
+      bodies.push_back({read_shape(line.substr(0, pose)), read_pose(line.substr(pose))});
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("line " + std::to_string(number) + ": " + error.what());
+    }
+  }
+  return bodies;
+}
+
+std::string text_of(const std::vector<Placed>& bodies) {
+  std::string text;
+  for (const Placed& body : bodies) text += describe(*body.shape) + " " + describe(body.pose) + "\n";
+  return text;
+}
+
+std::vector<Placed> draw_bodies(int count) {
+  const std::array<std::shared_ptr<const Shape>, 6> kinds = {
+      std::make_shared<Ellipsoid>(Vector3(0.5, 0.3, 0.2)),
+      std::make_shared<Superellipsoid>(Vector3(0.3, 0.3, 0.2), 6, 4),
+      std::make_shared<Superovoid>(Vector3(0.3, 0.3, 0.4), 2, 2, 0.3, 0.3),
+      std::make_shared<Box>(Vector3(0.4, 0.2, 0.1)),
+      std::make_shared<Rounded>(std::make_shared<Cylinder>(0.2, 0.2), 0.05),
+      std::make_shared<MinkowskiSum>(std::make_shared<Capsule>(0.1, 0.3), std::make_shared<Box>(Vector3(0.1, 0.1, 0))),
+  };
+  std::mt19937_64 engine(1);
+  std::uniform_real_distribution<double> uniform(-2.5, 2.5);
+  std::normal_distribution<double> gauss;
+  std::vector<Placed> bodies;
+  for (int k = 0; k < count; ++k) {
+    Pose pose;
+    pose.position = {uniform(engine), uniform(engine), uniform(engine)};
+    pose.rotation = Eigen::Quaterniond(gauss(engine), gauss(engine), gauss(engine), gauss(engine)).normalized().toRotationMatrix();
+    bodies.push_back({kinds[static_cast<std::size_t>(k) % kinds.size()], pose});
+  }
+  return bodies;
+}
+
+/// The bodies in FCL's tree, and the last normal of each pair.
+class Scene {
+ public:
+  explicit Scene(std::vector<Placed> bodies) : bodies_(std::move(bodies)) {
+    for (Placed& body : bodies_) {
+      auto object = std::make_unique<fcl::CollisionObjectd>(std::make_shared<fcl_host::SmoothShape>(body.shape));
+      object->setUserData(&body);
+      move(*object, body.pose);
+      tree_.registerObject(object.get());
+      objects_.push_back(std::move(object));
+    }
+    tree_.setup();
+  }
+
+  /// Rotates every body by a small angle about the vertical axis through the origin, the faster the farther outside.
+  void stir(double angle) {
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      Pose& pose = bodies_[k].pose;
+      const Matrix3 turn = Eigen::AngleAxisd(angle * pose.position.norm(), Vector3::UnitZ()).toRotationMatrix();
+      pose = {turn * pose.position, turn * pose.rotation};
+      move(*objects_[k], pose);
+    }
+    tree_.update();
+  }
+
+  void collide() {
+    pairs = overlaps = evaluations = 0;
+    deepest = 0;
+    tree_.collide(this, [](fcl::CollisionObjectd* one, fcl::CollisionObjectd* other, void* scene) {
+      static_cast<Scene*>(scene)->collide(*static_cast<Placed*>(one->getUserData()), *static_cast<Placed*>(other->getUserData()));
+      return false;  // go on
+    });
+  }
+
+  const std::vector<Placed>& bodies() const { return bodies_; }
+
+  int pairs = 0, overlaps = 0, evaluations = 0;
+  double deepest = 0;  // m
+
+ private:
+  static void move(fcl::CollisionObjectd& object, const Pose& pose) {
+    object.setTransform(pose.rotation, pose.position);
+    object.computeAABB();
+  }
+
+  void collide(const Placed& one, const Placed& other) {
+    const Placed* const first = std::min(&one, &other);
+    const Placed* const second = std::max(&one, &other);
+    // The normal of the last step, in the frame of the first body, is where this query starts. Who only asks about overlaps stops
+    // at the first normal that separates.
+    const auto known = normals_.find({first, second});
+    const Vector3* const start = known == normals_.end() ? nullptr : &known->second;
+    const Settings settings{.stop_when_apart = true};
+    const Proximity found = find_proximity(*first->shape, first->pose, *second->shape, second->pose, settings, start);
+    normals_[{first, second}] = first->pose.rotation.transpose() * found.normal;
+    ++pairs;
+    evaluations += found.evaluations;
+    if (found.gap < 0) ++overlaps;
+    deepest = std::max(deepest, -found.gap);
+  }
+
+  std::vector<Placed> bodies_;
+  std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_;
+  fcl::DynamicAABBTreeCollisionManagerd tree_;
+  std::map<std::pair<const Placed*, const Placed*>, Vector3> normals_;
+};
+
+/// Overlaps without a broad phase: every pair.
+int count_overlaps(const std::vector<Placed>& bodies) {
+  int overlaps = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto found =
+          find_proximity(*bodies[i].shape, bodies[i].pose, *bodies[j].shape, bodies[j].pose, {.stop_when_apart = true});
+      if (found.gap < 0) ++overlaps;
+    }
+  }
+  return overlaps;
+}
+
+int run(int count, char** arguments) {
+  std::vector<Placed> bodies;
+  if (count > 1) {
+    std::ifstream file(arguments[1]);
+    if (!file) throw std::invalid_argument(std::string("cannot read ") + arguments[1]);
+    bodies = read_bodies(file);
+  } else {
+    bodies = draw_bodies(500);
+  }
+  Scene scene(bodies);
+  for (int step = 0; step < 5; ++step) {
+    scene.collide();
+    std::printf("step %d: %d of %zu pairs have boxes that meet, %d overlap, the deepest by %.4f m; %.2f evaluations a pair\n", step,
+                scene.pairs, bodies.size() * (bodies.size() - 1) / 2, scene.overlaps, scene.deepest,
+                double(scene.evaluations) / scene.pairs);
+    if (step < 4) scene.stir(0.002);
+  }
+  // The scene travels: a process that reads this text has the same bodies at the same places.
+  const std::string text = text_of(scene.bodies());
+  std::istringstream stream(text);
+  const std::vector<Placed> again = read_bodies(stream);
+  bool is_same = again.size() == bodies.size() && text_of(again) == text;
+  for (std::size_t k = 0; k < again.size() && is_same; ++k) {
+    is_same = *again[k].shape == *scene.bodies()[k].shape && again[k].pose == scene.bodies()[k].pose;
+  }
+  const int every_pair = count_overlaps(again);
+  std::printf("%zu bytes of text %s; without the tree %d pairs overlap\n", text.size(),
+              is_same ? "read back as the same scene" : "DIFFER", every_pair);
+  return is_same && every_pair == scene.overlaps && scene.overlaps > 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  try {
+    return run(count, arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "fcl_broad_phase_host: %s\n", error.what());
+    return 2;
+  }
+}
