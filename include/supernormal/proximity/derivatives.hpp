@@ -81,4 +81,10 @@ SUPERNORMAL_API ProximityDerivatives find_proximity_derivatives(const Shape& sha
                                                                 const Pose& pose2, const Proximity& proximity,
                                                                 const DerivativeSettings& settings = {});
 
+/// The derivatives of find_plane_proximity(). Body 2 is the half-space, and the origin of its frame the origin of the world: its
+/// twist moves the plane by v2 and rotates it about this origin by w2. Nothing is iterated, and `evaluations` is 0. The status is
+/// FreeOnFace if an edge or a face of the body lies on the plane. plane_normal and plane_offset as in find_plane_proximity().
+SUPERNORMAL_API ProximityDerivatives find_plane_derivatives(const Shape& shape, const Pose& pose, const Vector3& plane_normal,
+                                                            double plane_offset, const DerivativeSettings& settings = {});
+
 }  // namespace supernormal

@@ -20,9 +20,6 @@ constexpr double kLargestStep = 1e-7;
 
 constexpr int kMaxEvaluations = 8;
 
-// In units of the last place of the bodies' sizes: vertices whose heights along a normal differ by less are tied.
-constexpr double kTieUnits = 32;
-
 // The weight of a vertex in a witness point, and the distance of a point from the border of its face, relative to the face: less is
 // rounding.
 constexpr double kNoWeight = 1e-9;

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "proximity/derivatives/common_normal.hpp"
+#include "proximity/limits.hpp"
 #include "proximity/usable_pose.hpp"
+#include "supernormal/proximity/plane.hpp"
 
 namespace supernormal {
 namespace {
@@ -159,6 +162,27 @@ void add_parameters(const GapFunction& gap, const Vector3& n, const Vector3& poi
   out.parameters2.scale(-1);
 }
 
+void write_jacobians(const TangentResponse& response, const WorldNormal& at, const DerivativeSettings& settings,
+                     ProximityDerivatives& out) {
+  const Jacobians jacobians(response, at);
+  out.normal = jacobians.normal();
+  out.point1 = jacobians.point1();
+  out.point2 = jacobians.point2();
+  if (settings.hessian) out.gap_hessian = jacobians.hessian();
+}
+
+/// Whether several vertices of a body share the tangent plane with this normal.
+bool rests_on_edge(const Shape& shape, const Vector3& n, const Jet& jet) {
+  if (!shape.traits().has_nonsmooth_points) return false;
+  ActiveVertices vertices;
+  shape.add_active_vertices(n, jet.r, vertices);
+  const double rounding = kTieUnits * std::numeric_limits<double>::epsilon() * shape.bounding_radius();
+  for (int k = 0; k < vertices.size(); ++k) {
+    if (jet.h - n.dot(vertices[k]) <= rounding && (vertices[k] - jet.r).norm() > rounding) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 // The answer's witness points are any points of flat faces. On the line between them, the point beside the contact is opposite the
@@ -205,12 +229,46 @@ ProximityDerivatives find_proximity_derivatives(const Shape& shape1, const Pose&
   out.common_normal = at.n;
   out.gap_gradient = gradient_of(at.n, at.p1, at.p2);
   if (settings.parameters) add_parameters(gap, common.normal(), common.point1(), common.lever2(), out);
-  if (!out.has_normal) return out;
-  const Jacobians jacobians(common.response(), at);
-  out.normal = jacobians.normal();
-  out.point1 = jacobians.point1();
-  out.point2 = jacobians.point2();
-  if (settings.hessian) out.gap_hessian = jacobians.hessian();
+  if (out.has_normal) write_jacobians(common.response(), at, settings, out);
+  return out;
+}
+
+// The plane is a face of body 2 that has no border: the normal rotates with it, and its radii of curvature are infinite.
+ProximityDerivatives find_plane_derivatives(const Shape& shape, const Pose& pose, const Vector3& plane_normal, double plane_offset,
+                                            const DerivativeSettings& settings) {
+  ProximityDerivatives out;
+  const Proximity answer = find_plane_proximity(shape, pose, plane_normal, plane_offset);
+  if (answer.status == Status::InvalidInput) return out;
+  out.common_normal = answer.normal;
+  out.gap_gradient = find_gap_gradient(pose, {}, answer);
+  const Vector3 own = pose.rotation.transpose() * answer.normal;
+  Jet jet;
+  shape.evaluate(own, shape.traits().has_hessian ? Order::Hessian : Order::Point, jet);
+  if (settings.parameters) {
+    shape.add_parameter_gradient(own, jet.r, out.parameters1);
+    out.parameters1.scale(-1);
+  }
+  const double unit = shape.half_extents().minCoeff();
+  BodyCurvature body, plane;
+  out.status = DerivativeStatus::NoHessian;
+  if (shape.traits().has_hessian) {
+    if (!all_finite(jet.H)) return {};
+    const TangentPlane tangent = TangentPlane::along_flattest(own, jet.H);
+    body.A = Symmetric2::project(tangent, jet.H);
+    const bool is_flat = body.A.trace() > limits::kFlattest * unit || rests_on_edge(shape, own, jet);
+    out.status = is_flat ? DerivativeStatus::FreeOnFace : DerivativeStatus::Smooth;
+    set_flags(out);
+    if (is_flat) return out;
+    plane.flatten(Vector2::UnitX());
+    plane.flatten(Vector2::UnitY());
+    const WorldNormal at{answer.normal,
+                         {pose.rotation * tangent.t1, pose.rotation * tangent.t2},
+                         answer.point1 - pose.position,
+                         answer.point2,
+                         answer.gap};
+    write_jacobians(TangentResponse::of(body, plane, answer.gap, unit), at, settings, out);
+  }
+  set_flags(out);
   return out;
 }
 
