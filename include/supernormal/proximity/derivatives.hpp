@@ -72,7 +72,7 @@ struct ProximityDerivatives {
 /// the local maximum of the answer. Where bodies have faces or edges the set of active vertices is kept, so the derivatives are
 /// exact while the contact stays on its face, edge or vertex.
 ///
-/// Newton's method first brings the answer's normal to rounding, with two evaluations as a rule and at most eight. All is computed
+/// Newton's method first brings the answer's normal to rounding, with two evaluations as a rule and at most 32. All is computed
 /// in body 1's frame, so a large distance from the world's origin costs no digits.
 ///
 /// The relative error is about 1e-7 or less, as long as the radii of curvature of the Minkowski difference differ by less than 1e9.
