@@ -270,7 +270,7 @@ typedef enum snDerivativeStatus SN_ENUM_BASE {
 /** A parameter of a geom, and the derivative of the gap by it. */
 typedef struct snParameter {
   const char* name; /**< as of the C++ class: "a", "b", "c", "delta", "epsilon", "taper_x", "taper_y", "radius", "half_length"; for
-                       a dBox, dCapsule and dCylinder half-lengths. The radius after other parameters is the rounding */
+                       a dBox, dCapsule and dCylinder half-lengths. A radius after other parameters is the rounding */
   dReal value;      /**< m/m for a length, m for an exponent or a taper */
 } snParameter;
 
@@ -298,11 +298,11 @@ typedef struct snDerivatives {
 /** The gradient of the gap by both twists, as in snDerivatives: (-n, -P1 x n, n, P2 x n) with P1 and P2 from the positions of the
  * geoms to the point midway between `at->point1` and `at->point2`, across n. It evaluates nothing. `at` is the answer of
  * snGeomProximity or snGeomProximityCertified for the same geoms in the same order and poses, and the error is its error. The geoms
- * are those of snGeomProximity. Returns 1; 0 (and snLastError) if an argument is refused. */
+ * are the geoms of snGeomProximity. Returns 1; 0 (and snLastError) if an argument is refused. */
 SUPERNORMAL_API int snGeomGapGradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal gradient[12]);
 
 /** All derivatives at the answer `at`, in closed form: its normal is first brought to rounding, with about two evaluations. The
- * geoms are those of snGeomProximity without dTriMesh and dHeightfield. `at` as for snGeomGapGradient. Returns 1; 0 (and
+ * geoms are the geoms of snGeomProximity, without dTriMesh and dHeightfield. `at` as for snGeomGapGradient. Returns 1; 0 (and
  * snLastError) if the pair is not supported, or an argument, a pose or a length is not finite. */
 SUPERNORMAL_API int snGeomDerivatives(dGeomID g1, dGeomID g2, const snProximity* at, snDerivatives* out);
 
@@ -324,8 +324,8 @@ SUPERNORMAL_API int snGeomClearance(dGeomID g1, dGeomID g2, dReal enough, int ma
 /** Returns 1 if it is proved that the gap is larger than `distance` (m, finite; negative: that they overlap by less), with one
  * evaluation as a rule. Otherwise returns 0: if the gap is not larger, to a tolerance of 1e-9 of the smallest half-extent, and if
  * the call is refused (snLastError). So geoms that were not examined count as near. `normal`, if not NULL, is the first normal to
- * try (from g1 to g2, world frame), unless it is 0. It receives the best normal for the next call. The geoms are those of
- * snGeomProximity. */
+ * try (from g1 to g2, world frame), unless it is 0. It receives the best normal for the next call. The geoms are the geoms
+ * of snGeomProximity. */
 SUPERNORMAL_API int snGeomIsFartherThan(dGeomID g1, dGeomID g2, dReal distance, dVector3 normal);
 
 /* --- many pairs at once ------------------------------------------------------------------------------------------------ */
