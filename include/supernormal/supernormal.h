@@ -176,7 +176,6 @@ typedef enum snSolver SN_ENUM_BASE {
   SN_SOLVER_NEWTON,     /**< Newton's method as published, without safeguards; needs Hessians */
   SN_SOLVER_FIXED_POINT /**< the fixed point as published, without derivatives and safeguards */
 } snSolver;
-#undef SN_ENUM_BASE
 
 /** tolerance: the largest error of the gap, relative to the smallest half-extent of the two bodies, in [1e-15, 1]; default 1e-9.
  * max_evaluations: how often a query may evaluate the gap function, in [1, 1000000]; default 1000. A pair uses the tighter
@@ -270,6 +269,85 @@ typedef struct snImpact {
  * behind it. A dRay is a segment. Returns 1; 0 (and snLastError) if the pair is not supported, the horizon is out of range, or a
  * pose, velocity or length is not finite. */
 SUPERNORMAL_API int snGeomTimeOfImpact(dGeomID g1, dGeomID g2, dReal horizon, snImpact* out);
+
+/* --- how the answer changes -------------------------------------------------------------------------------------------- */
+
+/** Why derivatives of a pair exist or not (lib/proximity/README.md, "How the answer changes"). */
+typedef enum snDerivativeStatus SN_ENUM_BASE {
+  SN_DERIVATIVES_SMOOTH,             /**< all derivatives are defined */
+  SN_DERIVATIVES_ACTIVE_SET,         /**< all are defined while point1 and point2 stay on their face, edge or vertex */
+  SN_DERIVATIVES_DEGENERATE,         /**< a point is at the border of its face or edge: only the gradient of the gap is defined */
+  SN_DERIVATIVES_FREE_ON_FACE,       /**< faces or edges share more than a point: only derivatives by v of the gap are defined */
+  SN_DERIVATIVES_SINGULAR_CURVATURE, /**< the normal may not be unique, as between two vertices */
+  SN_DERIVATIVES_SEVERAL_MAXIMA,     /**< the opposite normal has the same gap */
+  SN_DERIVATIVES_NO_HESSIAN,         /**< a body of snCreateConvex has no Hessian: only the gradient of the gap is known */
+  SN_DERIVATIVES_NOT_CONVERGED       /**< the normal of the answer is not a common normal */
+} snDerivativeStatus;
+#undef SN_ENUM_BASE
+
+/** The largest number of parameters of a geom. */
+#define SN_MAX_PARAMETERS 16
+
+/** A parameter of a geom, and the derivative of the gap by it. */
+typedef struct snParameter {
+  const char* name; /**< as of the C++ class: "a", "b", "c", "delta", "epsilon", "taper_x", "taper_y", "radius", "half_length"; for
+                       a dBox, dCapsule and dCylinder half-lengths. A radius after other parameters is the rounding */
+  dReal value;      /**< m/m for a length, m for an exponent or a taper */
+} snParameter;
+
+/** Derivatives of the answer to a query of two geoms. The columns are the components of two twists, (v1, w1, v2, w2), three each,
+ * in the world frame. A twist moves the geom by v (m) and rotates it by w (rad) about dGeomGetPosition(geom). So for a geom with
+ * an offset this is not the centre of mass of its body. A dPlane moves and rotates about the origin of the world. What is not
+ * defined is 0, and nothing is NaN. */
+typedef struct snDerivatives {
+  snDerivativeStatus status;                 /**< says why a flag is 0 */
+  int has_gap;                               /**< 1: the gap is differentiable; otherwise `gap` is one of its subgradients */
+  int has_normal;                            /**< 1: the normal is differentiable, and the gap twice */
+  int has_points;                            /**< 1: point1 and point2 are differentiable */
+  dReal gap[12];                             /**< m/m and m/rad; d gap / d v2 is the normal */
+  dReal normal[3][12];                       /**< 1/m and 1/rad */
+  dReal point1[3][12];                       /**< m/m and m/rad; the point of space, not of the material */
+  dReal point2[3][12];                       /**< m/m and m/rad */
+  dReal gap_hessian[12][12];                 /**< m/(m m), m/(m rad) and m/(rad rad); symmetric */
+  int parameters1;                           /**< number of parameters of g1; 0 for a geom without any, such as a dConvex */
+  int parameters2;                           /**< number of parameters of g2 */
+  snParameter parameter1[SN_MAX_PARAMETERS]; /**< d gap / d parameter of g1 */
+  snParameter parameter2[SN_MAX_PARAMETERS]; /**< d gap / d parameter of g2 */
+  int evaluations;                           /**< evaluations of the gap function; 0 with a dPlane */
+} snDerivatives;
+
+/** The gradient of the gap by both twists, as in snDerivatives: (-n, -P1 x n, n, P2 x n) with P1 and P2 from the positions of the
+ * geoms to the point midway between `at->point1` and `at->point2`, across n. It evaluates nothing. `at` is the answer of
+ * snGeomProximity or snGeomProximityCertified for the same geoms in the same order and poses, and the error is its error. The geoms
+ * are the geoms of snGeomProximity. Returns 1; 0 (and snLastError) if an argument is refused. */
+SUPERNORMAL_API int snGeomGapGradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal gradient[12]);
+
+/** All derivatives at the answer `at`, in closed form: its normal is first brought to rounding, with about two evaluations. The
+ * geoms are the geoms of snGeomProximity, without dTriMesh and dHeightfield. `at` as for snGeomGapGradient. Returns 1; 0 (and
+ * snLastError) if the pair is not supported, or an argument, a pose or a length is not finite. */
+SUPERNORMAL_API int snGeomDerivatives(dGeomID g1, dGeomID g2, const snProximity* at, snDerivatives* out);
+
+/* --- whether there is room --------------------------------------------------------------------------------------------- */
+
+/** A proved lower bound of the gap. */
+typedef struct snClearance {
+  dReal lower_bound; /**< m; the gap is at least this */
+  dVector3 normal;   /**< unit, from g1 to g2, world frame; it gives the bound */
+  int evaluations;   /**< evaluations of the gap function */
+} snClearance;
+
+/** A lower bound of the gap from at most max_evaluations evaluations, in [1, 3]. It ends at the first normal whose bound is above
+ * `enough` (m; dInfinity: the best bound). Bounding spheres come first and take no evaluation. For a dPlane, dTriMesh or
+ * dHeightfield the bound is the gap of snGeomProximity less its error, whatever max_evaluations is. Returns 1; 0 (and snLastError)
+ * if refused. */
+SUPERNORMAL_API int snGeomClearance(dGeomID g1, dGeomID g2, dReal enough, int max_evaluations, snClearance* out);
+
+/** Returns 1 if it is proved that the gap is larger than `distance` (m, finite; negative: that they overlap by less), with one
+ * evaluation as a rule. Otherwise returns 0: if the gap is not larger, to a tolerance of 1e-9 of the smallest half-extent, and if
+ * the call is refused (snLastError). So geoms that were not examined count as near. `normal`, if not NULL, is the first normal to
+ * try (from g1 to g2, world frame), unless it is 0. It receives the best normal for the next call. The geoms are the geoms
+ * of snGeomProximity. */
+SUPERNORMAL_API int snGeomIsFartherThan(dGeomID g1, dGeomID g2, dReal distance, dVector3 normal);
 
 /* --- many pairs at once ------------------------------------------------------------------------------------------------ */
 

@@ -7,7 +7,8 @@
 ///     two bodies   find_proximity(): signed distance, common normal, witness points, contact point; certify_depth proves the
 ///                  depth. A Sphere of radius 0 is a point, a Polytope of three points a triangle
 ///     clearance    is_farther_than(), are_farther_than(), find_clearance(): proofs of a distance at the least cost
-///     derivatives  find_proximity_derivatives(), find_gap_gradient(): how gap, normal and points change with poses and parameters
+///     derivatives  find_proximity_derivatives(), find_plane_derivatives(), find_gap_gradient(): how gap, normal and points change
+///                  with poses and parameters
 ///     many pairs   find_proximities(): the same answers; many ellipsoids and superellipsoids together cost less
 ///     over time    least_gap_after(): what a motion has left of a proved gap, without a query
 ///     others       find_plane_proximity(), find_ray_hit(), find_ray_proximity(), MeshContacts, find_nearest_triangle()

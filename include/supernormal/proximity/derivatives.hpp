@@ -72,7 +72,7 @@ struct ProximityDerivatives {
 /// the local maximum of the answer. Where bodies have faces or edges the set of active vertices is kept, so the derivatives are
 /// exact while the contact stays on its face, edge or vertex.
 ///
-/// Newton's method first brings the answer's normal to rounding, with two evaluations as a rule and at most eight. All is computed
+/// Newton's method first brings the answer's normal to rounding, with two evaluations as a rule and at most 32. All is computed
 /// in body 1's frame, so a large distance from the world's origin costs no digits.
 ///
 /// The relative error is about 1e-7 or less, as long as the radii of curvature of the Minkowski difference differ by less than 1e9.
@@ -80,5 +80,11 @@ struct ProximityDerivatives {
 SUPERNORMAL_API ProximityDerivatives find_proximity_derivatives(const Shape& shape1, const Pose& pose1, const Shape& shape2,
                                                                 const Pose& pose2, const Proximity& proximity,
                                                                 const DerivativeSettings& settings = {});
+
+/// The derivatives of find_plane_proximity(). Body 2 is the half-space, and the origin of its frame the origin of the world: its
+/// twist moves the plane by v2 and rotates it about this origin by w2. Nothing is iterated, and `evaluations` is 0. The status is
+/// FreeOnFace if an edge or a face of the body lies on the plane. plane_normal and plane_offset as in find_plane_proximity().
+SUPERNORMAL_API ProximityDerivatives find_plane_derivatives(const Shape& shape, const Pose& pose, const Vector3& plane_normal,
+                                                            double plane_offset, const DerivativeSettings& settings = {});
 
 }  // namespace supernormal

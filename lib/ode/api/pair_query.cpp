@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "ode/api/two_geoms.hpp"
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/impact.hpp"
 #include "ode/colliders/no_answer.hpp"
@@ -17,22 +18,6 @@
 
 namespace supernormal::ode {
 namespace {
-
-// The result of the core for two geoms. Body 1 is ours.
-Proximity query(dGeomID ours, dGeomID collider, QueryKind kind) {
-  require_body(ours);
-  PairQuery* const pair_query = find_query(dGeomGetClass(collider));
-  if (pair_query == nullptr) {
-    throw std::invalid_argument(
-        "the collider is " + geom_class_name(collider) +
-        ", but must be a body made by snCreate… or one of ODE's own geoms (not a space, not a dGeomTransform)");
-  }
-  Proximity result = pair_query(ours, collider, kind).deepest;
-  if (result.status == Status::InvalidInput || !std::isfinite(result.gap)) {
-    refuse_pair(ours, collider);
-  }
-  return result;
-}
 
 void write(const Proximity& proximity, bool swapped, snProximity& out) {
   out.gap = to_real(proximity.gap);
@@ -72,38 +57,47 @@ void require_velocities_in_range(dGeomID geom, double horizon) {
   }
 }
 
-void require_two(dGeomID g1, dGeomID g2, const void* out) {
-  require_not_null("g1", g1);
-  require_not_null("g2", g2);
-  require_not_null("out", out);
-  if (g1 == g2) throw std::invalid_argument("g1 and g2 are the same geom, but must be two");
-}
-
 int answer_query(const char* function, dGeomID g1, dGeomID g2, QueryKind kind, snProximity* out) {
   return guarded(function, 0, [&] {
-    require_two(g1, g2, out);
-    const bool swapped = find_body(g1) == nullptr;
-    write(swapped ? query(g2, g1, kind) : query(g1, g2, kind), swapped, *out);
+    const TwoGeoms geoms(g1, g2, out);
+    write(find_proximity_of(geoms, kind), geoms.is_swapped, *out);
     return 1;
   });
 }
 
 int answer_impact(dGeomID g1, dGeomID g2, double horizon, snImpact* out) {
   return guarded("snGeomTimeOfImpact", 0, [&] {
-    require_two(g1, g2, out);
+    const TwoGeoms geoms(g1, g2, out);
     require_in("horizon", horizon, 0, kMaxHorizon, "s");
     require_velocities_in_range(g1, horizon);
     require_velocities_in_range(g2, horizon);
-    const bool swapped = find_body(g1) == nullptr;
-    const dGeomID ours = swapped ? g2 : g1, collider = swapped ? g1 : g2;
-    const Impact impact = find_impact(ours, collider, horizon);
-    if (impact.status == ImpactStatus::InvalidInput) refuse_pair(ours, collider);
-    write(impact, swapped, *out);
+    const Impact impact = find_impact(geoms.ours, geoms.collider, horizon);
+    if (impact.status == ImpactStatus::InvalidInput) refuse_pair(geoms.ours, geoms.collider);
+    write(impact, geoms.is_swapped, *out);
     return 1;
   });
 }
 
 }  // namespace
+
+TwoGeoms::TwoGeoms(dGeomID g1, dGeomID g2, const void* out) : ours(g1), collider(g2), is_swapped(false) {
+  require_not_null("g1", g1);
+  require_not_null("g2", g2);
+  require_not_null("out", out);
+  if (g1 == g2) throw std::invalid_argument("g1 and g2 are the same geom, but must be two");
+  is_swapped = find_body(g1) == nullptr;
+  if (is_swapped) std::swap(ours, collider);
+}
+
+Proximity find_proximity_of(const TwoGeoms& geoms, QueryKind kind) {
+  require_body(geoms.ours);
+  PairQuery* const query = find_query(dGeomGetClass(geoms.collider));
+  if (query == nullptr) refuse_class(geoms.collider);
+  const Proximity result = query(geoms.ours, geoms.collider, kind).deepest;
+  if (result.status == Status::InvalidInput || !std::isfinite(result.gap)) refuse_pair(geoms.ours, geoms.collider);
+  return result;
+}
+
 }  // namespace supernormal::ode
 
 using namespace supernormal::ode;

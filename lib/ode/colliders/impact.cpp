@@ -2,11 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include "ode/colliders/convex/convex_vertices.hpp"
 #include "ode/colliders/convex/shape_of.hpp"
+#include "ode/colliders/no_answer.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/geom/geom_class.hpp"
@@ -96,9 +95,7 @@ Impact find_impact(dGeomID ours, dGeomID collider, double horizon) {
     case dHeightfieldClass:
       return find_heightfield_impact(ours, collider, horizon);
     default:
-      throw std::invalid_argument(
-          "the collider is " + geom_class_name(collider) +
-          ", but must be a body made by snCreate… or one of ODE's own geoms (not a space, not a dGeomTransform)");
+      refuse_class(collider);
   }
 }
 

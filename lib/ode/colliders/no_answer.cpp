@@ -30,4 +30,10 @@ void refuse_pair(dGeomID ours, dGeomID collider) {
                               " and its pose, or what a user-defined body returned, are not finite");
 }
 
+void refuse_class(dGeomID collider) {
+  throw std::invalid_argument(
+      "the collider is " + geom_class_name(collider) +
+      ", but must be a body made by snCreate… or one of ODE's own geoms (not a space, not a dGeomTransform)");
+}
+
 }  // namespace supernormal::ode

@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "proximity/derivatives/common_normal.hpp"
+#include "proximity/limits.hpp"
 #include "proximity/usable_pose.hpp"
+#include "supernormal/proximity/plane.hpp"
 
 namespace supernormal {
 namespace {
-
-using Row = Eigen::Matrix<double, 1, 12>;
 
 // The columns of the twists.
 constexpr int kV1 = 0, kW1 = 3, kV2 = 6, kW2 = 9;
@@ -31,97 +32,81 @@ TwistVector gradient_of(const Vector3& n, const Vector3& p1, const Vector3& p2) 
   return gradient;
 }
 
-/// The derivatives of a common normal and its witness points, in components across the normal.
+/// M [p], where [p] w = p x w.
+Matrix3 times_cross(const Matrix3& M, const Vector3& p) {
+  Matrix3 out;
+  out.col(0) = p.z() * M.col(1) - p.y() * M.col(2);
+  out.col(1) = p.x() * M.col(2) - p.z() * M.col(0);
+  out.col(2) = p.y() * M.col(0) - p.x() * M.col(1);
+  return out;
+}
+
+/// [p] M.
+TwistJacobian cross_times(const Vector3& p, const TwistJacobian& M) {
+  TwistJacobian out;
+  out.row(0) = p.y() * M.row(2) - p.z() * M.row(1);
+  out.row(1) = p.z() * M.row(0) - p.x() * M.row(2);
+  out.row(2) = p.x() * M.row(1) - p.y() * M.row(0);
+  return out;
+}
+
+/// A map of the tangent plane as a map of space.
+Matrix3 lifted(const Matrix2& M, const std::array<Vector3, 2>& t) {
+  const Vector3 first = M(0, 0) * t[0] + M(1, 0) * t[1], second = M(0, 1) * t[0] + M(1, 1) * t[1];
+  return first * t[0].transpose() + second * t[1].transpose();
+}
+
+/// The motion of a point p of the body: v + w x p.
+void add_rigid(const Vector3& p, int v, TwistJacobian& J) {
+  const int w = v + 3;
+  for (int i = 0; i < 3; ++i) J(i, v + i) += 1;
+  J(0, w + 1) += p.z();
+  J(0, w + 2) -= p.y();
+  J(1, w) -= p.z();
+  J(1, w + 2) += p.x();
+  J(2, w) += p.y();
+  J(2, w + 1) -= p.x();
+}
+
+/// n.(w x (w x p)), the second derivative at a fixed normal.
+void add_rotation(const Vector3& n, const Vector3& p, double sign, int w, TwistHessian& H) {
+  const Vector3 half = 0.5 * sign * p;
+  H.block<3, 3>(w, w) += half * n.transpose() + n * half.transpose();
+  H.block<3, 3>(w, w).diagonal().array() -= sign * p.dot(n);
+}
+
+/// The derivatives of a common normal, its witness points and the gradient of the gap.
 ///
 /// A point that follows the motion of its body differs from the witness point by H times the tilt of the normal in the frame of the
 /// body. In the frame of body 1 only the relative motion counts, so H1 times the tilt has no difference of large numbers, as flat
 /// as body 1 may be; the same holds for body 2.
-class Jacobians {
- public:
-  Jacobians(const TangentResponse& response, const WorldNormal& at) : at_(at) {
-    const Vector3 opposite1 = at.p1 + at.s * at.n;  // point 2 from body 1's origin
-    const Vector3 opposite2 = at.p2 - at.s * at.n;  // point 1 from body 2's origin
-    for (std::size_t j = 0; j < 2; ++j) {
-      lever1_[j] = at.t[j].cross(at.p1);
-      lever2_[j] = at.t[j].cross(at.p2);
-      across_[j] = at.t[j].cross(at.n);
-      opposite1_[j] = at.t[j].cross(opposite1);
-      opposite2_[j] = at.t[j].cross(opposite2);
-    }
-    const Matrix2& G = response.G;
-    const Matrix2 P1 = response.B1.transpose(), P2 = response.B2.transpose(), Wt = response.W.transpose();
-    for (int i = 0; i < 2; ++i) {
-      const auto sum = [i](const Matrix2& M, const std::array<Vector3, 2>& v) { return Vector3(M(i, 0) * v[0] + M(i, 1) * v[1]); };
-      const auto k = static_cast<std::size_t>(i);
-      const Vector3 tilt = sum(G, at.t), follow1 = sum(P1, at.t), follow2 = sum(P2, at.t);
-      const Vector3 turn = sum(response.W, across_), turn_back = sum(Wt, across_);
-      normal_[k] << -tilt.transpose(), (sum(G, lever1_) - sum(response.B1, across_)).transpose(), tilt.transpose(),
-          (-sum(G, lever2_) - sum(response.B2, across_)).transpose();
-      point1_[k] << -follow1.transpose(), (sum(P1, opposite1_) + turn).transpose(), follow1.transpose(),
-          (-sum(P1, lever2_) - turn).transpose();
-      point2_[k] << follow2.transpose(), (-sum(P2, lever1_) + turn_back).transpose(), -follow2.transpose(),
-          (sum(P2, opposite2_) - turn_back).transpose();
-    }
-  }
-
-  TwistJacobian normal() const { return lift(normal_); }
-
-  TwistJacobian point1() const {
-    TwistJacobian J = lift(point1_);
-    add_rigid(at_.p1, kV1, J);
-    return J;
-  }
-
-  TwistJacobian point2() const {
-    TwistJacobian J = lift(point2_);
-    add_rigid(at_.p2, kV2, J);
-    return J;
-  }
-
-  /// The derivative of the gradient. The second derivative along a rotation vector w of exp([w]) R is its symmetric part.
-  TwistHessian hessian() const {
-    TwistHessian H;
-    const TwistJacobian N = normal();
-    H.middleRows<3>(kV1) = -N;
-    H.middleRows<3>(kV2) = N;
-    H.middleRows<3>(kW1).noalias() =
-        lever1_[0] * normal_[0] + lever1_[1] * normal_[1] - across_[0] * point1_[0] - across_[1] * point1_[1];
-    H.middleRows<3>(kW2).noalias() =
-        across_[0] * point2_[0] + across_[1] * point2_[1] - lever2_[0] * normal_[0] - lever2_[1] * normal_[1];
-    add_rotation(at_.p1, -1, kW1, H);
-    add_rotation(at_.p2, 1, kW2, H);
+void write_jacobians(const TangentResponse& response, const WorldNormal& at, const DerivativeSettings& settings,
+                     ProximityDerivatives& out) {
+  const Matrix3 G = lifted(response.G, at.t), B1 = lifted(response.B1, at.t), B2 = lifted(response.B2, at.t);
+  const Matrix3 W = lifted(response.W, at.t), turn = times_cross(W, at.n), turn_back = times_cross(W.transpose(), at.n);
+  const Vector3 opposite1 = at.p1 + at.s * at.n;  // point 2 from body 1's origin
+  const Vector3 opposite2 = at.p2 - at.s * at.n;  // point 1 from body 2's origin
+  const Matrix3 follow1 = B1.transpose(), follow2 = B2.transpose();
+  out.normal << -G, times_cross(G, at.p1) - times_cross(B1, at.n), G, -times_cross(G, at.p2) - times_cross(B2, at.n);
+  // The points without the motion of their body.
+  out.point1 << -follow1, times_cross(follow1, opposite1) + turn, follow1, -times_cross(follow1, at.p2) - turn;
+  out.point2 << follow2, turn_back - times_cross(follow2, at.p1), -follow2, times_cross(follow2, opposite2) - turn_back;
+  if (settings.hessian) {
+    // The derivative of the gradient. The second derivative along a rotation vector w of exp([w]) R is its symmetric part.
+    TwistHessian& H = out.gap_hessian;
+    H.middleRows<3>(kV1) = -out.normal;
+    H.middleRows<3>(kV2) = out.normal;
+    H.middleRows<3>(kW1) = cross_times(at.n, out.point1) - cross_times(at.p1, out.normal);
+    H.middleRows<3>(kW2) = cross_times(at.p2, out.normal) - cross_times(at.n, out.point2);
+    add_rotation(at.n, at.p1, -1, kW1, H);
+    add_rotation(at.n, at.p2, 1, kW2, H);
     for (int i = 0; i < 12; ++i) {
       for (int j = 0; j < i; ++j) H(i, j) = H(j, i) = 0.5 * (H(i, j) + H(j, i));
     }
-    return H;
   }
-
- private:
-  TwistJacobian lift(const std::array<Row, 2>& rows) const { return at_.t[0] * rows[0] + at_.t[1] * rows[1]; }
-
-  /// The motion of a point p of the body: v + w x p.
-  static void add_rigid(const Vector3& p, int v, TwistJacobian& J) {
-    J.middleCols<3>(v).diagonal().array() += 1;
-    const int w = v + 3;
-    J(0, w + 1) += p.z();
-    J(0, w + 2) -= p.y();
-    J(1, w) -= p.z();
-    J(1, w + 2) += p.x();
-    J(2, w) += p.y();
-    J(2, w + 1) -= p.x();
-  }
-
-  /// n.(w x (w x p)), the second derivative at a fixed normal.
-  void add_rotation(const Vector3& p, double sign, int w, TwistHessian& H) const {
-    const Vector3 half = 0.5 * sign * p;
-    H.block<3, 3>(w, w) += half * at_.n.transpose() + at_.n * half.transpose();
-    H.block<3, 3>(w, w).diagonal().array() -= sign * p.dot(at_.n);
-  }
-
-  const WorldNormal& at_;
-  std::array<Vector3, 2> lever1_, lever2_, across_, opposite1_, opposite2_;  // t x p1, t x p2, t x n, t x the other body's point
-  std::array<Row, 2> normal_, point1_, point2_;                              // point1_ and point2_ without the motion of the body
-};
+  add_rigid(at.p1, kV1, out.point1);
+  add_rigid(at.p2, kV2, out.point2);
+}
 
 /// Whether the opposite normal has the same gap: s(-n) = s(n) - 2 n.c for symmetric bodies.
 bool has_equal_opposite(const GapFunction& gap, const CommonNormal& common) {
@@ -157,6 +142,18 @@ void add_parameters(const GapFunction& gap, const Vector3& n, const Vector3& poi
   gap.shape2().add_parameter_gradient(-(to_body2 * n), to_body2 * lever2, out.parameters2);
   out.parameters1.scale(-1);
   out.parameters2.scale(-1);
+}
+
+/// Whether several vertices of a body share the tangent plane with this normal.
+bool rests_on_edge(const Shape& shape, const Vector3& n, const Jet& jet) {
+  if (!shape.traits().has_nonsmooth_points) return false;
+  ActiveVertices vertices;
+  shape.add_active_vertices(n, jet.r, vertices);
+  const double rounding = kTieUnits * std::numeric_limits<double>::epsilon() * shape.bounding_radius();
+  for (int k = 0; k < vertices.size(); ++k) {
+    if (jet.h - n.dot(vertices[k]) <= rounding && (vertices[k] - jet.r).norm() > rounding) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -205,12 +202,46 @@ ProximityDerivatives find_proximity_derivatives(const Shape& shape1, const Pose&
   out.common_normal = at.n;
   out.gap_gradient = gradient_of(at.n, at.p1, at.p2);
   if (settings.parameters) add_parameters(gap, common.normal(), common.point1(), common.lever2(), out);
-  if (!out.has_normal) return out;
-  const Jacobians jacobians(common.response(), at);
-  out.normal = jacobians.normal();
-  out.point1 = jacobians.point1();
-  out.point2 = jacobians.point2();
-  if (settings.hessian) out.gap_hessian = jacobians.hessian();
+  if (out.has_normal) write_jacobians(common.response(), at, settings, out);
+  return out;
+}
+
+// The plane is a face of body 2 that has no border: the normal rotates with it, and its radii of curvature are infinite.
+ProximityDerivatives find_plane_derivatives(const Shape& shape, const Pose& pose, const Vector3& plane_normal, double plane_offset,
+                                            const DerivativeSettings& settings) {
+  ProximityDerivatives out;
+  const Proximity answer = find_plane_proximity(shape, pose, plane_normal, plane_offset);
+  if (answer.status == Status::InvalidInput) return out;
+  out.common_normal = answer.normal;
+  out.gap_gradient = find_gap_gradient(pose, {}, answer);
+  const Vector3 own = pose.rotation.transpose() * answer.normal;
+  Jet jet;
+  shape.evaluate(own, shape.traits().has_hessian ? Order::Hessian : Order::Point, jet);
+  if (settings.parameters) {
+    shape.add_parameter_gradient(own, jet.r, out.parameters1);
+    out.parameters1.scale(-1);
+  }
+  const double unit = shape.half_extents().minCoeff();
+  BodyCurvature body, plane;
+  out.status = DerivativeStatus::NoHessian;
+  if (shape.traits().has_hessian) {
+    if (!all_finite(jet.H)) return {};
+    const TangentPlane tangent = TangentPlane::along_flattest(own, jet.H);
+    body.A = Symmetric2::project(tangent, jet.H);
+    const bool is_flat = body.A.trace() > limits::kFlattest * unit || rests_on_edge(shape, own, jet);
+    out.status = is_flat ? DerivativeStatus::FreeOnFace : DerivativeStatus::Smooth;
+    set_flags(out);
+    if (is_flat) return out;
+    plane.flatten(Vector2::UnitX());
+    plane.flatten(Vector2::UnitY());
+    const WorldNormal at{answer.normal,
+                         {pose.rotation * tangent.t1, pose.rotation * tangent.t2},
+                         answer.point1 - pose.position,
+                         answer.point2,
+                         answer.gap};
+    write_jacobians(TangentResponse::of(body, plane, answer.gap, unit), at, settings, out);
+  }
+  set_flags(out);
   return out;
 }
 

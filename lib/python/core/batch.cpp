@@ -11,156 +11,23 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "arrays.hpp"
+#include "batch_arguments.hpp"
 #include "bindings.hpp"
+#include "columns.hpp"
 #include "enums.hpp"
 #include "parallel_for.hpp"
-#include "poses.hpp"
-#include "shape_sequence.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/raycast/ray.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
-#include "values.hpp"
 
 namespace py = pybind11;
 
 namespace supernormal::python {
 namespace {
-
-/// The number of pairs: the common length of all arguments that are sequences.
-class PairCount {
- public:
-  void add(const char* name, std::size_t count) {
-    if (name_ != nullptr && count != count_) {
-      throw std::invalid_argument(std::string(name) + " has " + std::to_string(count) + " entries and " + name_ + " has " +
-                                  std::to_string(count_) + "; they must have as many, or be a single one for all");
-    }
-    name_ = name;
-    count_ = count;
-  }
-
-  std::ptrdiff_t value() const { return static_cast<std::ptrdiff_t>(count_); }
-
- private:
-  const char* name_ = nullptr;
-  std::size_t count_ = 1;
-};
-
-/// One Shape for all pairs, or Shapes, or a sequence of Shape.
-class ShapesArgument {
- public:
-  ShapesArgument(const char* name, const py::object& argument, PairCount& count) {
-    if (py::isinstance<Shape>(argument)) {
-      single_ = argument.cast<std::shared_ptr<Shape>>();
-      return;
-    }
-    if (py::isinstance<ShapeSequence>(argument)) {
-      shapes_ = argument.cast<std::shared_ptr<ShapeSequence>>();
-    } else if (py::isinstance<py::sequence>(argument)) {
-      shapes_ = make_shape_sequence(name, argument);
-    } else {
-      throw py::type_error(std::string(name) + " is " + std::string(py::repr(argument)) +
-                           ", but must be a Shape, Shapes or a sequence of Shape");
-    }
-    count.add(name, shapes_->size());
-  }
-
-  const Shape& operator[](std::ptrdiff_t i) const { return single_ ? *single_ : (*shapes_)[static_cast<std::size_t>(i)]; }
-
- private:
-  std::shared_ptr<Shape> single_;
-  std::shared_ptr<ShapeSequence> shapes_;
-};
-
-/// One Pose for all pairs, or Poses.
-class PosesArgument {
- public:
-  PosesArgument(const char* name, const py::object& argument, PairCount& count) {
-    if (py::isinstance<Pose>(argument)) {
-      single_ = argument.cast<Pose>();
-      return;
-    }
-    if (!py::isinstance<Poses>(argument)) {
-      throw py::type_error(std::string(name) + " is " + std::string(py::repr(argument)) + ", but must be a Pose or Poses");
-    }
-    poses_ = argument.cast<std::shared_ptr<Poses>>();
-    count.add(name, poses_->poses.size());
-  }
-
-  const Pose& operator[](std::ptrdiff_t i) const { return poses_ ? poses_->poses[static_cast<std::size_t>(i)] : single_; }
-
- private:
-  Pose single_;
-  std::shared_ptr<Poses> poses_;
-};
-
-/// Vectors: (3,) for all pairs, or (N, 3).
-class VectorsArgument {
- public:
-  VectorsArgument(const char* name, Doubles values, PairCount& count) : name_(name), values_(std::move(values)) {
-    if (values_.ndim() == 1 && values_.shape(0) == 3) return;
-    count.add(name, static_cast<std::size_t>(require_rows(name, values_, {3})));
-    stride_ = 3;
-  }
-
-  Vector3 operator[](std::ptrdiff_t i) const { return vector_at(values_.data() + stride_ * i); }
-  Name name(std::ptrdiff_t i) const { return {name_, stride_ == 0 ? -1 : i}; }
-
- private:
-  const char* name_;
-  Doubles values_;
-  std::ptrdiff_t stride_ = 0;
-};
-
-/// A column of a result, filled in place.
-template <typename Number, int kWidth = 1>
-class Column {
- public:
-  explicit Column(std::ptrdiff_t count) : array_(dimensions(count)), data_(array_.mutable_data()) {}
-
-  void set(std::ptrdiff_t i, Number value) { data_[i] = value; }
-  void set(std::ptrdiff_t i, const Vector3& value) { std::copy(value.data(), value.data() + 3, data_ + 3 * i); }
-  const py::array_t<Number>& array() const { return array_; }
-  void set_all(const py::object& values) { array_ = values.cast<py::array_t<Number>>(); }
-
- private:
-  static std::vector<py::ssize_t> dimensions(std::ptrdiff_t count) {
-    if (kWidth == 1) return {count};
-    return {count, kWidth};
-  }
-
-  py::array_t<Number> array_;
-  Number* data_;
-};
-
-struct Proximities {
-  explicit Proximities(std::ptrdiff_t pairs) : count(pairs) {}
-
-  void set(std::ptrdiff_t i, const Proximity& result) {
-    gap.set(i, result.gap);
-    error.set(i, result.error);
-    normal.set(i, result.normal);
-    point1.set(i, result.point1);
-    point2.set(i, result.point2);
-    contact.set(i, result.contact);
-    evaluations.set(i, result.evaluations);
-    status.set(i, static_cast<std::uint8_t>(result.status));
-    is_global.set(i, result.is_global);
-    global_error.set(i, result.global_error);
-  }
-
-  std::ptrdiff_t count;
-  Column<double> gap{count}, error{count};
-  Column<double, 3> normal{count}, point1{count}, point2{count}, contact{count};
-  Column<int> evaluations{count};
-  Column<std::uint8_t> status{count};
-  Column<bool> is_global{count};
-  Column<double> global_error{count};
-};
 
 /// Whether many pairs of such bodies are cheaper together. None of their queries throws or has no answer.
 bool is_power_body(const Shape& shape) {
@@ -278,29 +145,6 @@ length: m, of all rays, in [0, inf].
 threads: in [0, 256]; 0: one for each core.
 
 Raises the errors of find_ray_hit(), with the index of the ray. Raises ValueError when the arguments differ in length.)";
-
-/// Makes a column of a result an attribute, without a copy.
-template <typename Result, typename ColumnType>
-void bind_column(py::class_<Result>& type, const char* name, ColumnType Result::*column, const char* doc) {
-  type.def_property_readonly(
-      name, [column](const Result& self) { return (self.*column).array(); }, doc);
-}
-
-/// Binds the copies and __repr__ of a result with these columns. `what` is the plural of an entry.
-template <typename Result, typename... Columns>
-void bind_columns(py::class_<Result>& type, const char* what, Columns... columns) {
-  bind_copies(
-      type, [columns...](const Result& self) { return py::make_tuple(self.count, (self.*columns).array()...); },
-      [columns...](const py::tuple& of) {
-        auto made = std::make_unique<Result>(of[0].cast<std::ptrdiff_t>());
-        std::size_t k = 1;
-        ((*made.*columns).set_all(of[k++]), ...);
-        return made;
-      });
-  type.def("__repr__", [what](const py::object& self) {
-    return py::type::of(self).attr("__name__").cast<std::string>() + "(of " + std::to_string(py::len(self)) + " " + what + ")";
-  });
-}
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "supernormal/proximity/derivatives.hpp"
 
 namespace py = pybind11;
 
@@ -30,6 +31,7 @@ void add_int_enum(py::module_& m, const char* name, const char* doc, const std::
 int number(Solver solver) { return static_cast<int>(solver); }
 int number(Status status) { return static_cast<int>(status); }
 int number(ImpactStatus status) { return static_cast<int>(status); }
+int number(DerivativeStatus status) { return static_cast<int>(status); }
 
 }  // namespace
 
@@ -69,6 +71,27 @@ void bind_enums(py::module_& m) {
                 {"OVERLAPPING", number(ImpactStatus::Overlapping)},
                 {"NOT_CONVERGED", number(ImpactStatus::NotConverged)},
                 {"INVALID_INPUT", number(ImpactStatus::InvalidInput)}});
+  add_int_enum(
+      m, "DerivativeStatus",
+      "Why a derivative exists or not.\n\n"
+      "SMOOTH: all derivatives are defined.\n"
+      "ACTIVE_SET: all are defined while the witness points stay on their face, edge or vertex.\n"
+      "DEGENERATE: a witness point is at the border of its face or edge: only the gradient of the gap is defined.\n"
+      "FREE_ON_FACE: faces or edges share more than a point: only the derivatives of the gap by displacements are defined.\n"
+      "SINGULAR_CURVATURE: the normal may not be unique, as between two vertices.\n"
+      "SEVERAL_MAXIMA: the opposite normal has the same gap.\n"
+      "NO_HESSIAN: a shape has no Hessian: only the gradient of the gap is known.\n"
+      "NOT_CONVERGED: the answer's normal is not a common normal.\n"
+      "INVALID_INPUT: a number is not finite. Queries raise ValueError instead.",
+      {{"SMOOTH", number(DerivativeStatus::Smooth)},
+       {"ACTIVE_SET", number(DerivativeStatus::ActiveSet)},
+       {"DEGENERATE", number(DerivativeStatus::Degenerate)},
+       {"FREE_ON_FACE", number(DerivativeStatus::FreeOnFace)},
+       {"SINGULAR_CURVATURE", number(DerivativeStatus::SingularCurvature)},
+       {"SEVERAL_MAXIMA", number(DerivativeStatus::SeveralMaxima)},
+       {"NO_HESSIAN", number(DerivativeStatus::NoHessian)},
+       {"NOT_CONVERGED", number(DerivativeStatus::NotConverged)},
+       {"INVALID_INPUT", number(DerivativeStatus::InvalidInput)}});
 }
 
 }  // namespace supernormal::python

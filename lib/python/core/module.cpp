@@ -39,5 +39,6 @@ PYBIND11_MODULE(_core, m) {
   bind_raycast(m);
   bind_impact(m);
   bind_batch(m);
+  bind_derivatives(m);
   refuse_unmade_objects(m);
 }

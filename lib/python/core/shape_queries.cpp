@@ -53,6 +53,15 @@ py::array_t<double> hessian(const Shape& self, const Doubles& directions) {
 }
 
 /// The extent along a world axis is the support function in this direction, in the body's frame.
+py::tuple parameter_names(const Shape& shape) {
+  ParameterGradient gradient;
+  const Vector3 n = Vector3::UnitZ();
+  shape.add_parameter_gradient(n, shape.point(n), gradient);
+  py::tuple names(gradient.size());
+  for (std::size_t k = 0; k < gradient.size(); ++k) names[k] = py::str(gradient[k].name);
+  return names;
+}
+
 py::array_t<double> bounding_box(const Shape& self, const Pose& pose) {
   py::array_t<double> out({py::ssize_t{2}, py::ssize_t{3}});
   for (int axis = 0; axis < 3; ++axis) {
@@ -135,6 +144,10 @@ void bind_shape_queries(py::class_<Shape, std::shared_ptr<Shape>>& shape) {
           "Whether the body is point-symmetric about its origin. False if unknown.")
       .def_property_readonly("rolling_radius", &Shape::rolling_radius,
                              "m; a ball of this radius provably rolls freely inside the body; 0 if unknown")
+      .def_property_readonly(
+          "parameter_names", &parameter_names,
+          "The names of the shape's parameters, in the order of ProximityDerivatives.parameters1. The radius of a "
+          "Rounded follows the parameters of its core.")
       .def("bounding_box", &bounding_box, py::arg("pose") = Pose(),
            "The smallest axis-aligned box in the world frame, m: (2, 3), its lower and its upper corner.")
       .def("mass_properties", &Shape::mass_properties,

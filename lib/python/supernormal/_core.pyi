@@ -26,6 +26,17 @@ class ImpactStatus(IntEnum):
     NOT_CONVERGED = 3
     INVALID_INPUT = 4
 
+class DerivativeStatus(IntEnum):
+    SMOOTH = 0
+    ACTIVE_SET = 1
+    DEGENERATE = 2
+    FREE_ON_FACE = 3
+    SINGULAR_CURVATURE = 4
+    SEVERAL_MAXIMA = 5
+    NO_HESSIAN = 6
+    NOT_CONVERGED = 7
+    INVALID_INPUT = 8
+
 class Pose:
     def __init__(
         self,
@@ -102,6 +113,8 @@ class Shape:
     def is_symmetric(self) -> bool: ...
     @property
     def rolling_radius(self) -> float: ...
+    @property
+    def parameter_names(self) -> Tuple[str, ...]: ...
     def bounding_box(self, pose: Pose = ...) -> _Floats: ...
     def mass_properties(self) -> MassProperties: ...
     def surface_area(self) -> float: ...
@@ -264,6 +277,44 @@ class Proximities:
     def global_error(self) -> _Floats: ...
     def __len__(self) -> int: ...
 
+class ProximityDerivatives:
+    @property
+    def status(self) -> npt.NDArray[np.uint8]: ...
+    @property
+    def has_gap(self) -> npt.NDArray[np.bool_]: ...
+    @property
+    def has_normal(self) -> npt.NDArray[np.bool_]: ...
+    @property
+    def has_points(self) -> npt.NDArray[np.bool_]: ...
+    @property
+    def gap_gradient(self) -> _Floats: ...
+    @property
+    def normal(self) -> _Floats: ...
+    @property
+    def point1(self) -> _Floats: ...
+    @property
+    def point2(self) -> _Floats: ...
+    @property
+    def common_normal(self) -> _Floats: ...
+    @property
+    def evaluations(self) -> npt.NDArray[np.int32]: ...
+    @property
+    def gap_hessian(self) -> Optional[_Floats]: ...
+    @property
+    def parameters1(self) -> Optional[_Floats]: ...
+    @property
+    def parameters2(self) -> Optional[_Floats]: ...
+    def __len__(self) -> int: ...
+
+class Clearances:
+    @property
+    def lower_bound(self) -> _Floats: ...
+    @property
+    def normal(self) -> _Floats: ...
+    @property
+    def evaluations(self) -> npt.NDArray[np.int32]: ...
+    def __len__(self) -> int: ...
+
 class ContactManifold:
     @property
     def deepest(self) -> Proximity: ...
@@ -392,6 +443,38 @@ def find_proximities(
     first_normals: Optional[npt.ArrayLike] = ...,
     threads: int = ...,
 ) -> Proximities: ...
+def find_proximity_derivatives(
+    shapes1: Union[Shape, Shapes, Sequence[Shape]],
+    poses1: Union[Pose, Poses],
+    shapes2: Union[Shape, Shapes, Sequence[Shape]],
+    poses2: Union[Pose, Poses],
+    proximities: Union[Proximity, Proximities],
+    hessian: bool = ...,
+    parameters: bool = ...,
+    threads: int = ...,
+) -> ProximityDerivatives: ...
+def find_gap_gradient(
+    poses1: Union[Pose, Poses], poses2: Union[Pose, Poses], proximities: Union[Proximity, Proximities]
+) -> _Floats: ...
+def find_clearances(
+    shapes1: Union[Shape, Shapes, Sequence[Shape]],
+    poses1: Union[Pose, Poses],
+    shapes2: Union[Shape, Shapes, Sequence[Shape]],
+    poses2: Union[Pose, Poses],
+    enough: float = ...,
+    max_evaluations: int = ...,
+    first_normals: Optional[npt.ArrayLike] = ...,
+    threads: int = ...,
+) -> Clearances: ...
+def are_farther_than(
+    shapes1: Union[Shape, Shapes, Sequence[Shape]],
+    poses1: Union[Pose, Poses],
+    shapes2: Union[Shape, Shapes, Sequence[Shape]],
+    poses2: Union[Pose, Poses],
+    distance: float,
+    first_normals: Optional[npt.ArrayLike] = ...,
+    threads: int = ...,
+) -> npt.NDArray[np.bool_]: ...
 def find_contact_manifold(
     shape1: Shape, pose1: Pose, shape2: Shape, pose2: Pose, proximity: Proximity
 ) -> ContactManifold: ...

@@ -86,6 +86,8 @@ class Comparison {
     tally_.not_finite += !is_finite;
     if (!found_.has_normal) return;
     unit_ = std::min(shape1.half_extents().norm(), shape2.half_extents().norm());
+    compare_swapped();
+    compare_moved();
     // Between a vertex and an edge the gap itself is the radius of curvature.
     const auto is_sharp = [](const Shape& shape) {
       return shape.traits().has_nonsmooth_points && shape.min_curvature_radius_estimate() == 0;
@@ -105,6 +107,63 @@ class Comparison {
   }
 
  private:
+  /// The derivatives in units of the bodies' size, each quantity divided by its norm.
+  Eigen::MatrixXd relative(const ProximityDerivatives& d, const ProximityDerivatives& scale) const {
+    Eigen::Matrix<double, 12, 12> units = Eigen::Matrix<double, 12, 12>::Identity();
+    for (int k = 0; k < 12; ++k) units(k, k) = static_cast<double>(this->scale(k));
+    Eigen::MatrixXd rows(22, 12);
+    rows << d.gap_gradient.transpose() * units / ((scale.gap_gradient.transpose() * units).norm() + unit_),
+        d.normal * units / ((scale.normal * units).norm() + 1), d.point1 * units / ((scale.point1 * units).norm() + unit_),
+        d.point2 * units / ((scale.point2 * units).norm() + unit_),
+        units * d.gap_hessian * units / ((units * scale.gap_hessian * units).norm() + unit_);
+    return rows;
+  }
+
+  void compare_with(Quantity what, const ProximityDerivatives& other) {
+    const double off = (relative(found_, found_) - relative(other, found_)).rowwise().norm().maxCoeff();
+    count(what, off, other.has_normal ? 0 : std::numeric_limits<double>::infinity());
+  }
+
+  Proximity answer_at(const Vector3& normal) const {
+    Proximity answer;
+    answer.status = Status::Converged;
+    answer.normal = normal;
+    return answer;
+  }
+
+  void compare_swapped() {
+    const ProximityDerivatives swapped = find_proximity_derivatives(*pair_.body2.shape, pair_.pose2, *pair_.body1.shape,
+                                                                    pair_.pose1, answer_at(-found_.common_normal));
+    Eigen::Matrix<double, 12, 12> swap = Eigen::Matrix<double, 12, 12>::Zero();
+    swap.topRightCorner<6, 6>().setIdentity();
+    swap.bottomLeftCorner<6, 6>().setIdentity();
+    ProximityDerivatives back = swapped;
+    back.gap_gradient = swap * swapped.gap_gradient;
+    back.normal = -swapped.normal * swap;
+    back.point1 = swapped.point2 * swap;
+    back.point2 = swapped.point1 * swap;
+    back.gap_hessian = swap * swapped.gap_hessian * swap;
+    compare_with(kSwapped, back);
+  }
+
+  /// Body 1 comes to the origin of another frame. So the rounding of positions hardly moves the bodies.
+  void compare_moved() {
+    const Matrix3 R = Eigen::Quaterniond(-0.3, 0.8, 0.2, 0.4).normalized().toRotationMatrix();
+    const Pose moved1{Vector3::Zero(), R * pair_.pose1.rotation},
+        moved2{R * (pair_.pose2.position - pair_.pose1.position), R * pair_.pose2.rotation};
+    const ProximityDerivatives moved =
+        find_proximity_derivatives(*pair_.body1.shape, moved1, *pair_.body2.shape, moved2, answer_at(R * found_.common_normal));
+    Eigen::Matrix<double, 12, 12> turn = Eigen::Matrix<double, 12, 12>::Zero();
+    for (int i = 0; i < 12; i += 3) turn.block<3, 3>(i, i) = R;
+    ProximityDerivatives back = moved;
+    back.gap_gradient = turn.transpose() * moved.gap_gradient;
+    back.normal = R.transpose() * moved.normal * turn;
+    back.point1 = R.transpose() * moved.point1 * turn;
+    back.point2 = R.transpose() * moved.point2 * turn;
+    back.gap_hessian = turn.transpose() * moved.gap_hessian * turn;
+    compare_with(kMoved, back);
+  }
+
   LongAnswer moved(const LongNormal& reference, const Eigen::Matrix<Real, 12, 1>& twist) const {
     return reference.solve(pose1_.moved(twist.segment<3>(0), twist.segment<3>(3)),
                            pose2_.moved(twist.segment<3>(6), twist.segment<3>(9)));
@@ -160,7 +219,11 @@ class Comparison {
         const Real behind = values_of(moved(reference, -twist), pose1_, is_exact)[0];
         return (ahead - 2 * base_[0] + behind) / (step * step);
       };
-      const auto derivative = extrapolate<Real>(difference, 2e-3L * step_, 5);
+      constexpr Real kFirst = 2e-3L;
+      const auto derivative = extrapolate<Real>(difference, kFirst * step_, 5);
+      // Differences of steps that are too short may all be 0, and agree. This is the rounding of the longest.
+      const Real longest = kFirst * step_;
+      const auto rounding = static_cast<double>(1e-18L * static_cast<Real>(unit_) / (longest * longest));
       if (!is_exact) return;
       Eigen::Matrix<double, 12, 12> H = found_.gap_hessian;
       for (int i = 0; i < 12; ++i) {
@@ -169,7 +232,7 @@ class Comparison {
       }
       const double size = H.norm() + unit_;
       count(kHessian, std::abs(direction.dot(found_.gap_hessian * direction) - static_cast<double>(derivative.value)) / size,
-            derivative.error / size);
+            (derivative.error + rounding) / size);
     }
   }
 
@@ -203,7 +266,8 @@ class Comparison {
   }
 
   void count(Quantity what, double difference, double error) {
-    static constexpr const char* kNames[kQuantities] = {"gap", "normal", "point1", "point2", "hessian", "parameters"};
+    static constexpr const char* kNames[kQuantities] = {"gap",     "normal",     "point1",  "point2",
+                                                        "hessian", "parameters", "swapped", "moved"};
     Tally::Figures& figures = tally_.figures[what];
     if (!(error <= kResolution * kLargestErrors[what])) {
       ++figures.undecided;
@@ -385,7 +449,8 @@ void compare(const DerivativePair& pair, const std::string& name, Tally& tally) 
 void print(std::ostream& out, const Tally& tally) {
   static constexpr const char* kStatuses[] = {"smooth",         "active set", "degenerate",    "free on a face", "singular",
                                               "several maxima", "no Hessian", "not converged", "invalid"};
-  static constexpr const char* kNames[kQuantities] = {"gap", "normal", "point 1", "point 2", "Hessian of the gap", "parameters"};
+  static constexpr const char* kNames[kQuantities] = {"gap",        "normal",         "point 1",    "point 2", "Hessian of the gap",
+                                                      "parameters", "swapped bodies", "moved frame"};
   out << tally.pairs << " pairs, " << tally.not_finite << " with numbers that are not finite, " << tally.unreferenced
       << " beyond the reference, " << tally.evaluations / static_cast<double>(tally.pairs) << " evaluations\n";
   for (const auto& [status, count] : tally.statuses) out << "  " << kStatuses[static_cast<int>(status)] << ": " << count << '\n';

@@ -38,8 +38,9 @@ class DerivativePairs {
   int count_ = 0;
 };
 
-/// What differs, relative to the norm of the derivative in units of the bodies' size.
-enum Quantity { kGap, kNormal, kPoint1, kPoint2, kHessian, kParameters, kQuantities };
+/// What differs, relative to the norm of the derivative in units of the bodies' size. The last two compare all derivatives with
+/// those of the swapped bodies, and of both bodies in a moved frame.
+enum Quantity { kGap, kNormal, kPoint1, kPoint2, kHessian, kParameters, kSwapped, kMoved, kQuantities };
 
 /// The figures of many comparisons.
 struct Tally {
@@ -55,7 +56,7 @@ struct Tally {
 };
 
 /// Largest relative errors that count as right.
-inline constexpr std::array<double, kQuantities> kLargestErrors = {1e-6, 1e-6, 1e-6, 1e-6, 1e-4, 1e-6};
+inline constexpr std::array<double, kQuantities> kLargestErrors = {1e-6, 1e-6, 1e-6, 1e-6, 1e-4, 1e-6, 1e-6, 1e-6};
 
 /// Compares one pair and adds it to the tally. `name` is for the report.
 void compare(const DerivativePair& pair, const std::string& name, Tally& tally);

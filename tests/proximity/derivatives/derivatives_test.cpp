@@ -7,8 +7,10 @@
 #include <memory>
 
 #include "proximity/derivatives/comparison.hpp"
+#include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/sphere.hpp"
@@ -125,6 +127,66 @@ TEST_CASE("derivatives: the gradient of the answer alone is the exact gradient, 
     CHECK((gradient.segment<3>(6) - answer.normal).norm() == 0);
     CHECK((gradient - d.gap_gradient).norm() <= 1e-4 * d.gap_gradient.norm());
   }
+}
+
+// The reference is the explicit answer at moved bodies. Its second differences have an error of 1e-16/h^2 + h^2.
+TEST_CASE("derivatives: a body and a plane have the derivatives of the explicit answer") {
+  DerivativePairs pairs(8);
+  int compared = 0;
+  for (int k = 0; k < 320; ++k) {
+    const DerivativePair pair = pairs.draw();
+    const Shape& shape = *pair.body1.shape;
+    const Vector3 normal = kTilted * pair.pose2.rotation.col(0);
+    const double offset = normal.dot(pair.pose1.position) - 0.4;
+    const auto answer_at = [&](const TwistVector& twist) {
+      const auto rotation = [&](int w) {
+        const Vector3 vector = twist.segment<3>(w);
+        return vector.norm() > 0 ? Eigen::AngleAxisd(vector.norm(), vector.normalized()).toRotationMatrix()
+                                 : Matrix3(Matrix3::Identity());
+      };
+      const Vector3 turned = rotation(9) * normal;
+      return find_plane_proximity(shape, {pair.pose1.position + twist.segment<3>(0), rotation(3) * pair.pose1.rotation}, turned,
+                                  offset + turned.dot(twist.segment<3>(6)));
+    };
+    const ProximityDerivatives d = find_plane_derivatives(shape, pair.pose1, normal, offset);
+    CAPTURE(k);
+    CAPTURE(pair.kind);
+    REQUIRE(d.has_normal);
+    CHECK(d.evaluations == 0);
+    CHECK((d.common_normal + normal).norm() <= 1e-15);
+    // The radius of curvature changes over a small angle.
+    const double bend = d.point1.norm() / shape.half_extents().norm();
+    if (bend > 30) continue;
+    ++compared;
+    const double h = 1e-5;
+    for (int i = 0; i < 12; ++i) {
+      const Proximity ahead = answer_at(h * TwistVector::Unit(i)), behind = answer_at(-h * TwistVector::Unit(i));
+      const auto difference = [&](Vector3 Proximity::*member) { return Vector3((ahead.*member - behind.*member) / (2 * h)); };
+      CHECK(std::abs((ahead.gap - behind.gap) / (2 * h) - d.gap_gradient[i]) <= 1e-8 * bend);
+      CHECK((difference(&Proximity::normal) - d.normal.col(i)).norm() <= 1e-8);
+      CHECK((difference(&Proximity::point1) - d.point1.col(i)).norm() <= 1e-4 * bend);
+      CHECK((difference(&Proximity::point2) - d.point2.col(i)).norm() <= 1e-4 * bend);
+    }
+    const TwistVector direction = TwistVector::Constant(1 / std::sqrt(12));
+    const double second = 1e-3;
+    const double curvature =
+        (answer_at(second * direction).gap - 2 * answer_at(TwistVector::Zero()).gap + answer_at(-second * direction).gap) /
+        (second * second);
+    CHECK(std::abs(direction.dot(d.gap_hessian * direction) - curvature) <= 1e-3 * bend * d.gap_hessian.norm());
+  }
+  CHECK(compared > 250);
+
+  const Box box(Vector3(1, 2, 3));
+  CHECK(find_plane_derivatives(box, {}, Vector3::UnitZ(), -4).status == DerivativeStatus::FreeOnFace);
+  CHECK(find_plane_derivatives(box, {}, Vector3(0, 0.6, 0.8), -9).status == DerivativeStatus::FreeOnFace);
+  const Cylinder can(1, 2);
+  CHECK(find_plane_derivatives(can, {}, Vector3::UnitX(), -4).status == DerivativeStatus::FreeOnFace);
+  CHECK(find_plane_derivatives(can, {}, Vector3::UnitZ(), -4).status == DerivativeStatus::FreeOnFace);
+  CHECK(find_plane_derivatives(can, {}, Vector3(0, 0.6, 0.8), -4).status == DerivativeStatus::Smooth);
+  const Superellipsoid brick(Vector3(1, 1, 1), 20, 20);
+  CHECK(find_plane_derivatives(brick, {}, Vector3::UnitZ(), -4).status == DerivativeStatus::FreeOnFace);
+  CHECK(find_plane_derivatives(box, {{std::nan(""), 0, 0}, kTilted}, Vector3::UnitZ(), -4).status ==
+        DerivativeStatus::InvalidInput);
 }
 
 TEST_CASE("derivatives: the status says what is not defined, and nothing is NaN") {

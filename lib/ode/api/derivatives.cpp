@@ -1,0 +1,235 @@
+// snGeomGapGradient, snGeomDerivatives, snGeomClearance and snGeomIsFartherThan.
+#include "supernormal/proximity/derivatives.hpp"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "ode/api/two_geoms.hpp"
+#include "ode/colliders/convex/posed_shape.hpp"
+#include "ode/colliders/no_answer.hpp"
+#include "ode/geom/body.hpp"
+#include "ode/geom/convert.hpp"
+#include "ode/geom/geom_class.hpp"
+#include "ode/support/last_error.hpp"
+#include "ode/support/require.hpp"
+#include "supernormal/proximity/clearance.hpp"
+#include "supernormal/supernormal.h"
+
+namespace supernormal::ode {
+namespace {
+
+constexpr int kTwist = 12;
+
+static_assert(SN_MAX_PARAMETERS == ParameterGradient::kCapacity);
+static_assert(SN_DERIVATIVES_SMOOTH == static_cast<int>(DerivativeStatus::Smooth));
+static_assert(SN_DERIVATIVES_SEVERAL_MAXIMA == static_cast<int>(DerivativeStatus::SeveralMaxima));
+static_assert(SN_DERIVATIVES_NOT_CONVERGED == static_cast<int>(DerivativeStatus::NotConverged));
+
+/// The answer of an earlier query, from g1 to g2.
+Proximity answer_of(const snProximity& at) {
+  Proximity answer;
+  answer.gap = at.gap;
+  answer.status = at.converged != 0 ? Status::Converged : Status::Stalled;
+  answer.normal = require_finite("at->normal", to_vector(at.normal));
+  if (!(std::abs(answer.normal.norm() - 1) < 1e-3)) {
+    throw std::invalid_argument("at->normal has the length " + to_text(answer.normal.norm()) + ", but must have 1");
+  }
+  answer.normal.normalize();
+  answer.point1 = require_finite("at->point1", to_vector(at.point1));
+  answer.point2 = require_finite("at->point2", to_vector(at.point2));
+  answer.contact = 0.5 * (answer.point1 + answer.point2);
+  return answer;
+}
+
+/// The point about which the twists of a geom rotate.
+Vector3 origin_of(dGeomID geom) {
+  const int number = dGeomGetClass(geom);
+  if (number == dPlaneClass) return Vector3::Zero();
+  if (number != dHeightfieldClass) return to_vector(dGeomGetPosition(geom));
+  dVector3 origin;
+  dGeomGetRelPointPos(geom, 0, 0, 0, origin);  // it may have no position
+  return to_vector(origin);
+}
+
+template <typename Matrix>
+void write_rows(const Matrix& matrix, dReal (*rows)[kTwist]) {
+  for (int i = 0; i < matrix.rows(); ++i) {
+    for (int j = 0; j < kTwist; ++j) rows[i][j] = to_real(matrix(i, j));
+  }
+}
+
+int write_parameters(const ParameterGradient& gradient, snParameter* out) {
+  for (std::size_t k = 0; k < gradient.size(); ++k) out[k] = {gradient[k].name, to_real(gradient[k].value)};
+  return static_cast<int>(gradient.size());
+}
+
+void write(const ProximityDerivatives& found, snDerivatives& out) {
+  out = {};
+  out.status = static_cast<snDerivativeStatus>(found.status);
+  out.has_gap = found.has_gap ? 1 : 0;
+  out.has_normal = found.has_normal ? 1 : 0;
+  out.has_points = found.has_points ? 1 : 0;
+  for (int j = 0; j < kTwist; ++j) out.gap[j] = to_real(found.gap_gradient[j]);
+  write_rows(found.normal, out.normal);
+  write_rows(found.point1, out.point1);
+  write_rows(found.point2, out.point2);
+  write_rows(found.gap_hessian, out.gap_hessian);
+  out.parameters1 = write_parameters(found.parameters1, out.parameter1);
+  out.parameters2 = write_parameters(found.parameters2, out.parameter2);
+  out.evaluations = found.evaluations;
+}
+
+/// The same pair with body 2 as body 1.
+ProximityDerivatives swapped(const ProximityDerivatives& found) {
+  const auto columns = [](const TwistJacobian& J) {
+    TwistJacobian out;
+    out << J.rightCols<6>(), J.leftCols<6>();
+    return out;
+  };
+  ProximityDerivatives out = found;
+  out.gap_gradient << found.gap_gradient.tail<6>(), found.gap_gradient.head<6>();
+  out.normal = -columns(found.normal);
+  out.point1 = columns(found.point2);
+  out.point2 = columns(found.point1);
+  const auto block = [&](int i, int j) { return found.gap_hessian.block<6, 6>(6 * i, 6 * j); };
+  out.gap_hessian << block(1, 1), block(1, 0), block(0, 1), block(0, 0);
+  std::swap(out.parameters1, out.parameters2);
+  out.common_normal = -found.common_normal;
+  return out;
+}
+
+ProximityDerivatives plane_derivatives(const TwoGeoms& geoms) {
+  dVector4 plane;
+  dGeomPlaneGetParams(geoms.collider, plane);
+  const Pose pose = pose_of(geoms.ours);
+  const ProximityDerivatives found = find_plane_derivatives(require_body(geoms.ours).shape(), pose, to_vector(plane), plane[3]);
+  return geoms.is_swapped ? swapped(found) : found;
+}
+
+/// The geoms in the order of the arguments, as shapes of the core.
+struct PosedPair {
+  PosedShape one, two;
+
+  PosedPair(dGeomID g1, dGeomID g2) : one(g1), two(g2) {}
+  ProximityQuery query(const Vector3* first_normal) const {
+    return {&one.shape(), &one.pose(), &two.shape(), &two.pose(), first_normal};
+  }
+};
+
+ProximityDerivatives derivatives_of(const TwoGeoms& geoms, dGeomID g1, dGeomID g2, const snProximity& at) {
+  require_body(geoms.ours);
+  const Proximity answer = answer_of(at);
+  if (dGeomGetClass(geoms.collider) == dPlaneClass) return plane_derivatives(geoms);
+  if (!has_shape(geoms.collider)) {
+    throw std::invalid_argument("the collider is " + geom_class_name(geoms.collider) +
+                                ", but must be a body made by snCreate…, a convex geom of ODE, a dPlane or a dRay");
+  }
+  const PosedPair pair(g1, g2);
+  return find_proximity_derivatives(pair.one.shape(), pair.one.pose(), pair.two.shape(), pair.two.pose(), answer);
+}
+
+/// A geom without a shape has the answer of snGeomProximity.
+Clearance clearance_by_query(const TwoGeoms& geoms) {
+  const Proximity answer = find_proximity_of(geoms, QueryKind::Distance);
+  return {answer.gap - answer.error, geoms.is_swapped ? Vector3(-answer.normal) : answer.normal, answer.evaluations};
+}
+
+/// The answer of `ask` for the shapes, with the normal in the world frame, or of a query.
+template <typename Ask>
+Clearance clearance_of(const TwoGeoms& geoms, dGeomID g1, dGeomID g2, Ask ask) {
+  require_body(geoms.ours);
+  Clearance found;
+  if (has_shape(geoms.collider)) {
+    const PosedPair pair(g1, g2);
+    found = ask(pair);
+    found.normal = pair.one.pose().rotation * found.normal;
+  } else {
+    found = clearance_by_query(geoms);
+  }
+  if (!std::isfinite(found.lower_bound)) refuse_pair(geoms.ours, geoms.collider);
+  return found;
+}
+
+int answer_gradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal* gradient) {
+  return guarded("snGeomGapGradient", 0, [&] {
+    require_not_null("at", at);
+    require_not_null("gradient", gradient);
+    const TwoGeoms geoms(g1, g2, gradient);
+    require_body(geoms.ours);
+    Pose pose1, pose2;
+    pose1.position = origin_of(g1);
+    pose2.position = origin_of(g2);
+    const TwistVector found = find_gap_gradient(pose1, pose2, answer_of(*at));
+    if (!found.allFinite()) refuse_pair(geoms.ours, geoms.collider);
+    for (int j = 0; j < kTwist; ++j) gradient[j] = to_real(found[j]);
+    return 1;
+  });
+}
+
+int answer_derivatives(dGeomID g1, dGeomID g2, const snProximity* at, snDerivatives* out) {
+  return guarded("snGeomDerivatives", 0, [&] {
+    require_not_null("at", at);
+    const TwoGeoms geoms(g1, g2, out);
+    const ProximityDerivatives found = derivatives_of(geoms, g1, g2, *at);
+    if (found.status == DerivativeStatus::InvalidInput) refuse_pair(geoms.ours, geoms.collider);
+    write(found, *out);
+    return 1;
+  });
+}
+
+int answer_clearance(dGeomID g1, dGeomID g2, double enough, int max_evaluations, snClearance* out) {
+  return guarded("snGeomClearance", 0, [&] {
+    const TwoGeoms geoms(g1, g2, out);
+    require_in("max_evaluations", max_evaluations, 1, 3);
+    if (std::isnan(enough)) throw std::invalid_argument("enough = nan m, but must be a number");
+    const Clearance found = clearance_of(geoms, g1, g2, [&](const PosedPair& pair) {
+      return find_clearance(pair.one.shape(), pair.one.pose(), pair.two.shape(), pair.two.pose(), enough, max_evaluations);
+    });
+    out->lower_bound = to_real(found.lower_bound);
+    from_vector(found.normal, out->normal);
+    out->normal[3] = 0;
+    out->evaluations = found.evaluations;
+    return 1;
+  });
+}
+
+int answer_is_farther(dGeomID g1, dGeomID g2, double distance, dReal* normal) {
+  return guarded("snGeomIsFartherThan", 0, [&] {
+    const TwoGeoms geoms(g1, g2, &distance);
+    if (!std::isfinite(distance)) throw std::invalid_argument("distance = " + to_text(distance) + " m is not finite");
+    const Vector3 given = normal == nullptr ? Vector3(Vector3::Zero()) : require_finite("normal", to_vector(normal));
+    const Clearance found = clearance_of(geoms, g1, g2, [&](const PosedPair& pair) {
+      std::array<Clearance, 1> result;
+      std::array<bool, 1> is_farther{};
+      const Vector3 first = pair.one.pose().rotation.transpose() * given;
+      const std::array<ProximityQuery, 1> queries = {pair.query(given.squaredNorm() > 0 ? &first : nullptr)};
+      are_farther_than(queries, distance, result, is_farther);
+      return result[0];
+    });
+    if (normal != nullptr) from_vector(found.normal, normal);
+    return found.lower_bound > distance ? 1 : 0;
+  });
+}
+
+}  // namespace
+}  // namespace supernormal::ode
+
+using namespace supernormal::ode;
+
+extern "C" int snGeomGapGradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal gradient[12]) {
+  return answer_gradient(g1, g2, at, gradient);
+}
+
+extern "C" int snGeomDerivatives(dGeomID g1, dGeomID g2, const snProximity* at, snDerivatives* out) {
+  return answer_derivatives(g1, g2, at, out);
+}
+
+extern "C" int snGeomClearance(dGeomID g1, dGeomID g2, dReal enough, int max_evaluations, snClearance* out) {
+  return answer_clearance(g1, g2, enough, max_evaluations, out);
+}
+
+extern "C" int snGeomIsFartherThan(dGeomID g1, dGeomID g2, dReal distance, dVector3 normal) {
+  return answer_is_farther(g1, g2, distance, normal);
+}

@@ -1,0 +1,23 @@
+// What the queries of two geoms share.
+#pragma once
+
+#include <ode/ode.h>
+
+#include "ode/colliders/query_kind.hpp"
+#include "supernormal/proximity/proximity.hpp"
+
+namespace supernormal::ode {
+
+/// Two geoms in the order in which the core asks about them: body 1 is ours.
+struct TwoGeoms {
+  dGeomID ours, collider;
+  bool is_swapped;  ///< whether `ours` is the second argument
+
+  /// Throws std::invalid_argument if one of the pointers is null or both geoms are the same.
+  TwoGeoms(dGeomID g1, dGeomID g2, const void* out);
+};
+
+/// The answer of the core for two geoms. Throws std::invalid_argument if the pair is not supported or there is no answer.
+Proximity find_proximity_of(const TwoGeoms& geoms, QueryKind kind);
+
+}  // namespace supernormal::ode

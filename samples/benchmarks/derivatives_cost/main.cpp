@@ -1,0 +1,200 @@
+// What derivatives and clearances cost beside the query, as a Markdown table.
+//
+//     derivatives_cost [--pairs 1024] [--rounds 7] [--seed 7] [--only TEXT] [--way N]
+//
+// Pairs are drawn at a random normal, at which their witness points have the gap. The rounds of all ways of asking are interleaved,
+// and the least processor time of each counts. With --way N only this way is asked, once and untimed, to count its instructions.
+#include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "supernormal/proximity/clearance.hpp"
+#include "supernormal/proximity/derivatives.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/capsule.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+
+namespace {
+
+using namespace supernormal;
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+enum class Partner { Same, Box, Capsule };
+
+struct Kind {
+  const char* name;
+  double least_exponent, largest_exponent;
+  double gap;  // in units of the smallest half-extent
+  Partner partner = Partner::Same;
+};
+
+constexpr Kind kKinds[] = {{"ellipsoids, apart", 2, 2, 1},
+                           {"ellipsoids, overlap 1 %", 2, 2, -0.01},
+                           {"1.3 to 5, apart", 1.3, 5, 1},
+                           {"1.3 to 5, overlap 1 %", 1.3, 5, -0.01},
+                           {"6 to 20, apart", 6, 20, 1},
+                           {"6 to 20, overlap 1 %", 6, 20, -0.01},
+                           {"1.3 to 5 and a box, apart", 1.3, 5, 1, Partner::Box},
+                           {"1.3 to 5 and a capsule, apart", 1.3, 5, 1, Partner::Capsule}};
+
+struct Pair {
+  std::unique_ptr<Shape> shape1, shape2;
+  Pose pose1, pose2;
+  Proximity answer;
+};
+
+class Pairs {
+ public:
+  Pairs(const Kind& kind, std::size_t count, unsigned seed) : kind_(kind), engine_(seed), pairs_(count) {
+    for (Pair& pair : pairs_) draw(pair);
+  }
+
+  const std::vector<Pair>& all() const { return pairs_; }
+
+ private:
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  Vector3 direction() { return Vector3{gauss_(engine_), gauss_(engine_), gauss_(engine_)}.normalized(); }
+  Vector3 lengths() { return Vector3{uniform(0.5, 1.5), uniform(0.5, 1.5), uniform(0.5, 1.5)}; }
+  Matrix3 rotation() {
+    return Eigen::Quaterniond(Eigen::Vector4d{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)})
+        .normalized()
+        .toRotationMatrix();
+  }
+
+  std::unique_ptr<Shape> shape() {
+    const Vector3 half = lengths();
+    if (kind_.least_exponent == kind_.largest_exponent) return std::make_unique<Ellipsoid>(half);
+    const double delta = uniform(kind_.least_exponent, kind_.largest_exponent);
+    return std::make_unique<Superellipsoid>(half, delta, uniform(kind_.least_exponent, kind_.largest_exponent));
+  }
+
+  std::unique_ptr<Shape> partner() {
+    switch (kind_.partner) {
+      case Partner::Box:
+        return std::make_unique<Box>(lengths());
+      case Partner::Capsule:
+        return std::make_unique<Capsule>(uniform(0.3, 1), uniform(0.5, 1.5));
+      case Partner::Same:
+        break;
+    }
+    return shape();
+  }
+
+  void draw(Pair& pair) {
+    pair.shape1 = shape();
+    pair.shape2 = partner();
+    pair.pose1 = {Vector3{uniform(-10, 10), uniform(-10, 10), uniform(-10, 10)}, rotation()};
+    pair.pose2.rotation = rotation();
+    const Vector3 n = direction();
+    const double unit = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
+    pair.pose2.position = pair.pose1.position + pair.pose1.rotation * pair.shape1->point(pair.pose1.rotation.transpose() * n) -
+                          pair.pose2.rotation * pair.shape2->point(-(pair.pose2.rotation.transpose() * n)) + kind_.gap * unit * n;
+    pair.answer = find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2);
+  }
+
+  Kind kind_;
+  std::mt19937_64 engine_;
+  std::normal_distribution<double> gauss_;
+  std::vector<Pair> pairs_;
+};
+
+/// A way of asking, and what its answers add up to. Nothing of it can be left out by the compiler.
+struct Way {
+  const char* name;
+  std::function<double(const Pair&)> ask;
+};
+
+double derivatives(const Pair& pair, const DerivativeSettings& settings) {
+  const ProximityDerivatives d =
+      find_proximity_derivatives(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, pair.answer, settings);
+  return d.normal(0, 0) + d.point1(0, 0) + d.gap_hessian(0, 0);
+}
+
+const std::array<Way, 6> kWays = {
+    {{"query", [](const Pair& pair) { return find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2).gap; }},
+     {"gradient", [](const Pair& pair) { return find_gap_gradient(pair.pose1, pair.pose2, pair.answer)[4]; }},
+     {"first derivatives", [](const Pair& pair) { return derivatives(pair, {.hessian = false, .parameters = false}); }},
+     {"all", [](const Pair& pair) { return derivatives(pair, {}); }},
+     {"farther than half",
+      [](const Pair& pair) {
+        return is_farther_than(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, 0.5 * std::abs(pair.answer.gap)) ? 1.0 : 0.0;
+      }},
+     {"with the last normal", [](const Pair& pair) {
+        Vector3 normal = pair.pose1.rotation.transpose() * pair.answer.normal;
+        return is_farther_than(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, 0.5 * std::abs(pair.answer.gap), &normal) ? 1.0
+                                                                                                                             : 0.0;
+      }}}};
+
+void print_row(const Kind& kind, std::size_t count, int rounds, unsigned seed, double& sum) {
+  const Pairs pairs(kind, count, seed);
+  std::array<double, kWays.size()> least;
+  least.fill(std::numeric_limits<double>::infinity());
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t k = 0; k < kWays.size(); ++k) {
+      const double start = processor_seconds();
+      for (const Pair& pair : pairs.all()) sum += kWays[k].ask(pair);
+      least[k] = std::min(least[k], processor_seconds() - start);
+    }
+  }
+  std::printf("| %s |", kind.name);
+  for (const double seconds : least) std::printf(" %.0f |", 1e9 * seconds / static_cast<double>(count));
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  CLI::App app("What derivatives and clearances cost beside the query.");
+  std::size_t count = 1024;
+  int rounds = 7, way = -1;
+  unsigned seed = 7;
+  std::string only;
+  app.option_defaults()->always_capture_default();
+  app.add_option("--pairs", count, "pairs of a row")->check(CLI::Range(1, 1000000));
+  app.add_option("--rounds", rounds, "how often each way of asking is timed")->check(CLI::Range(1, 1000));
+  app.add_option("--seed", seed, "another seed: other pairs");
+  app.add_option("--only", only, "rows whose name has this text");
+  app.add_option("--way", way, "asks only this column, 0 to 5, and times nothing")
+      ->check(CLI::Range(-1, static_cast<int>(kWays.size()) - 1));
+  CLI11_PARSE(app, argc, argv);
+  double sum = 0;
+  if (way < 0) {
+    std::printf("| pairs |");
+    for (const Way& column : kWays) std::printf(" %s, ns |", column.name);
+    std::printf("\n|---|--:|--:|--:|--:|--:|--:|\n");
+  }
+  for (const Kind& kind : kKinds) {
+    if (std::string(kind.name).find(only) == std::string::npos) continue;
+    if (way < 0) {
+      print_row(kind, count, rounds, seed, sum);
+    } else {
+      const Pairs pairs(kind, count, seed);
+      for (int round = 0; round < rounds; ++round) {
+        for (const Pair& pair : pairs.all()) sum += kWays[static_cast<std::size_t>(way)].ask(pair);
+      }
+    }
+  }
+  std::fprintf(stderr, "sum of the answers: %g\n", sum);
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "derivatives_cost: %s\n", error.what());
+  return 1;
+}
