@@ -80,7 +80,7 @@ int answer_impact(dGeomID g1, dGeomID g2, double horizon, snImpact* out) {
 
 }  // namespace
 
-TwoGeoms::TwoGeoms(dGeomID g1, dGeomID g2, const void* out) : ours(g1), collider(g2), is_swapped(false) {
+TwoGeoms::TwoGeoms(dGeomID g1, dGeomID g2, const void* out) : ours(g1), collider(g2) {
   require_not_null("g1", g1);
   require_not_null("g2", g2);
   require_not_null("out", out);

@@ -11,7 +11,7 @@ namespace supernormal::ode {
 /// Two geoms in the order in which the core asks about them: body 1 is ours.
 struct TwoGeoms {
   dGeomID ours, collider;
-  bool is_swapped;  ///< whether `ours` is the second argument
+  bool is_swapped = false;  ///< whether `ours` is the second argument
 
   /// Throws std::invalid_argument if one of the pointers is null or both geoms are the same.
   TwoGeoms(dGeomID g1, dGeomID g2, const void* out);

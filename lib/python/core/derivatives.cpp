@@ -299,8 +299,9 @@ void bind_derivatives_class(py::module_& m) {
 
 void bind_derivatives(py::module_& m) {
   bind_derivatives_class(m);
-  m.def("find_proximity_derivatives", &proximity_derivatives, kFindDerivativesDoc, py::arg("shapes1"), py::arg("poses1"), py::arg("shapes2"),
-        py::arg("poses2"), py::arg("proximities"), py::arg("hessian") = true, py::arg("parameters") = true, py::arg("threads") = 0);
+  m.def("find_proximity_derivatives", &proximity_derivatives, kFindDerivativesDoc, py::arg("shapes1"), py::arg("poses1"),
+        py::arg("shapes2"), py::arg("poses2"), py::arg("proximities"), py::arg("hessian") = true, py::arg("parameters") = true,
+        py::arg("threads") = 0);
   m.def("find_gap_gradient", &gap_gradient, kGradientDoc, py::arg("poses1"), py::arg("poses2"), py::arg("proximities"));
 
   py::class_<Clearances> bounds(m, "Clearances", kClearancesDoc);

@@ -192,7 +192,7 @@ TEST_CASE("derivatives of geoms: a ray, and the parameters of both geoms by name
   for (int k = 0; k < 6; ++k) CHECK(std::strcmp(found.parameter2[k].name, names[k]) == 0);
   CHECK(std::abs(found.parameter2[5].value + 1) < within_rounding(1e-12));
   // The gap with another half-axis.
-  const dReal h = dReal(1e-3);
+  const auto h = dReal(1e-3);
   const auto gap_with = [&](dReal a) {
     snGeomSuperellipsoidSetParams(ours, a, dReal(0.7), dReal(0.5), dReal(2.5), 2);
     return double{asked(can, ours).gap};

@@ -143,7 +143,7 @@ class Comparison {
     back.point1 = swapped.point2 * swap;
     back.point2 = swapped.point1 * swap;
     back.gap_hessian = swap * swapped.gap_hessian * swap;
-    compare_with(kSwapped, back);
+    compare_with(OfSwapped, back);
   }
 
   /// Body 1 comes to the origin of another frame. So the rounding of positions hardly moves the bodies.
@@ -161,7 +161,7 @@ class Comparison {
     back.point1 = R.transpose() * moved.point1 * turn;
     back.point2 = R.transpose() * moved.point2 * turn;
     back.gap_hessian = turn.transpose() * moved.gap_hessian * turn;
-    compare_with(kMoved, back);
+    compare_with(OfMoved, back);
   }
 
   LongAnswer moved(const LongNormal& reference, const Eigen::Matrix<Real, 12, 1>& twist) const {
@@ -199,10 +199,10 @@ class Comparison {
       const double size = claimed.middleRows(row, rows).norm() + least;
       count(what, (claimed - numeric).middleRows(row, rows).norm() / size, errors.norm() / size);
     };
-    check(kGap, 0, 1, unit_);
-    check(kNormal, 1, 3, 1);
-    check(kPoint1, 4, 3, unit_);
-    check(kPoint2, 7, 3, unit_);
+    check(OfGap, 0, 1, unit_);
+    check(OfNormal, 1, 3, 1);
+    check(OfPoint1, 4, 3, unit_);
+    check(OfPoint2, 7, 3, unit_);
   }
 
   void compare_second(const LongNormal& reference) {
@@ -231,7 +231,7 @@ class Comparison {
         H.col(i) *= static_cast<double>(scale(i));
       }
       const double size = H.norm() + unit_;
-      count(kHessian, std::abs(direction.dot(found_.gap_hessian * direction) - static_cast<double>(derivative.value)) / size,
+      count(OfHessian, std::abs(direction.dot(found_.gap_hessian * direction) - static_cast<double>(derivative.value)) / size,
             (derivative.error + rounding) / size);
     }
   }
@@ -259,15 +259,15 @@ class Comparison {
         const auto derivative = extrapolate<Real>(difference, first_step * step_, 6);
         const double size = std::abs(claimed[k].value) + (is_length ? 1 : 0.1 * unit_);
         if (is_exact) {
-          count(kParameters, std::abs(claimed[k].value - static_cast<double>(derivative.value)) / size, derivative.error / size);
+          count(OfParameters, std::abs(claimed[k].value - static_cast<double>(derivative.value)) / size, derivative.error / size);
         }
       }
     }
   }
 
   void count(Quantity what, double difference, double error) {
-    static constexpr const char* kNames[kQuantities] = {"gap",     "normal",     "point1",  "point2",
-                                                        "hessian", "parameters", "swapped", "moved"};
+    static constexpr const char* kNames[QuantityCount] = {"gap",     "normal",     "point1",  "point2",
+                                                          "hessian", "parameters", "swapped", "moved"};
     Tally::Figures& figures = tally_.figures[what];
     if (!(error <= kResolution * kLargestErrors[what])) {
       ++figures.undecided;
@@ -449,13 +449,13 @@ void compare(const DerivativePair& pair, const std::string& name, Tally& tally) 
 void print(std::ostream& out, const Tally& tally) {
   static constexpr const char* kStatuses[] = {"smooth",         "active set", "degenerate",    "free on a face", "singular",
                                               "several maxima", "no Hessian", "not converged", "invalid"};
-  static constexpr const char* kNames[kQuantities] = {"gap",        "normal",         "point 1",    "point 2", "Hessian of the gap",
-                                                      "parameters", "swapped bodies", "moved frame"};
+  static constexpr const char* kNames[QuantityCount] = {
+      "gap", "normal", "point 1", "point 2", "Hessian of the gap", "parameters", "swapped bodies", "moved frame"};
   out << tally.pairs << " pairs, " << tally.not_finite << " with numbers that are not finite, " << tally.unreferenced
       << " beyond the reference, " << tally.evaluations / static_cast<double>(tally.pairs) << " evaluations\n";
   for (const auto& [status, count] : tally.statuses) out << "  " << kStatuses[static_cast<int>(status)] << ": " << count << '\n';
   out << "quantity | compared | undecided | wrong | worst relative error\n";
-  for (int k = 0; k < kQuantities; ++k) {
+  for (int k = 0; k < QuantityCount; ++k) {
     const Tally::Figures& f = tally.figures[static_cast<std::size_t>(k)];
     out << kNames[k] << " | " << f.compared << " | " << f.undecided << " | " << f.wrong << " | " << f.worst << '\n';
   }

@@ -40,7 +40,7 @@ class DerivativePairs {
 
 /// What differs, relative to the norm of the derivative in units of the bodies' size. The last two compare all derivatives with
 /// those of the swapped bodies, and of both bodies in a moved frame.
-enum Quantity { kGap, kNormal, kPoint1, kPoint2, kHessian, kParameters, kSwapped, kMoved, kQuantities };
+enum Quantity { OfGap, OfNormal, OfPoint1, OfPoint2, OfHessian, OfParameters, OfSwapped, OfMoved, QuantityCount };
 
 /// The figures of many comparisons.
 struct Tally {
@@ -48,7 +48,7 @@ struct Tally {
     int compared = 0, undecided = 0, wrong = 0;
     double worst = 0;
   };
-  std::array<Figures, kQuantities> figures;
+  std::array<Figures, QuantityCount> figures;
   std::map<DerivativeStatus, int> statuses;
   int pairs = 0, not_finite = 0, evaluations = 0, unreferenced = 0;
   std::map<std::string, std::array<int, 3>> kinds;  // pairs, all derivatives defined, referenced
@@ -56,7 +56,7 @@ struct Tally {
 };
 
 /// Largest relative errors that count as right.
-inline constexpr std::array<double, kQuantities> kLargestErrors = {1e-6, 1e-6, 1e-6, 1e-6, 1e-4, 1e-6, 1e-6, 1e-6};
+inline constexpr std::array<double, QuantityCount> kLargestErrors = {1e-6, 1e-6, 1e-6, 1e-6, 1e-4, 1e-6, 1e-6, 1e-6};
 
 /// Compares one pair and adds it to the tally. `name` is for the report.
 void compare(const DerivativePair& pair, const std::string& name, Tally& tally);
