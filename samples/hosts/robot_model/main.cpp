@@ -60,9 +60,7 @@ void print_rest(const Scene& scene, const World& world, double seconds) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   std::string path;
   double seconds = 10;
   double density = 1000;
@@ -75,15 +73,21 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  const Scene scene = read_scene(path);
+  World world(scene, density);
+  print_scene(scene, world);
+  world.simulate(seconds);
+  print_rest(scene, world, seconds);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    const Scene scene = read_scene(path);
-    World world(scene, density);
-    print_scene(scene, world);
-    world.simulate(seconds);
-    print_rest(scene, world, seconds);
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "robot_model: %s\n", error.what());
     return 2;
   }
-  return 0;
 }
