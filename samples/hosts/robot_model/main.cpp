@@ -66,7 +66,7 @@ int run(int argc, char** argv) {
   double density = 1000;
   CLI::App app{"Simulates the models of an SDF or URDF file in ODE"};
   app.add_option("FILE", path, "an SDF file with a world or a model, or a URDF file")->required();
-  app.add_option("--seconds", seconds, "how long to simulate, s")->check(CLI::Range(0.0, 1e6))->capture_default_str();
+  app.add_option("--seconds", seconds, "how long to simulate, s")->capture_default_str();
   app.add_option("--density", density, "of links without <inertial>, kg/m^3")->capture_default_str();
   try {
     app.parse(argc, argv);
