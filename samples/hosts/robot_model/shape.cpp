@@ -78,12 +78,14 @@ Shape read_shape(const std::string& element, const TextOf& text_of, const std::s
     Shape shape{&kind, {}};
     for (const Key& key : kind.keys) {
       if (key.count == 0) continue;
+      std::string size = where;
+      size.append(": ").append(key.name).append(" of <").append(element).append("> is ");
       const std::optional<std::string> text = text_of(key.name);
-      if (!text) throw std::runtime_error(where + ": <" + element + "> has no " + key.name);
+      if (!text) throw std::runtime_error(size + "missing");
       const std::vector<double> numbers = numbers_in(*text);
       if (numbers.size() != key.count) {
-        throw std::runtime_error(where + ": " + key.name + " of <" + element + "> is \"" + *text + "\", must be " +
-                                 std::to_string(key.count) + (key.count == 1 ? " number" : " numbers"));
+        const char* const unit = key.count == 1 ? " number" : " numbers";
+        throw std::runtime_error(size + "\"" + *text + "\", must be " + std::to_string(key.count) + unit);
       }
       shape.sizes.insert(shape.sizes.end(), numbers.begin(), numbers.end());
     }
