@@ -15,7 +15,8 @@ expect 0 "$program" "$folder/arm.urdf" --seconds 0 --density 500
 says 'no world'
 expect 2 "$program"
 expect 2 "$program" "$folder/shapes.sdf" --seconds -1
-says '-1 not in range 0.* to 1000000'
+says 'seconds is -1, must be in \[0, inf)'
+expect 2 "$program" "$folder/shapes.sdf" --seconds nan
 expect 2 "$program" "$folder/shapes.sdf" --density 0
 says 'density is 0 kg/m^3, must be in (0, inf)'
 expect 2 "$program" "$work/missing.sdf"

@@ -60,30 +60,34 @@ void print_rest(const Scene& scene, const World& world, double seconds) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   std::string path;
   double seconds = 10;
   double density = 1000;
   CLI::App app{"Simulates the models of an SDF or URDF file in ODE"};
   app.add_option("FILE", path, "an SDF file with a world or a model, or a URDF file")->required();
-  app.add_option("--seconds", seconds, "how long to simulate, s")->check(CLI::Range(0.0, 1e6))->capture_default_str();
+  app.add_option("--seconds", seconds, "how long to simulate, s")->capture_default_str();
   app.add_option("--density", density, "of links without <inertial>, kg/m^3")->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  const Scene scene = read_scene(path);
+  World world(scene, density);
+  print_scene(scene, world);
+  world.simulate(seconds);
+  print_rest(scene, world, seconds);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    const Scene scene = read_scene(path);
-    World world(scene, density);
-    print_scene(scene, world);
-    world.simulate(seconds);
-    print_rest(scene, world, seconds);
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "robot_model: %s\n", error.what());
     return 2;
   }
-  return 0;
 }

@@ -60,11 +60,11 @@ Eigen::Isometry3d pose_of(const urdf::Pose& pose) {
 void check_tree(const urdf::ModelInterface& robot, const std::string& file) {
   if (robot.joints_.size() >= robot.links_.size())
     throw std::runtime_error(file + ": a link is the child of several joints, must be of one");
+  const std::string loop = file + ": the joints form a loop, must form a tree, at link ";
   for (const auto& [name, link] : robot.links_) {
     std::size_t depth = 0;
     for (urdf::LinkSharedPtr above = link->getParent(); above; above = above->getParent()) {
-      if (++depth > robot.links_.size())
-        throw std::runtime_error(file + ": link " + name + ": the joints form a loop, must form a tree");
+      if (++depth > robot.links_.size()) throw std::runtime_error(loop + name);
     }
   }
 }
@@ -98,11 +98,11 @@ Link link_of(const urdf::Link& link, const TiXmlElement& element, const std::str
     moment << body.ixx, body.ixy, body.ixz, body.ixy, body.iyy, body.iyz, body.ixz, body.iyz, body.izz;
     out.inertial = Inertial{body.mass, out.pose * pose_of(body.origin), moment};
   }
+  const std::string of_link = file + ": link " + link.name + ", collision ";
   const TiXmlElement* collision = element.FirstChildElement("collision");
   for (const urdf::CollisionSharedPtr& parsed : link.collision_array) {
     const std::string name = parsed->name.empty() ? std::to_string(out.collisions.size() + 1) : parsed->name;
-    const std::string where = file + ": link " + link.name + ", collision " + name;
-    out.collisions.push_back({name, shape_of(*collision, where), out.pose * pose_of(parsed->origin)});
+    out.collisions.push_back({name, shape_of(*collision, of_link + name), out.pose * pose_of(parsed->origin)});
     collision = collision->NextSiblingElement("collision");
   }
   return out;

@@ -69,22 +69,25 @@ std::vector<double> numbers_in(const std::string& text) {
   return numbers;
 }
 
+[[noreturn]] void refuse_size(const Key& key, const std::optional<std::string>& text, const std::string& where) {
+  const std::string value = text ? "is \"" + *text + "\"" : "is missing";
+  throw std::runtime_error(where + ": " + key.name + " " + value + ", must be " + std::to_string(key.count) +
+                           (key.count == 1 ? " number" : " numbers"));
+}
+
 }  // namespace
 
 Shape read_shape(const std::string& element, const TextOf& text_of, const std::string& where) {
   const std::string name = element.starts_with(kOurPrefix) ? element.substr(kOurPrefix.size()) : element;
+  const std::string of_element = where + ": <" + element + ">";
   for (const ShapeKind& kind : kKinds) {
     if (name != kind.element) continue;
     Shape shape{&kind, {}};
     for (const Key& key : kind.keys) {
       if (key.count == 0) continue;
       const std::optional<std::string> text = text_of(key.name);
-      if (!text) throw std::runtime_error(where + ": <" + element + "> has no " + key.name);
-      const std::vector<double> numbers = numbers_in(*text);
-      if (numbers.size() != key.count) {
-        throw std::runtime_error(where + ": " + key.name + " of <" + element + "> is \"" + *text + "\", must be " +
-                                 std::to_string(key.count) + (key.count == 1 ? " number" : " numbers"));
-      }
+      const std::vector<double> numbers = text ? numbers_in(*text) : std::vector<double>();
+      if (numbers.size() != key.count) refuse_size(key, text, of_element);
       shape.sizes.insert(shape.sizes.end(), numbers.begin(), numbers.end());
     }
     return shape;

@@ -265,11 +265,14 @@ void World::collide(dGeomID geom1, dGeomID geom2) {
 }
 
 void World::simulate(double seconds) {
+  require(seconds >= 0 && std::isfinite(seconds), "seconds is " + text_of(seconds) + ", must be in [0, inf)");
   const auto near = [](void* world, dGeomID geom1, dGeomID geom2) { static_cast<World*>(world)->collide(geom1, geom2); };
-  for (double time = 0; time < seconds - 0.5 * scene_.step; time += scene_.step) {
+  double left = seconds;
+  while (left > 0.5 * scene_.step) {
     dSpaceCollide(ode_.space, this, near);
     dWorldQuickStep(ode_.world, scene_.step);
     dJointGroupEmpty(ode_.contacts);
+    left -= scene_.step;
   }
 }
 

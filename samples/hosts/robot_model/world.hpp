@@ -27,7 +27,7 @@ class World {
   /// the valid range.
   World(const Scene& scene, double density);
 
-  /// Steps until `seconds` have passed.
+  /// Steps until `seconds` in [0, inf) have passed. Throws std::runtime_error otherwise.
   void simulate(double seconds);
 
   /// The present pose of a link in the world.
