@@ -40,6 +40,7 @@ struct Kind {
   bool is_warm;
   bool is_early;             // ends at the first proof of separation
   bool is_on_faces = false;  // the largest faces on one another, at a random place and angle
+  double thickness = 1;      // of two half-axes
 };
 
 constexpr Kind kKinds[] = {{"ellipsoids, apart, cold", 2, 2, 0.01, false, false},
@@ -54,6 +55,12 @@ constexpr Kind kKinds[] = {{"ellipsoids, apart, cold", 2, 2, 0.01, false, false}
                            {"6 to 20, overlap 1 %, warm", 6, 20, -0.01, true, false},
                            {"6 to 20, overlap 10 %, cold", 6, 20, -0.1, false, false},
                            {"1.05 to 100, apart, cold", 1.05, 100, 0.01, false, false},
+                           {"6 to 20, overlap 30 %, cold", 6, 20, -0.3, false, false},
+                           {"6 to 20, overlap 30 %, warm", 6, 20, -0.3, true, false},
+                           {"1.1 to 1.3, overlap 30 %, cold", 1.1, 1.3, -0.3, false, false},
+                           {"1.1 to 1.3, overlap 30 %, warm", 1.1, 1.3, -0.3, true, false},
+                           {"needles 2 to 5, overlap 30 %, cold", 2, 5, -0.3, false, false, false, 0.1},
+                           {"needles 2 to 5, overlap 30 %, warm", 2, 5, -0.3, true, false, false, 0.1},
                            {"8, face on face, apart, cold", 8, 8.01, 0.01, false, false, true},
                            {"8, face on face, overlap 1 %, warm", 8, 8.01, -0.01, true, false, true},
                            {"20, face on face, apart, cold", 20, 20.01, 0.01, false, false, true},
@@ -87,7 +94,8 @@ class Pairs {
   }
 
   std::unique_ptr<Shape> shape() {
-    const Vector3 half = Vector3{uniform(0.5, 1.5), uniform(0.5, 1.5), uniform(0.5, 1.5)};
+    Vector3 half = Vector3{uniform(0.5, 1.5), uniform(0.5, 1.5), uniform(0.5, 1.5)};
+    half.head<2>() *= kind_.thickness;
     if (kind_.least_exponent == kind_.largest_exponent) return std::make_unique<Ellipsoid>(half);
     const double delta = uniform(kind_.least_exponent, kind_.largest_exponent);
     return std::make_unique<Superellipsoid>(half, delta, uniform(kind_.least_exponent, kind_.largest_exponent));
