@@ -113,9 +113,11 @@ TEST_CASE("are_farther_than: many pairs have the answers of each") {
   const RandomKind kind = random_kinds().front();
   RandomBodies bodies(kind, 73);
   std::vector<RandomPair> pairs;
+  pairs.reserve(100);
   for (int k = 0; k < 100; ++k) pairs.push_back(bodies.draw(bodies.uniform(0, 2)));
   const Pose origin;
   std::vector<ProximityQuery> queries;
+  queries.reserve(pairs.size());
   for (const RandomPair& pair : pairs) queries.push_back({pair.shape1.get(), &origin, pair.shape2.get(), &pair.pose2});
   std::vector<Clearance> results(pairs.size());
   const auto flags = std::make_unique<bool[]>(pairs.size());

@@ -108,7 +108,7 @@ TEST_CASE("offered points make the hull reach the goal as added ones do, and the
     std::vector<Vector3> all = points;
     for (const bool is_symmetric : {false, true}) {
       if (is_symmetric) {
-        for (const Vector3& point : points) all.push_back(2 * centre - point);
+        for (const Vector3& point : points) all.emplace_back(2 * centre - point);
       }
       const double radius = inner_radius_of(all);
       for (const double share : {1.0, 0.5}) {
