@@ -73,8 +73,11 @@ class PythonFunction {
   std::array<double, kCount> call_locked(const Vector3& n) const {
     py::array_t<double> direction(py::ssize_t{3});
     std::copy(n.data(), n.data() + 3, direction.mutable_data());
-    const py::object result = (*function_)(direction);
-    const Doubles values = Doubles::ensure(result);
+    // Each call of Python may end the thread. Until the wait nothing may be destroyed that takes the lock, such as an argument.
+    const auto result = py::reinterpret_steal<py::object>(outlive_the_interpreter(
+        [&] { return PyObject_CallFunctionObjArgs(function_->ptr(), direction.ptr(), static_cast<PyObject*>(nullptr)); }));
+    if (!result) throw py::error_already_set();
+    const Doubles values = outlive_the_interpreter([&] { return Doubles::ensure(result); });
     if (!values) PyErr_Clear();
     if (!values || values.size() != static_cast<py::ssize_t>(kCount)) {
       throw std::invalid_argument(std::string(name_) + "(" + vector_text(n.data(), 3) + ") returned " +
