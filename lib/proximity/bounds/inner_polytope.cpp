@@ -39,6 +39,7 @@ bool InnerPolytope::start(const std::array<Vector3, 4>& tetrahedron, const Vecto
   facets_.clear();
   heap_.clear();
   offered_.clear();
+  reserve();
   symmetry_.reset();
   visit_ = 0;
   goal_ = beyond_goal_ = std::numeric_limits<double>::infinity();
@@ -55,6 +56,17 @@ bool InnerPolytope::start(const std::array<Vector3, 4>& tetrahedron, const Vecto
   const std::array<std::array<Index, 3>, 4> neighbours = {{{1, 2, 3}, {3, 2, 0}, {1, 3, 0}, {2, 1, 0}}};
   for (std::size_t k = 0; k < 4; ++k) facets_[k].neighbour = neighbours[k];
   return true;
+}
+
+// A point adds about six facets. So a thread allocates in its first search, and later only in a longer one.
+void InnerPolytope::reserve() {
+  constexpr std::size_t kVertices = 256;  // more than Tuning::search_evaluations and the cuts
+  vertices_.reserve(kVertices);
+  facets_.reserve(6 * kVertices);
+  heap_.reserve(6 * kVertices);
+  offered_.reserve(kMostOffers);
+  horizon_.reserve(kVertices);
+  visible_.reserve(kVertices);
 }
 
 double InnerPolytope::height_above(Index facet, const Vector3& point) const {
@@ -235,6 +247,9 @@ void InnerPolytope::give_up(const Nearest& facet) {
   std::make_heap(heap_.begin(), heap_.end(), is_farther);
 }
 
-double InnerPolytope::inner_radius() { return std::min({given_up_, beyond_goal_ - centre_.norm(), nearest().distance}); }
+double InnerPolytope::inner_radius() {
+  const double distance = nearest().distance;  // which may put facets beyond the goal
+  return std::min({given_up_, beyond_goal_ - centre_.norm(), distance});
+}
 
 }  // namespace supernormal

@@ -43,8 +43,10 @@ class InnerPolytope {
   bool add(const Vector3& point);
 
   /// Offers a point of the body. nearest() adds it if it reaches the goal over the nearest facet. A point that does not would have
-  /// to be followed by a farther one there.
-  void offer(const Vector3& point) { offered_.push_back({point, false, false}); }
+  /// to be followed by a farther one there. Points after the first kMostOffers are ignored.
+  void offer(const Vector3& point) {
+    if (offered_.size() < kMostOffers) offered_.push_back({point, false, false});
+  }
 
   /// The body is point-symmetric about `centre` (m): the mirror images of the offered points are offered, too.
   void set_symmetry(const Vector3& centre) { symmetry_ = centre; }
@@ -81,6 +83,8 @@ class InnerPolytope {
     Vector3 point;   // m
     double squared;  // m^2; of its norm
   };
+  // The cuts of a query, and the ends of some climbs.
+  static constexpr std::size_t kMostOffers = 64;
   struct Offer {
     Vector3 point;  // m
     bool is_taken, is_mirror_taken;
@@ -92,6 +96,7 @@ class InnerPolytope {
   };
 
   static bool is_farther(const Entry& a, const Entry& b) { return a.distance > b.distance; }
+  void reserve();
   double height_above(Index facet, const Vector3& point) const;
   Nearest nearest_of_heap();
   bool take_offer(const Nearest& facet, Vector3& vertex);
