@@ -39,7 +39,7 @@ class ManyPairs : public RandomQueries {
     for (std::size_t k = 0; k < pair_count(); ++k) {
       for (const Vector3* first : {static_cast<const Vector3*>(nullptr), normal(k), normal((k + 1) % pair_count())}) ask(k, first);
     }
-    std::shuffle(queries_.begin(), queries_.end(), std::mt19937(3));
+    shuffle(3);
   }
 };
 

@@ -1,8 +1,10 @@
 // Queries of random pairs.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "supernormal/proximity/batch.hpp"
@@ -15,6 +17,7 @@ namespace supernormal::test {
 class RandomQueries {
  public:
   const std::vector<ProximityQuery>& queries() const { return queries_; }
+  void shuffle(unsigned seed) { std::shuffle(queries_.begin(), queries_.end(), std::mt19937(seed)); }
 
  protected:
   /// A source of pairs of a kind.
@@ -34,13 +37,12 @@ class RandomQueries {
     queries_.push_back({pairs_[pair].shape1.get(), &kPlace, pairs_[pair].shape2.get(), &pairs_[pair].pose2, first_normal});
   }
 
-  std::vector<ProximityQuery> queries_;
-
  private:
   inline static const Pose kPlace;
   std::vector<std::unique_ptr<RandomBodies>> bodies_;  // they hold vertices that the pairs refer to
   std::deque<RandomPair> pairs_;                       // the places of both stay
   std::deque<Vector3> normals_;
+  std::vector<ProximityQuery> queries_;
 };
 
 }  // namespace supernormal::test

@@ -53,8 +53,8 @@ TangentResponse smooth(const BodyCurvature& body1, const BodyCurvature& body2, d
 TangentResponse along_edge(const Vector2& t, bool is_edge_of_first, const BodyCurvature& body1, const BodyCurvature& body2,
                            double s, double length_unit) {
   const Symmetric2 M = (body1.A + body2.A).plus_identity(s);
-  const Vector2 u = quarter_turn(t), Mu = M * u;
-  const double curvature = u.dot(Mu);
+  const Vector2 u = quarter_turn(t), of_u = M * u;
+  const double curvature = u.dot(of_u);
   if (!is_known(curvature, body1.A.trace() + body2.A.trace() + std::abs(s), length_unit)) return {};
   TangentResponse out;
   out.kind = Kind::Regular;
@@ -62,7 +62,7 @@ TangentResponse along_edge(const Vector2& t, bool is_edge_of_first, const BodyCu
   out.G = u * (u / curvature).transpose();
   out.B1 = out.G * A1;
   out.B2 = out.G * A2;
-  const Matrix2 turned = (t - u * (Mu.dot(t) / curvature)) * t.transpose();
+  const Matrix2 turned = (t - u * (of_u.dot(t) / curvature)) * t.transpose();
   (is_edge_of_first ? out.B1 : out.B2) += turned;
   out.W = is_edge_of_first ? Matrix2(out.B1.transpose() * A2) : Matrix2(A1 * out.B2);
   return out;

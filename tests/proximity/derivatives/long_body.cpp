@@ -117,6 +117,7 @@ std::vector<Real3> edges_of(const std::vector<Real3>& points, const Real3& n) {
 
 std::vector<Real3> box_vertices(const std::vector<Real>& q) {
   std::vector<Real3> points;
+  points.reserve(8);
   for (int k = 0; k < 8; ++k) points.emplace_back(k & 1 ? q[0] : -q[0], k & 2 ? q[1] : -q[1], k & 4 ? q[2] : -q[2]);
   return points;
 }
@@ -239,9 +240,9 @@ PairedBody paired_cylinder(double radius, double half_length) {
   return {std::make_shared<Cylinder>(radius, half_length), make(Kind::Cylinder, {radius, half_length})};
 }
 
-PairedBody paired_polytope(std::shared_ptr<const std::vector<Vector3>> points) {
+PairedBody paired_polytope(const std::shared_ptr<const std::vector<Vector3>>& points) {
   auto exact = make(Kind::Polytope, {});
-  for (const Vector3& p : *points) exact->vertices.push_back(p.cast<Real>());
+  for (const Vector3& p : *points) exact->vertices.emplace_back(p.cast<Real>());
   const auto* shape = new Polytope(*points);
   return {std::shared_ptr<const Shape>(shape, [points](const Polytope* it) { delete it; }), exact};
 }

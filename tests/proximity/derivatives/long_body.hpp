@@ -53,7 +53,7 @@ PairedBody paired_sphere(double radius);
 PairedBody paired_box(const Vector3& half_lengths);
 PairedBody paired_capsule(double radius, double half_length);
 PairedBody paired_cylinder(double radius, double half_length);
-PairedBody paired_polytope(std::shared_ptr<const std::vector<Vector3>> points);
+PairedBody paired_polytope(const std::shared_ptr<const std::vector<Vector3>>& points);
 PairedBody rounded(const PairedBody& core, double radius);
 PairedBody sum(const PairedBody& first, const PairedBody& second);
 PairedBody image(const PairedBody& body, const Matrix3& matrix);

@@ -134,7 +134,7 @@ class Search {
     const Real3 from1 = point1(n), from2 = point2(n);
     const Real s = n.dot(from2 - from1);
     const auto push = [&](const Real3& g, const Real33& R, int sign) {
-      if (g.norm() > 0 && g.allFinite()) out.push_back(sign * (R * g).normalized());
+      if (g.norm() > 0 && g.allFinite()) out.emplace_back(sign * (R * g).normalized());
     };
     for (const Real h : {1e-5L, 1e-8L, 1e-12L}) {
       const Real3 step = newton_step(n, curvature(n, h));

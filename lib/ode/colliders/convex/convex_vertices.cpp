@@ -14,21 +14,21 @@ namespace {
 constexpr std::size_t kFirstContacts = 256;
 constexpr std::size_t kMaxContacts = 0xffff;  // the largest max_contacts that dCollide accepts
 
-using Box = Eigen::AlignedBox3d;
+using Bounds = Eigen::AlignedBox3d;
 
-Box aabb_of(dGeomID geom) {
+Bounds aabb_of(dGeomID geom) {
   dReal aabb[6];
   dGeomGetAABB(geom, aabb);
   return {Vector3(aabb[0], aabb[2], aabb[4]), Vector3(aabb[1], aabb[3], aabb[5])};
 }
 
-Box box_of(std::span<const Vector3> points) {
-  Box box;
+Bounds box_of(std::span<const Vector3> points) {
+  Bounds box;
   for (const Vector3& point : points) box.extend(point);
   return box;
 }
 
-bool is_finite(const Box& box) { return box.min().allFinite() && box.max().allFinite(); }
+bool is_finite(const Bounds& box) { return box.min().allFinite() && box.max().allFinite(); }
 
 }  // namespace
 
@@ -41,7 +41,7 @@ ConvexVertices::~ConvexVertices() { dGeomDestroy(plane_); }
 bool ConvexVertices::read(dGeomID convex) {
   const Pose geom_pose = pose_of(convex);
   if (!geom_pose.position.allFinite() || !geom_pose.rotation.allFinite()) return false;
-  Box box = aabb_of(convex);
+  Bounds box = aabb_of(convex);
   if (!list(convex, box) && dGeomGetSpace(convex) == nullptr) {  // not in a space, which may be locked: dGeomMoved would abort
     dGeomMoved(convex);
     box = aabb_of(convex);
@@ -51,7 +51,7 @@ bool ConvexVertices::read(dGeomID convex) {
   if (points_.empty()) {
     throw std::invalid_argument("the dConvex has no vertices where its bounding box is; after dGeomSetConvex call dGeomMoved");
   }
-  const Box actual = box_of(points_);
+  const Bounds actual = box_of(points_);
   if (!is_finite(actual)) return false;
   if (actual.min() != box.min() || actual.max() != box.max()) list(convex, actual);
   move_to_middle(geom_pose);
