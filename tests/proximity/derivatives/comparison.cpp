@@ -48,8 +48,8 @@ Extrapolated<Value> extrapolate(const Difference& difference, Real first_step, i
     table[level].push_back(difference(step));
     Real factor = 16;
     for (int order = 1; order <= level; ++order, factor *= 16) {
-      const Value& coarse = table[level - 1][order - 1];
-      const Value& fine = table[level][order - 1];
+      const Value coarse = table[level - 1][order - 1];
+      const Value fine = table[level][order - 1];  // the table grows
       table[level].push_back(Value((factor * fine - coarse) / (factor - 1)));
       const double error = std::max(size(Value(table[level][order] - fine)), size(Value(table[level][order] - coarse)));
       if (error < best.error) best = {table[level][order], error};
