@@ -175,7 +175,8 @@ TEST_CASE("copy: a geom's copy has its shape, its bits and its place, and lives 
   dGeomDisable(*geom);
   const std::string text = text_of(*geom);
   const Vec there = to_vec(dGeomGetPosition(*geom));
-  const Geom copy(snGeomCopy(space, *geom));
+  auto copied = std::make_unique<Geom>(snGeomCopy(space, *geom));
+  const dGeomID copy = *copied;
   geom.reset();
   CHECK(text_of(copy) == text);
   CHECK(to_vec(dGeomGetPosition(copy)) == there);
@@ -187,6 +188,8 @@ TEST_CASE("copy: a geom's copy has its shape, its bits and its place, and lives 
   CHECK(dGeomIsEnabled(copy) == 0);
   CHECK(snGeomSuperellipsoidSetParams(copy, 1, 1, 1, 2, 2) == 1);
   CHECK(text_of(copy) == "Rounded(core=Ellipsoid(half_axes=(1, 1, 1)), radius=0.25)");
+  copied.reset();
+  dSpaceDestroy(space);
   dBodyDestroy(body);
   dWorldDestroy(world);
 }
