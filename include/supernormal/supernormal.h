@@ -292,7 +292,7 @@ typedef enum snDerivativeStatus SN_ENUM_BASE {
 typedef struct snParameter {
   const char* name; /**< as of the C++ class: "a", "b", "c", "delta", "epsilon", "taper_x", "taper_y", "radius", "half_length"; for
                        a dBox, dCapsule and dCylinder half-lengths. A radius after other parameters is the rounding */
-  dReal value;      /**< m/m for a length, m for an exponent or a taper */
+  dReal value;      /**< d gap / d parameter: m/m by a length, m by an exponent or a taper */
 } snParameter;
 
 /** Derivatives of the answer to a query of two geoms. The columns are the components of two twists, (v1, w1, v2, w2), three each,
@@ -318,8 +318,9 @@ typedef struct snDerivatives {
 
 /** The gradient of the gap by both twists, as in snDerivatives: (-n, -P1 x n, n, P2 x n) with P1 and P2 from the positions of the
  * geoms to the point midway between `at->point1` and `at->point2`, across n. It evaluates nothing. `at` is the answer of
- * snGeomProximity or snGeomProximityCertified for the same geoms in the same order and poses, and the error is its error. The geoms
- * are the geoms of snGeomProximity. Returns 1; 0 (and snLastError) if an argument is refused. */
+ * snGeomProximity or snGeomProximityCertified for the same geoms in the same order and poses. The gradient is as exact as the
+ * normal and the points of `at`. The geoms are the geoms of snGeomProximity. Returns 1; 0 (and snLastError) if an argument is
+ * refused. */
 SUPERNORMAL_API int snGeomGapGradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal gradient[12]);
 
 /** All derivatives at the answer `at`, in closed form: its normal is first brought to rounding, with about two evaluations. The

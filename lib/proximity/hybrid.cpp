@@ -35,7 +35,6 @@ class Hybrid {
  private:
   void add_centre();
   bool is_tracked() const { return wanted_ == WantedMaximum::Tracked; }
-  Proximity after_newton(const CertifiedNewton& newton, CertifiedNewton::End end);
   template <typename Start>
   Proximity climb(const Start& start);
   std::optional<SearchLimits> search_limits() const;
@@ -70,10 +69,6 @@ Proximity Hybrid::solve(const Vector3& start) {
   if (!CertifiedNewton::is_for(gap_)) return climb(start);
   CertifiedNewton newton(gap_, cuts_, rule_);
   const CertifiedNewton::End end = newton.run(start, wanted_);
-  return after_newton(newton, end);
-}
-
-Proximity Hybrid::after_newton(const CertifiedNewton& newton, CertifiedNewton::End end) {
   if (end == CertifiedNewton::End::Open) return climb(newton.best());
   const Status status = end == CertifiedNewton::End::Apart ? Status::Apart : Status::Converged;
   Proximity out = answer(gap_, rule_, newton.best(), newton.error(), status);

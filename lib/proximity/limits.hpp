@@ -33,6 +33,9 @@ inline constexpr double kLargestCurvature = 1e30;
 // Of the tolerance: a meeting halfway that gains less is on faces so flat that rounding moves the points. The proof takes tilts.
 inline constexpr double kLeastGain = 0.01;
 
+// Two tilts find the other sides of the line where a triangle meets it. One more repairs what rounding leaves.
+inline constexpr int kMostTilts = 3;
+
 // Cosine: a normal this nearly perpendicular to another has no useful gnomonic coordinates.
 inline constexpr double kGrazing = 1e-6;
 

@@ -23,7 +23,7 @@ namespace {  // NOLINT(google-build-namespaces): real.hpp
 
 constexpr double kLaneEpsilon = 0x1p-52;
 
-/// The columns of a table of pairs. Of ellipsoids only the first kEllipsoidFields are in use.
+/// The columns of a table of pairs. Of ellipsoids only those before kNorms1 are in use.
 constexpr int kHalf1 = 0;
 constexpr int kHalf2 = 3;
 constexpr int kRotation = 6;  // of body 2 in body 1's frame, by columns
@@ -35,8 +35,7 @@ constexpr int kRounding = kTolerance + 1;
 constexpr int kFollowed = kRounding + 1;   // the depth up to which a maximum is followed
 constexpr int kIsTracked = kFollowed + 1;  // 1 if a first normal was given
 constexpr int kNormal = kIsTracked + 1;
-constexpr int kEllipsoidFields = kNormal + 3;
-constexpr int kNorms1 = kEllipsoidFields;  // inner p - 1, inner 1/p, outer p - 1, outer 1/p
+constexpr int kNorms1 = kNormal + 3;  // inner p - 1, inner 1/p, outer p - 1, outer 1/p
 constexpr int kNorms2 = kNorms1 + 4;
 constexpr int kFlats1 = kNorms2 + 4;  // inner, outer
 constexpr int kFlats2 = kFlats1 + 2;
@@ -389,7 +388,7 @@ struct LaneSearch {
       const V further = curvatures.solve(select(meets, v2 - v1, none));
       // Rounding of large curvatures must not leave the plane across n.
       const V turned = K1 * further;
-      const V to_meeting = v1 - n + (turned - n * dot(turned, n));
+      const V to_meeting = v1 - n + part_across(turned, n);
 
       const V tilt1 = select(is_flat(kGauges1) & is_ahead1, v1 - n - step, none);
       const V tilt2 = select(is_flat(kGauges2) & is_ahead2, v2 - n - step, none);
@@ -518,7 +517,7 @@ struct LaneSearch {
     found.put_in(is_proved, kFoundMiddle, nearest.point.middle);
     found.put_in(is_proved, kFoundSpread, nearest.distance);
     ended.proved = ended.proved | is_proved;
-    M goes_on = is_tilted & ~is_proved & (lanes.tilts.count < R(kMostLaneTilts - 0.5)) & (R(0.0) < nearest.distance);
+    M goes_on = is_tilted & ~is_proved & (lanes.tilts.count < R(limits::kMostTilts - 0.5)) & (R(0.0) < nearest.distance);
     if (lanes.round + 1 >= settings.most_rounds) goes_on = R(1.0) < R(0.0);
     ended.open = ended.open | (is_tilted & ~is_proved & ~goes_on);
     const V turned = best + lanes.tilts.next(nearest, now.d, best_d, found.sym(kFoundHessian), tolerance, pairs.at(kUnit), goes_on);
@@ -560,7 +559,6 @@ struct LaneSearch {
       answer.outcome = is_in(open) ? LaneOutcome::Open : is_in(apart) ? LaneOutcome::Apart : LaneOutcome::Proved;
       answer.is_followed = is_in(followed);
       answer.evaluations = static_cast<int>(evaluations_of[lane]);
-      answer.has_jet = !Bodies::kOfEllipsoids;
       // A followed pair becomes Open in finish() if its contact is not proved.
       if (!is_in(open | followed)) continue;
       const int best = static_cast<int>(best_of[lane]), others = answer.evaluations - 1;
@@ -608,7 +606,7 @@ struct LaneSearch {
     // Where the sum is not regular, the radii may be of any size, and a product with them out of range.
     const V along = select(sum.is_regular, across, V{R(0.0), R(0.0), R(0.0)});
     const V from_point1 = found.sym(kFoundHessian1) * sum.solve(along);
-    const V shift = from_point1 - n * dot(from_point1, n) - across * R(0.5);
+    const V shift = part_across(from_point1, n) - across * R(0.5);
     const R half_distance = length(across) * R(0.5), distance = length(shift);
     const R limit = half_distance + min(radii.size1, radii.size2) * R(2.0);
     const M is_far = limit < distance;
@@ -618,7 +616,7 @@ struct LaneSearch {
     const auto is_near_both = [&](V point) {
       const V from1 = point - r1, from2 = from1 - d;
       const auto is_near = [&](V from, R radius) {
-        const V tangential = from - n * dot(from, n);
+        const V tangential = part_across(from, n);
         const R squared = dot(tangential, tangential);
         return (squared <= near * near) | (squared <= near * radius * R(2.0));
       };
@@ -665,7 +663,7 @@ struct LaneSearch {
     const S H = select(out.is_known, hessian, S{R(1.0), R(1.0), R(1.0), R(0.0), R(0.0), R(0.0)});
     // Along the flattest axis, as there. It is far from the normal, since H n = 0.
     const V axis = smallest_axis(-V{H.xx, H.yy, H.zz});
-    const V along = axis - n * dot(n, axis);
+    const V along = part_across(axis, n);
     const R squared = dot(along, along);
     const M is_plane = R(limits::kGrazing) < squared;
     out.is_known = out.is_known & is_plane;
@@ -766,7 +764,7 @@ struct LaneSearch {
       answer.rounding = out[2][lane];
       answer.tolerance = out[3][lane];
       const bool is_whole = answer.outcome == LaneOutcome::Proved || answer.outcome == LaneOutcome::Apart;
-      if (!is_whole && answer.has_jet) {
+      if (!is_whole && !of_ellipsoids) {
         for (int field = 0; field < kJetFields; ++field) answer.jet[field] = found.rows[field][lane];
       }
       for (int i = 0; i < 3; ++i) {

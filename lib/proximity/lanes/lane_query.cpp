@@ -60,9 +60,9 @@ Matrix3 matrix_of(const double* numbers) {
 }
 
 /// The evaluation at which the lanes ended.
-GapJet last_jet(GapFunction& gap, const LaneAnswer& lane) {
+GapJet last_jet(GapFunction& gap, const LaneAnswer& lane, bool has_jet) {
   GapJet jet;
-  if (!lane.has_jet) {
+  if (!has_jet) {
     gap.evaluate(vector_of(lane.normal), Order::Hessian, jet);
     return jet;
   }
@@ -79,9 +79,10 @@ GapJet last_jet(GapFunction& gap, const LaneAnswer& lane) {
 /// What the lanes leave: the search, or the contact.
 Proximity finish_alone(const ProximityQuery& pair, const Settings& settings, const LaneAnswer& lane) {
   GapFunction gap(*pair.shape1, *pair.pose1, *pair.shape2, *pair.pose2);
-  // Where the jet is evaluated anew, this counts, unless the limit leaves no evaluation.
-  gap.count_earlier(lane.has_jet ? lane.evaluations : std::min(lane.evaluations, settings.max_evaluations - 1));
-  const GapJet jet = last_jet(gap, lane);
+  // Lanes of ellipsoids keep no jet. Its evaluation counts, unless the limit leaves none.
+  const bool has_jet = !is_of_ellipsoids(lane_pair(pair));
+  gap.count_earlier(has_jet ? lane.evaluations : std::min(lane.evaluations, settings.max_evaluations - 1));
+  const GapJet jet = last_jet(gap, lane, has_jet);
   if (lane.outcome == LaneOutcome::Open) {
     std::array<Vector3, kMostLaneRounds> cuts;
     const auto count = static_cast<std::size_t>(lane.evaluations - 1);

@@ -2,6 +2,7 @@
 // other type (shapes/lanes/real.hpp).
 #pragma once
 
+#include "proximity/limits.hpp"
 #include "supernormal/shapes/lane_body.hpp"
 
 namespace supernormal {
@@ -26,9 +27,7 @@ struct LaneSettings {
 };
 
 inline constexpr int kMostLaneEvaluations = 8;
-// Two tilts find the other sides of the line where a triangle meets it. One more repairs what rounding leaves.
-inline constexpr int kMostLaneTilts = 3;
-inline constexpr int kMostLaneRounds = kMostLaneEvaluations + kMostLaneTilts;
+inline constexpr int kMostLaneRounds = kMostLaneEvaluations + limits::kMostTilts;
 inline constexpr double kUnknownCurvature = -1;
 
 enum class LaneOutcome {
@@ -63,8 +62,7 @@ struct LaneAnswer {
   int evaluations;
   double gap, error, rounding, tolerance;  ///< m; `error` without the rounding
   double normal[3];
-  double jet[kJetFields];  ///< the evaluation of `normal`, if has_jet
-  bool has_jet;
+  double jet[kJetFields];  ///< the evaluation of `normal`; not of ellipsoids
   double point1[3], point2[3], contact[3];
   double curvature[2];  ///< 1/m; of the bodies together, the smaller first, or kUnknownCurvature; only if it is wanted
   /// m; d + rho n of every evaluation but the best; only if the outcome is Open

@@ -51,7 +51,7 @@ struct LaneTilts {
 
   /// Adds a point, and keeps the two of the three that are nearest to the line along n.
   SUPERNORMAL_INLINE Nearest add(const Point& point, V n) {
-    const V p = across(point.cut, n), a = across(first.cut, n), b = across(second.cut, n);
+    const V p = part_across(point.cut, n), a = part_across(first.cut, n), b = part_across(second.cut, n);
     const Segment pa(p, a), pb(p, b), ab(a, b);
     // Where the line meets the triangle: the shares of the areas.
     const R of_p = dot(n, cross(a, b)), of_a = dot(n, cross(b, p)), of_b = dot(n, cross(p, a));
@@ -113,7 +113,6 @@ struct LaneTilts {
     }
   };
 
-  SUPERNORMAL_INLINE static V across(V v, V n) { return v - n * dot(v, n); }
   SUPERNORMAL_INLINE static Point select_point(M lanes, const Point& x, const Point& y) {
     return {select(lanes, x.cut, y.cut), select(lanes, x.middle, y.middle)};
   }

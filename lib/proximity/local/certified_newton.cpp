@@ -5,7 +5,6 @@
 
 #include "proximity/answer.hpp"
 #include "proximity/bounds/minimum_norm_point.hpp"
-#include "proximity/limits.hpp"
 #include "proximity/tuning.hpp"
 
 namespace supernormal {
@@ -111,7 +110,7 @@ bool CertifiedNewton::prove_by_tilts() {
   if (!is_provable()) return false;
   const Vector3 n = best().n;
   const double height = best().s + rolling_radius_;
-  const StoppingRule rule = rule_.with_at_most(gap_.evaluations() + kMostTilts);
+  const StoppingRule rule = rule_.with_at_most(gap_.evaluations() + limits::kMostTilts);
   const Matrix3 curvature = gap_.curvature(best());
   double growth = 1;
   while (true) {

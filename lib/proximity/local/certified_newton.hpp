@@ -7,6 +7,7 @@
 
 #include "proximity/bounds/cutting_planes.hpp"
 #include "proximity/contact_point.hpp"
+#include "proximity/limits.hpp"
 #include "proximity/local/regular_hessian.hpp"
 #include "proximity/solvers.hpp"
 #include "proximity/stopping_rule.hpp"
@@ -57,9 +58,6 @@ class CertifiedNewton {
   std::span<const WitnessPair> beside() const { return {beside_.data(), beside_count_}; }
 
  private:
-  // Two tilts find the other sides of the line where a triangle meets it. One more repairs what rounding leaves.
-  static constexpr int kMostTilts = 3;
-
   GapJet& next() { return jets_[1 - best_]; }
   bool is_provable() const { return best().s + rolling_radius_ > 0; }
   bool is_proved();
@@ -82,7 +80,7 @@ class CertifiedNewton {
   std::array<GapJet, 2> jets_;  // the best and the next, which change places
   std::size_t best_ = 0;
   double error_ = std::numeric_limits<double>::infinity();  // m
-  std::array<WitnessPair, kMostTilts> beside_;
+  std::array<WitnessPair, limits::kMostTilts> beside_;
   std::size_t beside_count_ = 0;
 };
 

@@ -33,6 +33,8 @@ SUPERNORMAL_VEC Vec<T> operator*(Vec<T> a, T b) { return {a.x * b, a.y * b, a.z 
 SUPERNORMAL_VEC T dot(Vec<T> a, Vec<T> b) { return a.x * b.x + (a.y * b.y + a.z * b.z); }
 SUPERNORMAL_VEC Vec<T> cross(Vec<T> a, Vec<T> b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 SUPERNORMAL_VEC T length(Vec<T> a) { return sqrt(dot(a, a)); }
+/// The part of v across the unit vector n.
+SUPERNORMAL_VEC Vec<T> part_across(Vec<T> v, Vec<T> n) { return v - n * dot(v, n); }
 SUPERNORMAL_VEC Vec<T> unit(Vec<T> a) { return a * (T(1.0) / length(a)); }
 SUPERNORMAL_VEC Vec<T> times(Vec<T> a, Vec<T> b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 SUPERNORMAL_VEC T smallest(Vec<T> a) { return min(min(a.x, a.y), a.z); }

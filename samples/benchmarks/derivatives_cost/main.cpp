@@ -5,36 +5,25 @@
 // Pairs are drawn at a random normal, at which their witness points have the gap. The rounds of all ways of asking are interleaved,
 // and the least processor time of each counts. With --way N only this way is asked, once and untimed, to count its instructions.
 #include <CLI/CLI.hpp>
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <functional>
-#include <limits>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
+#include "drawn_pairs.hpp"
 #include "supernormal/proximity/clearance.hpp"
 #include "supernormal/proximity/derivatives.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/capsule.hpp"
-#include "supernormal/shapes/ellipsoid.hpp"
-#include "supernormal/shapes/superellipsoid.hpp"
 
 namespace {
 
 using namespace supernormal;
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 enum class Partner { Same, Box, Capsule };
 
@@ -60,60 +49,29 @@ struct Pair {
   Proximity answer;
 };
 
-class Pairs {
- public:
-  Pairs(const Kind& kind, std::size_t count, unsigned seed) : kind_(kind), engine_(seed), pairs_(count) {
-    for (Pair& pair : pairs_) draw(pair);
+std::unique_ptr<Shape> draw_partner(const Kind& kind, drawn_pairs::Draw& draw) {
+  switch (kind.partner) {
+    case Partner::Box:
+      return std::make_unique<Box>(draw.within(0.5, 1.5));
+    case Partner::Capsule:
+      return std::make_unique<Capsule>(draw.uniform(0.3, 1), draw.uniform(0.5, 1.5));
+    case Partner::Same:
+      break;
   }
+  return draw.shape(draw.within(0.5, 1.5), kind.least_exponent, kind.largest_exponent);
+}
 
-  const std::vector<Pair>& all() const { return pairs_; }
-
- private:
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  Vector3 direction() { return Vector3{gauss_(engine_), gauss_(engine_), gauss_(engine_)}.normalized(); }
-  Vector3 lengths() { return Vector3{uniform(0.5, 1.5), uniform(0.5, 1.5), uniform(0.5, 1.5)}; }
-  Matrix3 rotation() {
-    return Eigen::Quaterniond(Eigen::Vector4d{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)})
-        .normalized()
-        .toRotationMatrix();
-  }
-
-  std::unique_ptr<Shape> shape() {
-    const Vector3 half = lengths();
-    if (kind_.least_exponent == kind_.largest_exponent) return std::make_unique<Ellipsoid>(half);
-    const double delta = uniform(kind_.least_exponent, kind_.largest_exponent);
-    return std::make_unique<Superellipsoid>(half, delta, uniform(kind_.least_exponent, kind_.largest_exponent));
-  }
-
-  std::unique_ptr<Shape> partner() {
-    switch (kind_.partner) {
-      case Partner::Box:
-        return std::make_unique<Box>(lengths());
-      case Partner::Capsule:
-        return std::make_unique<Capsule>(uniform(0.3, 1), uniform(0.5, 1.5));
-      case Partner::Same:
-        break;
-    }
-    return shape();
-  }
-
-  void draw(Pair& pair) {
-    pair.shape1 = shape();
-    pair.shape2 = partner();
-    pair.pose1 = {Vector3{uniform(-10, 10), uniform(-10, 10), uniform(-10, 10)}, rotation()};
-    pair.pose2.rotation = rotation();
-    const Vector3 n = direction();
-    const double unit = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
-    pair.pose2.position = pair.pose1.position + pair.pose1.rotation * pair.shape1->point(pair.pose1.rotation.transpose() * n) -
-                          pair.pose2.rotation * pair.shape2->point(-(pair.pose2.rotation.transpose() * n)) + kind_.gap * unit * n;
+std::vector<Pair> draw_pairs(const Kind& kind, std::size_t count, unsigned seed) {
+  drawn_pairs::Draw draw(seed);
+  std::vector<Pair> pairs(count);
+  for (Pair& pair : pairs) {
+    pair.shape1 = draw.shape(draw.within(0.5, 1.5), kind.least_exponent, kind.largest_exponent);
+    pair.shape2 = draw_partner(kind, draw);
+    draw.place(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, kind.gap);
     pair.answer = find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2);
   }
-
-  Kind kind_;
-  std::mt19937_64 engine_;
-  std::normal_distribution<double> gauss_;
-  std::vector<Pair> pairs_;
-};
+  return pairs;
+}
 
 /// A way of asking, and what its answers add up to. Nothing of it can be left out by the compiler.
 struct Way {
@@ -143,16 +101,10 @@ const std::array<Way, 6> kWays = {
       }}}};
 
 void print_row(const Kind& kind, std::size_t count, int rounds, unsigned seed, double& sum) {
-  const Pairs pairs(kind, count, seed);
-  std::array<double, kWays.size()> least;
-  least.fill(std::numeric_limits<double>::infinity());
-  for (int round = 0; round < rounds; ++round) {
-    for (std::size_t k = 0; k < kWays.size(); ++k) {
-      const double start = processor_seconds();
-      for (const Pair& pair : pairs.all()) sum += kWays[k].ask(pair);
-      least[k] = std::min(least[k], processor_seconds() - start);
-    }
-  }
+  const std::vector<Pair> pairs = draw_pairs(kind, count, seed);
+  const std::vector<double> least = drawn_pairs::least_seconds(kWays.size(), rounds, [&](std::size_t way) {
+    for (const Pair& pair : pairs) sum += kWays[way].ask(pair);
+  });
   std::printf("| %s |", kind.name);
   for (const double seconds : least) std::printf(" %.0f |", 1e9 * seconds / static_cast<double>(count));
   std::printf("\n");
@@ -186,9 +138,9 @@ int main(int argc, char** argv) try {
     if (way < 0) {
       print_row(kind, count, rounds, seed, sum);
     } else {
-      const Pairs pairs(kind, count, seed);
+      const std::vector<Pair> pairs = draw_pairs(kind, count, seed);
       for (int round = 0; round < rounds; ++round) {
-        for (const Pair& pair : pairs.all()) sum += kWays[static_cast<std::size_t>(way)].ask(pair);
+        for (const Pair& pair : pairs) sum += kWays[static_cast<std::size_t>(way)].ask(pair);
       }
     }
   }

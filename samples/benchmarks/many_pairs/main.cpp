@@ -8,30 +8,20 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <functional>
-#include <limits>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
+#include "drawn_pairs.hpp"
 #include "proximity/lanes/lane_query.hpp"
 #include "supernormal/proximity/batch.hpp"
 #include "supernormal/proximity/solve.hpp"
-#include "supernormal/shapes/ellipsoid.hpp"
-#include "supernormal/shapes/superellipsoid.hpp"
 
 namespace {
 
 using namespace supernormal;
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct Kind {
   const char* name;
@@ -68,7 +58,7 @@ constexpr Kind kKinds[] = {{"ellipsoids, apart, cold", 2, 2, 0.01, false, false}
 
 class Pairs {
  public:
-  Pairs(const Kind& kind, std::size_t count, unsigned seed) : kind_(kind), engine_(seed) {
+  Pairs(const Kind& kind, std::size_t count, unsigned seed) : kind_(kind), draw_(seed) {
     pairs_.resize(count);
     for (Pair& pair : pairs_) draw(pair);
     for (const Pair& pair : pairs_) {
@@ -85,58 +75,39 @@ class Pairs {
     Vector3 normal;
   };
 
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  Vector3 direction() { return Vector3{gauss_(engine_), gauss_(engine_), gauss_(engine_)}.normalized(); }
-  Matrix3 rotation() {
-    return Eigen::Quaterniond(Eigen::Vector4d{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)})
-        .normalized()
-        .toRotationMatrix();
-  }
-
   std::unique_ptr<Shape> shape() {
-    Vector3 half = Vector3{uniform(0.5, 1.5), uniform(0.5, 1.5), uniform(0.5, 1.5)};
+    Vector3 half = draw_.within(0.5, 1.5);
     half.head<2>() *= kind_.thickness;
-    if (kind_.least_exponent == kind_.largest_exponent) return std::make_unique<Ellipsoid>(half);
-    const double delta = uniform(kind_.least_exponent, kind_.largest_exponent);
-    return std::make_unique<Superellipsoid>(half, delta, uniform(kind_.least_exponent, kind_.largest_exponent));
+    return draw_.shape(half, kind_.least_exponent, kind_.largest_exponent);
   }
 
   void draw(Pair& pair) {
     pair.shape1 = shape();
     pair.shape2 = shape();
-    pair.pose1 = {Vector3{uniform(-10, 10), uniform(-10, 10), uniform(-10, 10)}, rotation()};
-    pair.pose2.rotation = rotation();
-    if (kind_.is_on_faces) {
-      lay_on_face(pair);
-      return;
-    }
-    const Vector3 n = direction();
-    const double unit = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
-    pair.pose2.position = pair.pose1.position + pair.pose1.rotation * pair.shape1->point(pair.pose1.rotation.transpose() * n) -
-                          pair.pose2.rotation * pair.shape2->point(-(pair.pose2.rotation.transpose() * n)) + kind_.gap * unit * n;
+    draw_.place(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, kind_.gap);
+    if (kind_.is_on_faces) lay_on_face(pair);
     set_earlier_normal(pair);
   }
 
   void lay_on_face(Pair& pair) {
     const double c1 = pair.shape1->half_extents().z(), c2 = pair.shape2->half_extents().z();
     const Vector3 n = pair.pose1.rotation.col(2);
-    pair.pose2.rotation = Eigen::AngleAxisd(uniform(-3.14, 3.14), n) * pair.pose1.rotation;
-    const Vector3 aside = 0.5 * (uniform(-1, 1) * pair.pose1.rotation.col(0) + uniform(-1, 1) * pair.pose1.rotation.col(1));
+    pair.pose2.rotation = Eigen::AngleAxisd(draw_.uniform(-3.14, 3.14), n) * pair.pose1.rotation;
+    const Vector3 aside =
+        0.5 * (draw_.uniform(-1, 1) * pair.pose1.rotation.col(0) + draw_.uniform(-1, 1) * pair.pose1.rotation.col(1));
     pair.pose2.position = pair.pose1.position + aside + (c1 + c2 + kind_.gap * std::min(c1, c2)) * n;
-    set_earlier_normal(pair);
   }
 
   void set_earlier_normal(Pair& pair) {
     // The normal of a pose a step before: 1 mm and 1 mrad away.
     Pose earlier = pair.pose2;
-    earlier.position += 1e-3 * direction();
-    earlier.rotation = Eigen::AngleAxisd(1e-3, direction()).toRotationMatrix() * earlier.rotation;
+    earlier.position += 1e-3 * draw_.direction();
+    earlier.rotation = Eigen::AngleAxisd(1e-3, draw_.direction()).toRotationMatrix() * earlier.rotation;
     pair.normal = pair.pose1.rotation.transpose() * find_proximity(*pair.shape1, pair.pose1, *pair.shape2, earlier).normal;
   }
 
   Kind kind_;
-  std::mt19937_64 engine_;
-  std::normal_distribution<double> gauss_;
+  drawn_pairs::Draw draw_;
   std::vector<Pair> pairs_;
   std::vector<ProximityQuery> queries_;
 };
@@ -157,14 +128,7 @@ void print_row(const Kind& kind, std::size_t count, int rounds, unsigned seed) {
       batch.solve_rest();
     });
   }
-  std::vector<double> least(ways.size(), std::numeric_limits<double>::infinity());
-  for (int round = 0; round < rounds; ++round) {
-    for (std::size_t k = 0; k < ways.size(); ++k) {
-      const double start = processor_seconds();
-      ways[k]();
-      least[k] = std::min(least[k], processor_seconds() - start);
-    }
-  }
+  const std::vector<double> least = drawn_pairs::least_seconds(ways.size(), rounds, [&](std::size_t way) { ways[way](); });
   double evaluations = 0;
   for (const Proximity& answer : answers) evaluations += answer.evaluations;
   std::printf("| %s | %.2f | %.0f |", kind.name, evaluations / static_cast<double>(count),
