@@ -12,10 +12,11 @@ namespace {
 // The least ratio of plain numbers. The ratio of any two of the three numbers is then well above kLanesFlatRatio.
 constexpr double kPlainRatio = 1e-50;
 
-double power_of(double k, double e) { return ratio_power(Real<1>(k), Real<1>(e)).v; }
+// A flat body at rest is asked along its axis. There the powers are known, with the same bits.
+double power_of(double k, double e) { return k == 0 ? 0 : ratio_power(Real<1>(k), Real<1>(e)).v; }
 
 /// sum^inverse_p of a number in [1, 4).
-double root_of(double sum, double inverse_p) { return root(Real<1>(sum), Real<1>(inverse_p)).v; }
+double root_of(double sum, double inverse_p) { return sum == 1 ? 1 : root(Real<1>(sum), Real<1>(inverse_p)).v; }
 
 }  // namespace
 
@@ -36,7 +37,7 @@ void PowerNorm::evaluate_requests(std::array<PowerNormRequest, kCount>& requests
   // Each step of all norms before the next step of one: the steps of a norm wait for each other.
   for (std::size_t i = 0; i < kCount; ++i) {
     const PowerNorm& norm = *requests[i].norm;
-    ratio[i].power_1 = norm.is_euclidean_ ? ratio[i].k : ratio_power(ratio[i].k, Real<1>(norm.p_minus_1_));
+    ratio[i].power_1 = norm.is_euclidean_ ? ratio[i].k : Real<1>(power_of(ratio[i].k.v, norm.p_minus_1_));
     sum[i] = ratio[i].power_1 * ratio[i].k + 1.0;
   }
   for (std::size_t i = 0; i < kCount; ++i) {
