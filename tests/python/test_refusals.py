@@ -62,7 +62,7 @@ REFUSALS = [
     (lambda: sn.find_ray_hit(BALL, HERE, (0, 0, 0), (0, 0, 0)), "direction = (0, 0, 0), but must have a length"),
     (lambda: sn.find_proximities([BALL] * 2, HERE, [BALL] * 3, HERE), "shapes2 has 3 entries and shapes1 has 2"),
     (lambda: sn.find_proximities(BALL, HERE, BALL, HERE, threads=257), "threads = 257 is outside [0, 256]"),
-    (lambda: sn.find_proximities([BALL] * 3, HERE, BALL, HERE, sn.Settings(tolerance=2)), "0: tolerance = 2 is outside [1e-15, 1]"),
+    (lambda: sn.find_proximities([BALL] * 3, HERE, BALL, HERE, sn.Settings(tolerance=2)), "tolerance = 2 is outside [1e-15, 1]"),
     (lambda: BALL.support((0, 0, 0)), "direction = (0, 0, 0), but must have a length"),
     (lambda: BALL.point([[1, 0, 0], [NAN, 0, 0]]), "direction[1] = (nan, 0, 0) is not finite"),
     (lambda: BALL.support((1, 0)), "direction has the shape (2,), but must have (..., 3)"),
@@ -124,3 +124,13 @@ def test_an_index_out_of_range():
     for sequence in (sn.Poses(np.zeros((2, 3))), sn.Shapes([BALL, BALL])):
         with pytest.raises(IndexError, match="has 2 entries"):
             sequence[2]
+        with pytest.raises(IndexError, match="has 2 entries, from -2 to 1"):
+            sequence[-3]
+        assert sequence[-1] == sequence[1]
+
+
+@pytest.mark.parametrize("count", [0, 1, 3])
+def test_settings_of_a_batch_are_no_pairs_fault(count):
+    settings = sn.Settings(tolerance=7)
+    with pytest.raises(ValueError, match=r"^tolerance = 7 is outside"):
+        sn.find_proximities([sn.Sphere(1)] * count, sn.Pose(), sn.Sphere(1), sn.Pose((3, 0, 0)), settings=settings)

@@ -23,10 +23,14 @@ using TwistHessian = Eigen::Matrix<double, 12, 12>;
 
 /// Why a derivative exists or not.
 enum class DerivativeStatus {
-  Smooth,             ///< all derivatives are defined
-  ActiveSet,          ///< defined while the witness points stay on their face, edge or vertex, because all multipliers are positive
-  Degenerate,         ///< a witness point is at the border of its face or edge: the gradient is defined, the others are one-sided
-  FreeOnFace,         ///< faces or edges share more than a point: the witness points and the gradient of rotations are not unique
+  Smooth,     ///< all derivatives are defined
+  ActiveSet,  ///< defined while the witness points stay on their face, edge or vertex, because all multipliers are positive
+  /// A witness point is at the border of its face or edge, or a body is flat at this point only: the gradient is defined, the
+  /// others are one-sided or change much within 1e-6 rad.
+  Degenerate,
+  /// Faces, flat sides or edges share more than a point, or do so after a rotation of 1e-6 rad: the witness points and the gradient
+  /// of rotations are not unique.
+  FreeOnFace,
   SingularCurvature,  ///< H1 + H2 + gap is singular across the normal (vertex to vertex): the normal may not be unique
   SeveralMaxima,      ///< the opposite normal has the same gap: the gap is not differentiable
   NoHessian,          ///< a shape has no Hessian: only the gradient of the gap is known
@@ -72,8 +76,9 @@ struct ProximityDerivatives {
 /// the local maximum of the answer. Where bodies have faces or edges the set of active vertices is kept, so the derivatives are
 /// exact while the contact stays on its face, edge or vertex.
 ///
-/// Newton's method first brings the answer's normal to rounding, with two evaluations as a rule and at most 32. All is computed
-/// in body 1's frame, so a large distance from the world's origin costs no digits.
+/// Newton's method first brings the answer's normal to rounding, with two evaluations as a rule and at most 32. If both bodies
+/// may be flat there, four more look beside it: boundary points that jump within 1e-6 rad leave no gradient. All is computed in
+/// body 1's frame, so a large distance from the world's origin costs no digits.
 ///
 /// The relative error is about 1e-7 or less, as long as the radii of curvature of the Minkowski difference differ by less than 1e9.
 /// Beyond, the status is SingularCurvature. A radius of curvature above 1e8 times the smallest half-extent counts as infinite.

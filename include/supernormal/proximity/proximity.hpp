@@ -46,8 +46,10 @@ struct Proximity {
   Eigen::Vector3d point1 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 1
   Eigen::Vector3d point2 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 2
   /// m; where a contact force acts: halfway between the tangent planes or, if that is outside a body, the nearest point of the
-  /// overlap. To 1e-6 of the smallest half-extent it is in both bodies, or in the gap between them, if the query has converged and
-  /// the tolerance is at most 1e-6. It need not be between the two points above, which may be any points of a flat face.
+  /// overlap. To 1e-6 of the smallest half-extent it is in both bodies, or in the gap between them, if the query has converged,
+  /// the tolerance is at most 1e-6 and `evaluations` is below Settings::max_evaluations. The status is that of the gap: the search
+  /// for this point may end at the limit, and the point may then be outside of a body. It need not be between the two points above,
+  /// which may be any points of a flat face.
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();
   int evaluations = 0;                   ///< of the gap function, including those for the contact
   Status status = Status::InvalidInput;  ///< how the query ended

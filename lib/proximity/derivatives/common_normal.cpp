@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "proximity/derivatives/nearby_flats.hpp"
 #include "proximity/limits.hpp"
 #include "proximity/tuning.hpp"
 #include "shapes/finite.hpp"
@@ -231,6 +232,44 @@ void CommonNormal::finish(const Place& place) {
   lever2_ = R * place.point2 - place.plane.lift(place.response.B2.transpose() * place.across);
   s_ = place.jet.s;
   is_converged_ = place.step.norm() <= kLargestStep && all_finite(point1_) && all_finite(lever2_);
+  is_free_ = place.response.kind == TangentResponse::Kind::Free;
+  if (is_converged_) look_beside(place);
+}
+
+/// Derivatives are those of the gap only if they hold within kNearby. There the gap has a kink if both bodies are flat in one
+/// direction. Four evaluations, but none unless both may be flat.
+void CommonNormal::look_beside(const Place& place) {
+  const GapJet& jet = place.jet;
+  const Matrix3 to_body2 = gap_.rotation().transpose();
+  const double size = std::min(gap_.shape1().half_extents().norm(), gap_.shape2().half_extents().norm());
+  TangentPlane plane2 = place.plane.rotated(to_body2);
+  plane2.n = jet.m;
+  NearbyFlats one(gap_.shape1(), place.plane, jet.jet1, place.body1, size);
+  NearbyFlats two(gap_.shape2(), plane2, jet.jet2, place.body2, size);
+  if (!one.is_possible() || !two.is_possible()) return;
+  GapJet trial;
+  for (const Vector2& tilt : {Vector2(kNearby, 0), Vector2(-kNearby, 0), Vector2(0, kNearby), Vector2(0, -kNearby)}) {
+    gap_.evaluate((jet.n + place.plane.lift(tilt)).normalized(), Order::Point, trial);
+    if (!trial.is_finite()) return;
+    one.add(tilt, trial.jet1.r);
+    two.add(-tilt, trial.jet2.r);
+  }
+  const TangentDirections jumps1 = one.jumps(), jumps2 = two.jumps();
+  // A smooth body may be flat at one point only, such as a superellipsoid with exponents below 3. Its radius of curvature is
+  // infinite there, and its point does not jump: the gap is differentiable once.
+  const bool is_flat_at_point =
+      (jumps1.count == 0 && !gap_.traits1().has_nonsmooth_points) || (jumps2.count == 0 && !gap_.traits2().has_nonsmooth_points);
+  if (is_flat_at_point && is_free_) {
+    is_strict_ = false;
+    // Its point is known, and the other body's is opposite.
+    if (jumps1.count == 0 && !gap_.traits1().has_nonsmooth_points) {
+      lever2_ = point1_ + s_ * n_ - gap_.offset();
+    } else {
+      point1_ = lever2_ + gap_.offset() - s_ * n_;
+    }
+  }
+  is_free_ = (is_free_ && !is_flat_at_point) || jumps1.share_one_with(jumps2);
+  if (one.bends().share_one_with(two.bends())) is_strict_ = false;
 }
 
 }  // namespace supernormal

@@ -18,7 +18,9 @@ class CommonNormal {
 
   bool is_converged() const { return is_converged_; }  ///< whether the last step was small enough
   bool has_active_set() const { return active_set_; }  ///< whether a witness point is on a face or edge of several vertices
-  bool is_strict() const { return is_strict_; }        ///< whether all multipliers are positive, and no other vertex is tied
+  /// Whether all multipliers are positive, no other vertex is tied, and no radius of curvature changes much within kNearby
+  bool is_strict() const { return is_strict_; }
+  bool is_free() const { return is_free_; }  ///< whether both bodies are flat in one direction, within kNearby: the gap has a kink
   const TangentResponse& response() const { return response_; }
   const TangentPlane& plane() const { return plane_; }  ///< at the normal of the last evaluation, whose radii the response has
 
@@ -47,6 +49,7 @@ class CommonNormal {
   void find_active_set(Place& place) const;
   Vector3 moved(const Place& place) const;
   void finish(const Place& place);
+  void look_beside(const Place& place);
 
   GapFunction& gap_;
   const bool has_nonsmooth_points_, has_flat_faces_;
@@ -54,7 +57,7 @@ class CommonNormal {
   TangentResponse response_;
   Vector3 n_ = Vector3::UnitX(), point1_ = Vector3::Zero(), lever2_ = Vector3::Zero();
   double s_ = 0;
-  bool is_converged_ = false, active_set_ = false, is_strict_ = true;
+  bool is_converged_ = false, active_set_ = false, is_strict_ = true, is_free_ = false;
 };
 
 }  // namespace supernormal

@@ -117,7 +117,7 @@ bool has_equal_opposite(const GapFunction& gap, const CommonNormal& common) {
 DerivativeStatus status_of(const GapFunction& gap, const CommonNormal& common) {
   using Kind = TangentResponse::Kind;
   if (!common.is_converged()) return DerivativeStatus::NotConverged;
-  if (common.response().kind == Kind::Free) return DerivativeStatus::FreeOnFace;
+  if (common.is_free()) return DerivativeStatus::FreeOnFace;
   if (common.response().kind == Kind::Singular) return DerivativeStatus::SingularCurvature;
   if (has_equal_opposite(gap, common)) return DerivativeStatus::SeveralMaxima;
   if (!common.is_strict()) return DerivativeStatus::Degenerate;

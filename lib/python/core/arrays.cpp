@@ -13,6 +13,13 @@ std::string Name::text() const {
   return index < 0 ? std::string(argument) : std::string(argument) + "[" + std::to_string(index) + "]";
 }
 
+std::size_t require_index(const char* name, std::ptrdiff_t index, std::size_t count) {
+  const auto size = static_cast<std::ptrdiff_t>(count);
+  if (index >= -size && index < size) return static_cast<std::size_t>(index < 0 ? index + size : index);
+  throw py::index_error(std::string(name) + "[" + std::to_string(index) + "]: " + name + " has " + std::to_string(count) +
+                        " entries" + (size > 0 ? ", from -" + std::to_string(size) + " to " + std::to_string(size - 1) : ""));
+}
+
 std::string shape_text(const py::array& array) {
   std::string text = "(";
   for (py::ssize_t axis = 0; axis < array.ndim(); ++axis) {

@@ -21,6 +21,9 @@ struct Name {
   std::string text() const;
 };
 
+/// The place of self[index]; -1 is the last. Raises IndexError, with the name and the range, outside of it.
+std::size_t require_index(const char* name, std::ptrdiff_t index, std::size_t count);
+
 /// "(5, 2)"
 std::string shape_text(const pybind11::array& array);
 

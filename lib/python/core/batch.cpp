@@ -44,13 +44,13 @@ std::unique_ptr<Proximities> proximities(const py::object& shapes1, const py::ob
   const PosesArgument places2("poses2", poses2, count);
   std::optional<VectorsArgument> first;
   if (first_normals) first.emplace("first_normals", *first_normals, count);
+  find_proximities({}, settings, {});  // refuses settings out of range, which are no pair's fault
   auto out = std::make_unique<Proximities>(count.value());
   const auto set = [&out](std::ptrdiff_t i, const Proximity& result) {
     if (result.status == Status::InvalidInput) throw std::invalid_argument(kNotFinite);
     out->set(i, result);
   };
   parallel_for_ranges(count.value(), threads, [&](std::ptrdiff_t& i, std::ptrdiff_t end) {
-    find_proximities({}, settings, {});  // refuses settings out of range
     constexpr std::size_t kAtOnce = 64;  // vector lanes are full, and the stack takes 40 kB
     std::array<Vector3, kAtOnce> normals;
     std::array<Pose, kAtOnce> posed1, posed2;

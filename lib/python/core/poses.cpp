@@ -156,10 +156,7 @@ void bind_poses(py::module_& m) {
       .def_property_readonly("rotation", &rotations_of, "(N, 3, 3); a copy")
       .def("__len__", [](const Poses& self) { return self.poses.size(); })
       .def("__getitem__",
-           [](const Poses& self, std::size_t i) {
-             if (i >= self.poses.size()) throw py::index_error("poses has " + std::to_string(self.poses.size()) + " entries");
-             return self.poses[i];
-           })
+           [](const Poses& self, std::ptrdiff_t i) { return self.poses[require_index("poses", i, self.poses.size())]; })
       .def("__eq__", &are_equal, py::arg("other"))
       .def("__repr__", &text_of);
   bind_copies(

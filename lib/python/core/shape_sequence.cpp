@@ -119,10 +119,7 @@ void bind_shape_sequence(py::module_& m) {
                   "that the body is convex; see Superovoid")
       .def("__len__", &ShapeSequence::size)
       .def("__getitem__",
-           [](const ShapeSequence& self, std::size_t i) {
-             if (i >= self.size()) throw py::index_error("shapes has " + std::to_string(self.size()) + " entries");
-             return self.share(i);
-           })
+           [](const ShapeSequence& self, std::ptrdiff_t i) { return self.share(require_index("shapes", i, self.size())); })
       .def("__repr__", [](const ShapeSequence& self) { return "Shapes(of " + std::to_string(self.size()) + " bodies)"; });
   bind_value(
       type,
