@@ -381,10 +381,10 @@ typedef void snContactsCallback(void* data, dGeomID g1, dGeomID g2, const dConta
  * the order of dSpaceCollide. Both callbacks are called on the calling thread, `contacts` with the space unlocked. Geoms of
  * spaces within the space meet the geoms outside, as in dSpaceCollide2. For pairs inside such a space, call it for that space.
  *
- * Until it returns, nothing may move or change a geom, and nobody may use the batch elsewhere. Callbacks of snCreateConvex are
- * called on all threads. Statistics count on the calling thread. A dSetColliderOverride for two geoms of our class is not
- * called. No memory is allocated unless there are more pairs than ever before. Returns the number of contacts; -1 (and
- * snLastError) if an argument is refused or there is no more memory. */
+ * Until it returns, nothing may move or change a geom. A second call with the batch, from a callback or another thread, is refused
+ * meanwhile. Callbacks of snCreateConvex are called on all threads. Statistics count on the calling thread. A
+ * dSetColliderOverride for two geoms of our class is not called. No memory is allocated unless there are more pairs than ever
+ * before. Returns the number of contacts; -1 (and snLastError) if an argument is refused or there is no more memory. */
 SUPERNORMAL_API int snBatchCollide(snBatchID batch, dSpaceID space, int max_contacts, void* data, snPairFilter* wanted,
                                    snContactsCallback* contacts);
 

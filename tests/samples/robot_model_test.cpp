@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/relative.hpp"
@@ -349,15 +350,15 @@ TEST_CASE("robot_model: elements that would act on the motion are listed if they
 TEST_CASE("robot_model: a message names the file, the element, the value and the valid range") {
   const auto of_shape = [](const std::string& geometry) { return refusal(sdf(model_of("m", link_of(geometry)))); };
   check_refused(of_shape("<sphere><radius>-1</radius></sphere>"),
-                {"file.sdf", "link m::l", "collision c", "<sphere>", "-1", "[1e-30, 1e30]"});
+                {"file.sdf", "link m::l", "collision c", "<sphere>", "-1", "[1e-06, 1e+06] m"});
   check_refused(of_shape("<sphere><radius>1 7</radius></sphere>"), {"<sphere>", "radius", "\"1 7\"", "1 number"});
   check_refused(of_shape("<sphere><radius>nan</radius></sphere>"), {"<sphere>", "radius", "\"nan\""});
   check_refused(of_shape("<box><size>1 2 3 4</size></box>"), {"<box>", "size", "\"1 2 3 4\"", "3 numbers"});
   check_refused(of_shape("<capsule><radius>1</radius></capsule>"), {"<capsule>", "length"});
-  check_refused(of_shape("<ellipsoid><radii>1 0 1</radii></ellipsoid>"), {"<ellipsoid>", "0", "[1e-30, 1e30]"});
+  check_refused(of_shape("<ellipsoid><radii>1 0 1</radii></ellipsoid>"), {"<ellipsoid>", "radii", "\"1 0 1\"", "[1e-06, 1e+06] m"});
   check_refused(of_shape("<ellipsoid><radii>1 x 1</radii></ellipsoid>"), {"file.sdf", "ellipsoid/radii", "line 1"});
   check_refused(of_shape("<supernormal:superellipsoid><radii>1 1 1</radii><exponents>1 3</exponents></supernormal:superellipsoid>"),
-                {"link m::l", "snCreateSuperellipsoid", "delta = 1 ", "[1.01, 1000]"});
+                {"link m::l", "<supernormal:superellipsoid>", "exponents", "\"1 3\"", "2 numbers in [1.01, 1000]"});
   check_refused(of_shape("<supernormal:superellipsoid><radii>1 1 1</radii></supernormal:superellipsoid>"),
                 {"supernormal:superellipsoid", "exponents"});
   check_refused(of_shape("<supernormal:egg/>"), {"supernormal:egg", "superellipsoid"});
@@ -372,11 +373,13 @@ TEST_CASE("robot_model: a message names the file, the element, the value and the
   check_refused(refusal(sdf(model_of("m", link_of(kBall, "", "a") + link_of(kBall, "", "b") +
                                               "<joint name='j' type='ball'><parent>a</parent><child>b</child></joint>"))),
                 {"file.sdf", "joint j", "ball", "revolute"});
+  check_refused(refusal(sdf(model_of("m", link_of(kBall, "<pose rotation_format='quat_xyzw'>0 0 0 0 0 0 0</pose>")))),
+                {"file.sdf", "link l", "quaternion", "0 0 0 0"});
   check_refused(refusal(sdf(model_of("m", link_of(kBall) + model_of("n", link_of(kBall))))),
                 {"file.sdf", "model m", "other models"});
   check_refused(refusal(sdf("<physics name='p' type='ode'><max_step_size>0</max_step_size></physics>")),
-                {"max_step_size", "0", "(0, inf)"});
-  check_refused(refusal(sdf(""), "file.sdf", -3), {"density", "-3", "(0, inf)"});
+                {"max_step_size", "0", "[1e-06, 1] s"});
+  check_refused(refusal(sdf(""), "file.sdf", -3), {"density", "-3", "[1e-06, 1e+12] kg/m^3"});
   check_refused(refusal("<sdf version='1.9'/>"), {"file.sdf"});
   check_refused(refusal("<mujoco/>"), {"file.sdf", "<mujoco>", "<sdf> or <robot>"});
   check_refused(refusal("<robot"), {"file.sdf", "line 1"});
@@ -393,14 +396,14 @@ TEST_CASE("robot_model: a message about URDF names the file, the element, the va
     return of_robot("<link name='a'>" + body + "<link name='b'>" + body + "<joint name='j' " + joint + "</joint>");
   };
   const std::string ends = "<parent link='a'/><child link='b'/>";
-  check_refused(of_shape("<sphere radius='-1'/>"), {"r.urdf", "link l", "collision 1", "<sphere>", "-1", "[1e-30, 1e30]"});
+  check_refused(of_shape("<sphere radius='-1'/>"), {"r.urdf", "link l", "collision", "sphere", "radius", "-1", "[1e-06, 1e+06] m"});
   check_refused(of_shape("<sphere radius='1'/><supernormal:ellipsoid radii='1 1'/>"),
                 {"link l", "supernormal:ellipsoid", "radii", "\"1 1\"", "3 numbers"});
   check_refused(of_shape("<supernormal:ellipsoid radii='1 1 1'/>"),
                 {"r.urdf", "Link [l]", "Unknown geometry type 'supernormal:ellipsoid'"});
   check_refused(of_robot("<link/>"), {"r.urdf", "No name given for the link"});
   check_refused(of_robot("<link name='l'><inertial><mass value='x'/></inertial></link>"),
-                {"r.urdf", "Link [l]", "mass [x] is not a float"});
+                {"r.urdf", "link l", "mass/value is \"x\"", "1 number in [1e-18, 1e+18] kg"});
   check_refused(
       of_robot(
           "<link name='a'/><link name='b'/><link name='c'/><joint name='j' type='fixed'><parent link='b'/><child link='c'/></joint>"
@@ -420,5 +423,124 @@ TEST_CASE("robot_model: a message about URDF names the file, the element, the va
       {"r.urdf", "link l", "<inertia>", "3"});
   check_refused(of_robot("<link name='l'><inertial><mass value='-1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' "
                          "iyz='0'/></inertial></link>"),
-                {"r.urdf", "link l", "mass", "-1", "(0, inf)"});
+                {"r.urdf", "link l", "mass", "-1", "[1e-18, 1e+18] kg"});
+}
+
+namespace {
+
+// Each number that the reader takes, as {name:value}. The name is in the message about it.
+const std::string kNumbersOfSdf =
+    "<sdf version='1.9' xmlns:supernormal='urn:supernormal'><world name='w'><gravity>{gravity:0 0 -9.8}</gravity>"
+    "<physics name='p' type='ode'><max_step_size>{max_step_size:0.001}</max_step_size></physics>"
+    "<model name='g'><static>true</static><link name='l'><collision name='c'><geometry><plane><normal>{normal:0 0 1}</normal>"
+    "</plane></geometry></collision></link></model>"
+    "<model name='m'><pose>{pose:0 0 1 0 0 0}</pose><frame name='f'><pose>{pose:0 0 0 0 0 0}</pose></frame><link name='l'>"
+    "<pose relative_to='f'>{pose:0 0 0 0 0 0}</pose><velocity_decay><linear>{linear:0}</linear><angular>{angular:0}</angular>"
+    "</velocity_decay><inertial><pose>{pose:0 0 0 0 0 0}</pose><mass>{mass:1}</mass><inertia><ixx>{ixx:1}</ixx><iyy>{iyy:1}</iyy>"
+    "<izz>{izz:1}</izz><ixy>{ixy:0}</ixy><ixz>{ixz:0}</ixz><iyz>{iyz:0}</iyz></inertia></inertial>"
+    "<collision name='c'><pose>{pose:0 0 0 0 0 0}</pose><geometry><sphere><radius>{radius:1}</radius></sphere></geometry>"
+    "<surface><friction><ode><mu>{mu:1}</mu></ode></friction></surface></collision></link>"
+    "<link name='k'><pose rotation_format='quat_xyzw'>{pose:5 0 0 0 0 0 1}</pose><collision name='c'><geometry><box>"
+    "<size>{size:1 1 1}</size></box></geometry></collision></link>"
+    "<joint name='j' type='revolute'><pose>{pose:0 0 0 0 0 0}</pose><parent>l</parent><child>k</child><axis><xyz>{xyz:0 0 1}</xyz>"
+    "<limit><lower>{lower:-1}</lower><upper>{upper:1}</upper></limit></axis></joint></model>"
+    "<model name='n'><pose>9 0 2 0 0 0</pose><link name='l'><collision name='c'><geometry><supernormal:superellipsoid>"
+    "<radii>{radii:1 1 1}</radii><exponents>{exponents:3 3}</exponents></supernormal:superellipsoid></geometry></collision></link>"
+    "</model><model name='q'><pose>19 0 2 0 0 0</pose><link name='l'><collision name='c'><geometry><capsule>"
+    "<radius>{radius:0.5}</radius><length>{length:1}</length></capsule></geometry></collision></link></model></world></sdf>";
+
+const std::string kNumbersOfUrdf =
+    "<robot name='r' xmlns:supernormal='urn:supernormal'><link name='l'><inertial><origin xyz='{xyz:0 0 0}'/>"
+    "<mass value='{mass:1}'/><inertia ixx='{ixx:1}' iyy='{iyy:1}' izz='{izz:1}' ixy='{ixy:0}' ixz='{ixz:0}' iyz='{iyz:0}'/>"
+    "</inertial><collision><origin xyz='{xyz:0 0 0}' rpy='{rpy:0 0 0}'/><geometry><sphere radius='1'/><supernormal:superellipsoid "
+    "radii='{radii:1 1 1}' exponents='{exponents:3 3}'/></geometry></collision></link>"
+    "<link name='k'><collision><geometry><box size='{size:1 1 1}'/></geometry></collision></link><link "
+    "name='n'><collision><geometry>"
+    "<cylinder radius='{radius:1}' length='{length:1}'/></geometry></collision></link>"
+    "<joint name='j' type='prismatic'><origin xyz='{xyz:0 0 0}' rpy='{rpy:0 0 0}'/><parent link='l'/><child link='k'/>"
+    "<axis xyz='{xyz:0 0 1}'/><limit lower='{lower:-1}' upper='{upper:1}' effort='1' velocity='1'/></joint>"
+    "<joint name='i' type='fixed'><origin xyz='3 0 0'/><parent link='k'/><child link='n'/></joint></robot>";
+
+struct Variant {
+  std::string name, text;
+};
+
+/// The file with `value` as the first word of each number in turn, the others as they are. Value "": all as they are.
+std::vector<Variant> variants(const std::string& file, const std::string& value) {
+  std::vector<Variant> out;
+  const auto count = value.empty() ? 1 : std::count(file.begin(), file.end(), '{');
+  for (std::ptrdiff_t changed = 0; changed < count; ++changed) {
+    Variant variant;
+    std::ptrdiff_t number = 0;
+    for (std::size_t at = 0; at < file.size(); ++at) {
+      if (file[at] != '{') {
+        variant.text += file[at];
+        continue;
+      }
+      const std::size_t colon = file.find(':', at);
+      const std::size_t end = file.find('}', at);
+      std::string words = file.substr(colon + 1, end - colon - 1);
+      if (number++ == changed && !value.empty()) {
+        variant.name = file.substr(at + 1, colon - at - 1);
+        words.replace(0, words.find(' '), value);
+      }
+      variant.text += words;
+      at = end;
+    }
+    out.push_back(variant);
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("robot_model: every number is refused outside its range, with its name, and ODE never ends the program") {
+  const std::vector<std::string> never = {"1e31", "0,3", "nan", "1e400"};
+  const std::vector<std::string> maybe = {"1e-320", "1e-30", "0", "-1", "1e6", "1e18"};
+  for (const auto& [name, file] : {std::pair<std::string, std::string>("m.sdf", kNumbersOfSdf), {"r.urdf", kNumbersOfUrdf}}) {
+    CHECK(refusal(variants(file, "").at(0).text, name) == "accepted");
+    for (const std::string& value : never) {
+      CAPTURE(value);
+      for (const Variant& variant : variants(file, value)) check_refused(refusal(variant.text, name), {name, variant.name});
+    }
+    for (const std::string& value : maybe) {
+      CAPTURE(value);
+      for (const Variant& variant : variants(file, value)) {
+        CAPTURE(variant.name);
+        std::string message = "accepted";
+        try {
+          World world(scene_of(variant.text, name), 1000);
+          world.simulate(0.005);
+        } catch (const std::exception& error) {
+          message = error.what();
+        }
+        if (message != "accepted") check_refused(message, {name});
+      }
+    }
+  }
+  for (const double density : {1e-320, 1e-30, 1e13, 1e300, std::nan("")}) {
+    check_refused(refusal(sdf(model_of("m", link_of(kBall))), "m.sdf", density), {"density", "[1e-06, 1e+12] kg/m^3"});
+  }
+}
+
+TEST_CASE("robot_model: a small body far away keeps its moments") {
+  const std::string inertial =
+      "<inertial><mass>1</mass><inertia><ixx>1e-5</ixx><iyy>1e-5</iyy><izz>1e-5</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia>"
+      "</inertial>";
+  const World world(scene_of(sdf(model_of("m", "<pose>1e6 -1e6 1e6 0 0 0</pose>" + link_of(kBall, inertial))), "m.sdf"), 1000);
+  CHECK(error_of(mass_of(world, 0), 1e-5 * Eigen::Matrix3d::Identity()) < 1e-12);
+}
+
+TEST_CASE("robot_model: a body that flies apart is reported") {
+  World world(scene_of(sdf("<gravity>0 0 -1e6</gravity><physics name='p' type='ode'><max_step_size>1</max_step_size></physics>" +
+                           model_of("m", link_of(kBall))),
+                       "m.sdf"),
+              1000);
+  std::string message;
+  try {
+    world.simulate(1e4);
+  } catch (const std::exception& error) {
+    message = error.what();
+  }
+  check_refused(message, {"m.sdf", "link m::l", "1e+12 m", "max_step_size 1 s"});
 }

@@ -2,6 +2,7 @@
 #include "ode/batch/batch.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -21,6 +22,7 @@ constexpr int kMostThreads = 256;
 
 struct snBatch : Batch {
   using Batch::Batch;
+  std::atomic_flag is_busy;  // two calls would change one list of pairs
 };
 
 extern "C" snBatchID snBatchCreate(int threads) {
@@ -51,6 +53,12 @@ extern "C" int snBatchCollide(snBatchID batch, dSpaceID space, int max_contacts,
     if (max_contacts < 1 || max_contacts > 0xffff) {
       throw std::invalid_argument("max_contacts = " + std::to_string(max_contacts) + " is outside [1, 65535]");
     }
+    if (batch->is_busy.test_and_set(std::memory_order_acquire)) {
+      throw std::logic_error(
+          "the batch is in use by another call of snBatchCollide, but must be free: a callback or thread needs its own");
+    }
+    const auto release = [](std::atomic_flag* busy) { busy->clear(std::memory_order_release); };
+    const std::unique_ptr<std::atomic_flag, decltype(release)> hold(&batch->is_busy, release);
     return batch->collide(space, max_contacts, {data, wanted, contacts});
   });
 }

@@ -157,7 +157,7 @@ int answer_gradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal* gradie
     require_not_null("at", at);
     require_not_null("gradient", gradient);
     const TwoGeoms geoms(g1, g2, gradient);
-    require_body(geoms.ours);
+    require_supported(geoms);  // ODE ends the program at the position of a space
     Pose pose1, pose2;
     pose1.position = origin_of(g1);
     pose2.position = origin_of(g2);

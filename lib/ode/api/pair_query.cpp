@@ -89,11 +89,16 @@ TwoGeoms::TwoGeoms(dGeomID g1, dGeomID g2, const void* out) : ours(g1), collider
   if (is_swapped) std::swap(ours, collider);
 }
 
-Proximity find_proximity_of(const TwoGeoms& geoms, QueryKind kind) {
+void require_supported(const TwoGeoms& geoms) {
   require_body(geoms.ours);
-  PairQuery* const query = find_query(dGeomGetClass(geoms.collider));
-  if (query == nullptr) refuse_class(geoms.collider);
-  const Proximity result = query(geoms.ours, geoms.collider, kind).deepest;
+  const int number = dGeomGetClass(geoms.collider);
+  if (find_query(number) == nullptr) refuse_class(geoms.collider);
+  if (number == geom_class()) require_body(geoms.collider);
+}
+
+Proximity find_proximity_of(const TwoGeoms& geoms, QueryKind kind) {
+  require_supported(geoms);
+  const Proximity result = find_query(dGeomGetClass(geoms.collider))(geoms.ours, geoms.collider, kind).deepest;
   if (result.status == Status::InvalidInput || !std::isfinite(result.gap)) refuse_pair(geoms.ours, geoms.collider);
   return result;
 }

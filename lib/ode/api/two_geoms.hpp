@@ -17,6 +17,9 @@ struct TwoGeoms {
   TwoGeoms(dGeomID g1, dGeomID g2, const void* out);
 };
 
+/// Throws std::invalid_argument if the pair is not supported.
+void require_supported(const TwoGeoms& geoms);
+
 /// The answer of the core for two geoms. Throws std::invalid_argument if the pair is not supported or there is no answer.
 Proximity find_proximity_of(const TwoGeoms& geoms, QueryKind kind);
 

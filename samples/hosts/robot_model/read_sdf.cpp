@@ -7,43 +7,48 @@
 #include <utility>
 
 #include "formats.hpp"
+#include "numbers.hpp"
 
 namespace robot_model {
 
 namespace {
 
-// All that is read, and what moves nothing: its children are not looked at.
-constexpr std::array kRead = {"sdf",       "world",
-                              "physics",   "max_step_size",
-                              "gravity",   "model",
-                              "static",    "frame",
-                              "pose",      "self_collide",
-                              "link",      "inertial",
-                              "mass",      "inertia",
-                              "ixx",       "ixy",
-                              "ixz",       "iyy",
-                              "iyz",       "izz",
-                              "collision", "surface",
-                              "friction",  "ode",
-                              "mu",        "joint",
-                              "parent",    "child",
-                              "axis",      "xyz",
-                              "limit",     "lower",
-                              "upper",     "velocity_decay",
-                              "linear",    "angular"};
+// What is read, besides numbers, and what moves nothing: its children are not looked at.
+constexpr std::array kRead = {"sdf",   "world",    "physics", "model",   "static",    "frame",         "self_collide",
+                              "link",  "inertial", "inertia", "surface", "collision", "friction",      "ode",
+                              "joint", "parent",   "child",   "axis",    "limit",     "velocity_decay"};
 constexpr std::array kNoMotion = {"geometry", "visual", "light", "gui", "scene", "real_time_factor", "real_time_update_rate"};
 
-void list_unread(const sdf::ElementPtr& parent, std::vector<std::string>& names) {
+// sdformat would take 0,3 for 0. An empty pose is the pose of its frame.
+void check_numbers(sdf::Element& element, const std::string& path, const std::string& where) {
+  const std::string text = element.GetValue()->GetAsString();
+  if (element.GetName() != "pose") {
+    read_numbers(path, text, where);
+  } else if (text.find_first_not_of(" \t\r\n") != std::string::npos) {
+    const bool is_quaternion = element.Get<std::string>("rotation_format") == "quat_xyzw";
+    const std::vector<double> pose = read_numbers(is_quaternion ? "pose of a quaternion" : "pose", text, where);
+    if (is_quaternion && Eigen::Map<const Eigen::Vector4d>(pose.data() + 3).norm() < 1e-6)
+      throw std::runtime_error(where + ": the quaternion of pose \"" + text + "\" is 0 0 0 0, must have a direction");
+  }
+}
+
+/// Checks the numbers below an element, and lists the children that are not read.
+void examine(const sdf::ElementPtr& parent, const std::string& of_parent, std::vector<std::string>& not_read) {
   const auto has = [](const auto& list, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
+  const std::string called = parent->HasAttribute("name") ? " " + parent->Get<std::string>("name") : "";
+  const std::string where = of_parent + ": " + parent->GetName() + called;
   for (sdf::ElementPtr element = parent->GetFirstElement(); element; element = element->GetNextElement()) {
     const std::string& name = element->GetName();
+    const std::string path = parent->GetName() + "/" + name;
     if (!element->GetExplicitlySetInFile() || has(kNoMotion, name)) continue;
     if (has(kRead, name)) {
-      list_unread(element, names);
+      examine(element, where, not_read);
+    } else if (takes_numbers(path)) {
+      check_numbers(*element, path, where);
     } else {
-      add_once(names, name);
+      add_once(not_read, name);
     }
   }
 }
@@ -54,7 +59,9 @@ class Reader {
 
   Scene read() {
     sdf::Root root;
-    check(root.Load(scene_.file));
+    const sdf::Errors errors = root.Load(scene_.file);
+    if (root.Element()) examine(root.Element(), scene_.file, scene_.not_read);  // its messages say more
+    check(errors);
     if (root.WorldCount() > 1) refuse("has " + std::to_string(root.WorldCount()) + " worlds, must have one");
     if (root.WorldCount() == 1) {
       const sdf::World& world = *root.WorldByIndex(0);
@@ -67,7 +74,6 @@ class Reader {
     } else {
       refuse("has neither a world nor a model");
     }
-    list_unread(root.Element(), scene_.not_read);
     return scene_;
   }
 

@@ -9,26 +9,40 @@
 #include <stdexcept>
 
 #include "formats.hpp"
+#include "numbers.hpp"
 
 namespace robot_model {
 
 namespace {
 
-constexpr std::array kRead = {"robot",     "link",  "inertial", "origin", "mass", "inertia",
-                              "collision", "joint", "parent",   "child",  "axis", "limit"};
-constexpr std::array kNoMotion = {"geometry", "visual", "material"};
+constexpr std::array kRead = {"robot",    "link",  "inertial", "origin", "mass", "inertia", "collision",
+                              "geometry", "joint", "parent",   "child",  "axis", "limit"};
+constexpr std::array kNoMotion = {"visual", "material"};
 
-void list_unread(const TiXmlElement& parent, std::vector<std::string>& names) {
+/// urdfdom would take 0,3 for 0.
+void check_numbers(const TiXmlElement& element, const std::string& where) {
+  for (const TiXmlAttribute* one = element.FirstAttribute(); one != nullptr; one = one->Next()) {
+    const std::string path = element.ValueStr() + "/" + one->Name();
+    if (takes_numbers(path)) read_numbers(path, one->Value(), where + ": " + element.Value());
+  }
+}
+
+/// Checks the numbers below an element, and lists the children that are not read.
+void examine(const TiXmlElement& parent, const std::string& of_parent, std::vector<std::string>& not_read) {
   const auto has = [](const auto& list, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
+  const char* const called = parent.Attribute("name");
+  const std::string where = of_parent + ": " + parent.Value() + (called == nullptr ? "" : " " + std::string(called));
+  const bool has_shapes = parent.ValueStr() == "geometry";
   for (const TiXmlElement* element = parent.FirstChildElement(); element != nullptr; element = element->NextSiblingElement()) {
     if (has(kNoMotion, element->Value())) continue;
-    if (has(kRead, element->Value())) {
-      list_unread(*element, names);
-    } else {
-      add_once(names, element->Value());
+    if (!has_shapes && !has(kRead, element->Value())) {
+      add_once(not_read, element->Value());
+      continue;
     }
+    check_numbers(*element, where);
+    examine(*element, where, not_read);
   }
 }
 
@@ -139,14 +153,15 @@ Joint joint_of(const urdf::Joint& joint, const std::map<std::string, std::size_t
 
 Scene read_urdf(const std::string& path, const TiXmlDocument& document) {
   const TiXmlElement& root = *document.RootElement();
+  Scene scene;
+  scene.file = path;
+  examine(root, path, scene.not_read);
   TiXmlPrinter text;
   document.Accept(&text);
   const Complaints complaints;
   const urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text.CStr());
   if (!robot || !complaints.text().empty()) throw std::runtime_error(path + ": " + complaints.text());
   check_tree(*robot, path);
-  Scene scene;
-  scene.file = path;
   std::map<std::string, std::size_t> indices;
   for (const TiXmlElement* element = root.FirstChildElement("link"); element != nullptr;
        element = element->NextSiblingElement("link")) {
@@ -155,7 +170,6 @@ Scene read_urdf(const std::string& path, const TiXmlDocument& document) {
     scene.links.push_back(link_of(*link, *element, path));
   }
   for (const auto& [name, joint] : robot->joints_) scene.joints.push_back(joint_of(*joint, indices, *robot, path));
-  list_unread(root, scene.not_read);
   return scene;
 }
 

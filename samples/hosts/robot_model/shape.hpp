@@ -24,8 +24,8 @@ struct Shape {
 /// The text of a size in the file: of the child element `key` in SDF, of the attribute `key` in URDF.
 using TextOf = std::function<std::optional<std::string>(const std::string& key)>;
 
-/// Reads the sizes of <element>. Throws std::runtime_error, which begins with `where`, if the element is unknown, or if a size is
-/// missing or is no number.
+/// Reads the sizes of <element>. Throws std::runtime_error, which begins with `where`, if the element is unknown, or as
+/// read_numbers().
 Shape read_shape(const std::string& element, const TextOf& text_of, const std::string& where);
 
 /// The name of the element without a prefix: "sphere" or "superellipsoid".
@@ -35,7 +35,7 @@ const char* name_of(const Shape& shape);
 bool is_plane(const Shape& shape);
 
 /// Makes the geom: spheres, boxes, capsules and cylinders are ODE's own, ellipsoids and superellipsoids ours. Throws
-/// std::runtime_error with the size, its value and the valid range. The shape is no plane.
+/// std::runtime_error if ours refuse the sizes. The shape is no plane.
 dGeomID create(const Shape& shape, dSpaceID space, const std::string& where);
 
 /// The mass of the homogeneous body in the frame of its geom; density in kg/m^3.

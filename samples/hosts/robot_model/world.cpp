@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
+
+#include "numbers.hpp"
 
 namespace robot_model {
 
@@ -34,24 +38,57 @@ void require(bool is_valid, const std::string& message) {
   if (!is_valid) throw std::runtime_error(message);
 }
 
-/// Expresses a mass of the frame `pose` in the frame that `pose` refers to.
-void transform(dMass& mass, const Eigen::Isometry3d& pose) {
-  dMassRotate(&mass, rotation_of(pose).data());
-  dMassTranslate(&mass, pose.translation().x(), pose.translation().y(), pose.translation().z());
+/// The inertia of one body, in the axes of the world. ODE moves the centre of a dMass only by way of the origin, where a small body
+/// far away loses its moments to rounding.
+struct Part {
+  double mass;
+  Eigen::Vector3d centre;
+  Eigen::Matrix3d moment;  // about the centre
+};
+
+Part part_of(double mass, const Eigen::Isometry3d& pose, const Eigen::Matrix3d& moment) {
+  return {mass, pose.translation(), pose.linear() * moment * pose.linear().transpose()};
 }
 
-dMass mass_of(const Inertial& inertial, const std::string& where) {
-  const Eigen::Matrix3d& I = inertial.moment;
-  require(inertial.mass > 0 && std::isfinite(inertial.mass),
-          where + ": mass is " + text_of(inertial.mass) + " kg, must be in (0, inf)");
-  require(I.allFinite(), where + ": <inertia> is not finite");
-  const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(I).eigenvalues();
-  require(principal[0] > 0 && principal[0] + principal[1] >= (1 - 1e-6) * principal[2],
-          where + ": the principal moments of <inertia> are " + text_of(principal.transpose()) +
-              " kg m^2, must be positive, and none above the sum of the others");
-  dMass mass;
-  dMassSetParameters(&mass, inertial.mass, 0, 0, 0, I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2));
-  return mass;
+/// A homogeneous body that is symmetric about its origin.
+Part part_of(const dMass& mass, const Eigen::Isometry3d& pose) {
+  return part_of(mass.mass, pose, Eigen::Map<const Eigen::Matrix<dReal, 3, 4, Eigen::RowMajor>>(mass.I).leftCols<3>());
+}
+
+/// The three principal moments must be those of a body, and ODE must be able to invert them.
+void check_moments(const Eigen::Matrix3d& moment, const std::string& where) {
+  constexpr double kLeastRatio = 1e-9;  // of the moments, as of a rod that is 80 000 times as long as thick
+  const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moment).eigenvalues();
+  require(principal[0] >= kLeastRatio * principal[2] && principal[0] + principal[1] >= (1 - 1e-6) * principal[2],
+          where + ": the principal moments are " + text_of(principal.transpose()) + " kg m^2, must be at least " +
+              text_of(kLeastRatio) + " of the largest, and none above the sum of the others");
+  for (int axis = 0; axis < 3; ++axis) check_number("inertia/ixx", moment(axis, axis), where);
+}
+
+/// About the origin, which is the centre of mass.
+dMass sum_of(const std::vector<Part>& parts, Eigen::Vector3d& centre, const std::string& where) {
+  double mass = 0;
+  for (const Part& part : parts) mass += part.mass;
+  check_number("mass", mass, where);
+  centre.setZero();
+  for (const Part& part : parts) centre += part.mass / mass * part.centre;
+  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+  for (const Part& part : parts) {
+    const Eigen::Vector3d arm = part.centre - centre;
+    moment += part.moment + part.mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+  }
+  check_moments(moment, where);
+  dMass out;
+  dMassSetParameters(&out, mass, 0, 0, 0, moment(0, 0), moment(1, 1), moment(2, 2), moment(0, 1), moment(0, 2), moment(1, 2));
+  return out;
+}
+
+/// Below this length a vector has no direction.
+constexpr double kLeastLength = 1e-6;
+
+void check_direction(const Eigen::Vector3d& vector, const std::string& where) {
+  require(vector.norm() > kLeastLength,
+          where + " is " + text_of(vector.transpose()) + ", must be longer than " + text_of(kLeastLength));
 }
 
 }  // namespace
@@ -59,7 +96,7 @@ dMass mass_of(const Inertial& inertial, const std::string& where) {
 Ode::Ode() {
   dInitODE2(0);
   world = dWorldCreate();
-  space = dHashSpaceCreate(nullptr);
+  space = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);  // a hash space ends the program at a geom 3e8 m away
   contacts = dJointGroupCreate(0);
 }
 
@@ -72,8 +109,8 @@ Ode::~Ode() {
 }
 
 World::World(const Scene& scene, double density) : scene_(scene) {
-  require(density > 0 && std::isfinite(density), "density is " + text_of(density) + " kg/m^3, must be in (0, inf)");
-  check();
+  check_number("density", density, scene_.file);
+  check_joints();
   dWorldSetGravity(ode_.world, scene.gravity.x(), scene.gravity.y(), scene.gravity.z());
   dWorldSetQuickStepNumIterations(ode_.world, 50);  // Gazebo's default
   weld();
@@ -83,30 +120,10 @@ World::World(const Scene& scene, double density) : scene_(scene) {
   connect();
 }
 
-/// ODE checks none of this.
-void World::check() const {
-  const auto in_file = [this](const std::string& what) { return scene_.file + ": " + what; };
-  require(scene_.step > 0 && std::isfinite(scene_.step),
-          in_file("max_step_size is " + text_of(scene_.step) + " s, must be in (0, inf)"));
-  require(scene_.gravity.allFinite(), in_file("gravity is " + text_of(scene_.gravity.transpose()) + ", must be finite"));
-  for (const Link& link : scene_.links) {
-    require(link.pose.matrix().allFinite(), in_file("link " + link.name + ": the pose is not finite"));
-    require(!link.inertial || link.inertial->pose.matrix().allFinite(),
-            in_file("link " + link.name + ": the pose of <inertial> is not finite"));
-    for (const double decay : {link.linear_decay, link.angular_decay}) {
-      require(decay >= 0 && decay <= 1,
-              in_file("link " + link.name + ": <velocity_decay> is " + text_of(decay) + ", must be in [0, 1]"));
-    }
-    for (const Collision& collision : link.collisions) {
-      const std::string where = in_file("link " + link.name + ", collision " + collision.name);
-      require(collision.pose.matrix().allFinite(), where + ": the pose is not finite");
-      require(collision.friction >= 0, where + ": mu is " + text_of(collision.friction) + ", must be in [0, inf]");
-    }
-  }
+void World::check_joints() const {
   for (const Joint& joint : scene_.joints) {
-    const std::string where = in_file("joint " + joint.name);
-    require(joint.axis.allFinite() && joint.axis.norm() > 1e-6,
-            where + ": the axis is " + text_of(joint.axis.transpose()) + ", must have a direction");
+    const std::string where = scene_.file + ": joint " + joint.name;
+    check_direction(joint.axis, where + ": the axis");
     require(joint.lower <= joint.upper,
             where + ": the limits are " + text_of(joint.lower) + " and " + text_of(joint.upper) + ", must rise");
   }
@@ -130,20 +147,16 @@ void World::weld() {
   }
 }
 
-/// The masses are summed in the frame of the world.
 void World::make_bodies(double density) {
   const std::size_t world = scene_.links.size();
-  std::vector<dMass> masses(world + 1);
-  for (dMass& mass : masses) dMassSetZero(&mass);
+  std::vector<std::vector<Part>> parts(world + 1);
   for (std::size_t i = 0; i < world; ++i) {
     const Link& link = scene_.links[i];
     const std::string where = scene_.file + ": link " + link.name;
     const bool has_body = group_[i] != world;
-    dMass& sum = masses[group_[i]];
     if (link.inertial && has_body) {
-      dMass mass = mass_of(*link.inertial, where);
-      transform(mass, link.inertial->pose);
-      dMassAdd(&sum, &mass);
+      check_moments(link.inertial->moment, where + ": <inertia>");
+      parts[group_[i]].push_back(part_of(link.inertial->mass, link.inertial->pose, link.inertial->moment));
     }
     for (const Collision& collision : link.collisions) {
       const std::string of_collision = where + ", collision " + collision.name;
@@ -155,9 +168,7 @@ void World::make_bodies(double density) {
       dGeomID geom = create(collision.shape, ode_.space, of_collision);
       pieces_.push_back({geom, &collision, group_[i]});
       if (link.inertial || !has_body) continue;
-      dMass mass = mass_of(collision.shape, geom, density);
-      transform(mass, collision.pose);
-      dMassAdd(&sum, &mass);
+      parts[group_[i]].push_back(part_of(mass_of(collision.shape, geom, density), collision.pose));
     }
   }
   bodies_.assign(world + 1, nullptr);
@@ -171,10 +182,9 @@ void World::make_bodies(double density) {
       dBodySetAngularDamping(bodies_[group], std::max(dBodyGetAngularDamping(bodies_[group]), link.angular_decay));
       continue;
     }
-    dMass& mass = masses[group];
-    require(mass.mass > 0, scene_.file + ": link " + link.name + " has no mass: no <inertial> and no <collision>");
-    centres_[group] = vector_of(mass.c);
-    dMassTranslate(&mass, -mass.c[0], -mass.c[1], -mass.c[2]);
+    const std::string where = scene_.file + ": link " + link.name;
+    require(!parts[group].empty(), where + " has no mass: no <inertial> and no <collision>");
+    const dMass mass = sum_of(parts[group], centres_[group], where);
     dBodyID body = bodies_[group] = dBodyCreate(ode_.world);
     dBodySetMass(body, &mass);
     dBodySetPosition(body, centres_[group].x(), centres_[group].y(), centres_[group].z());
@@ -190,9 +200,9 @@ void World::place_geoms() {
     const Eigen::Vector3d& position = pose.translation();
     if (is_plane(piece.collision->shape)) {
       const std::vector<double>& normal = piece.collision->shape.sizes;
-      const Eigen::Vector3d n = (pose.linear() * Eigen::Vector3d(normal[0], normal[1], normal[2])).normalized();
-      require(std::abs(n.norm() - 1) < 1e-6,
-              scene_.file + ": collision " + piece.collision->name + ": the normal of <plane> must have a direction");
+      const Eigen::Vector3d given(normal[0], normal[1], normal[2]);
+      check_direction(given, scene_.file + ": collision " + piece.collision->name + ": the normal of <plane>");
+      const Eigen::Vector3d n = (pose.linear() * given).normalized();
       piece.geom = dCreatePlane(ode_.space, n.x(), n.y(), n.z(), n.dot(position));
       if (!has_plane) plane_ << n, n.dot(position);
       has_plane = true;
@@ -265,14 +275,27 @@ void World::collide(dGeomID geom1, dGeomID geom2) {
 }
 
 void World::simulate(double seconds) {
-  require(seconds >= 0 && std::isfinite(seconds), "seconds is " + text_of(seconds) + ", must be in [0, inf)");
+  check_number("seconds", seconds, scene_.file);
   const auto near = [](void* world, dGeomID geom1, dGeomID geom2) { static_cast<World*>(world)->collide(geom1, geom2); };
-  double left = seconds;
-  while (left > 0.5 * scene_.step) {
+  const std::int64_t steps = std::llround(seconds / scene_.step);
+  for (std::int64_t i = 0; i < steps; ++i) {
     dSpaceCollide(ode_.space, this, near);
     dWorldQuickStep(ode_.world, scene_.step);
     dJointGroupEmpty(ode_.contacts);
-    left -= scene_.step;
+    check_motion(static_cast<double>(i + 1) * scene_.step);
+  }
+}
+
+/// A step that is too long for a stiff model makes it fly apart, until numbers overflow in ODE.
+void World::check_motion(double time) const {
+  constexpr double kMost = 1e12;  // m, m/s, rad/s
+  for (std::size_t i = 0; i < scene_.links.size(); ++i) {
+    if (body(i) == nullptr) continue;
+    const dReal* const all[] = {dBodyGetPosition(body(i)), dBodyGetLinearVel(body(i)), dBodyGetAngularVel(body(i))};
+    const bool is_near = std::all_of(std::begin(all), std::end(all), [](const dReal* v) { return vector_of(v).norm() <= kMost; });
+    require(is_near, scene_.file + ": link " + scene_.links[i].name + " is farther than " + text_of(kMost) + " m or faster than " +
+                         text_of(kMost) + " m/s or rad/s after " + text_of(time) + " s, with max_step_size " +
+                         text_of(scene_.step) + " s");
   }
 }
 

@@ -27,7 +27,8 @@ class World {
   /// the valid range.
   World(const Scene& scene, double density);
 
-  /// Steps until `seconds` in [0, inf) have passed. Throws std::runtime_error otherwise.
+  /// Steps until `seconds` in [0, 1e6] have passed, to the nearest step. Throws std::runtime_error otherwise, and if a body is 1e12
+  /// m away or as fast.
   void simulate(double seconds);
 
   /// The present pose of a link in the world.
@@ -40,13 +41,14 @@ class World {
   const std::vector<dJointID>& joints() const { return joints_; }
 
  private:
-  void check() const;
+  void check_joints() const;
   void weld();
   void make_bodies(double density);
   void place_geoms();
   void lift();
   void connect();
   void collide(dGeomID geom1, dGeomID geom2);
+  void check_motion(double time) const;
 
   struct Piece {
     dGeomID geom;

@@ -308,6 +308,11 @@ TEST_CASE("derivatives and clearance of geoms: bad input is refused with its nam
   CHECK(snGeomDerivatives(ours, space, &at, &derivatives) == 0);
   CHECK(refused_with("must be a body made by snCreate"));
 
+  CHECK(snGeomGapGradient(ours, space, &at, gradient) == 0);
+  CHECK(refused_with("snGeomGapGradient: the collider is a space, but must be"));
+  const Geom without_body(dCreateGeom(snGeomClass()));
+  CHECK(snGeomGapGradient(ours, without_body, &at, gradient) == 0);
+  CHECK(refused_with("must be a body made by snCreate"));
   CHECK(snGeomGapGradient(ours, other, nullptr, gradient) == 0);
   CHECK(refused_with("snGeomGapGradient: at = NULL"));
   CHECK(snGeomGapGradient(ours, other, &at, nullptr) == 0);

@@ -255,3 +255,38 @@ TEST_CASE("a batch refuses invalid arguments with a message") {
   dSpaceDestroy(space);
   snBatchDestroy(batch);
 }
+
+TEST_CASE("a batch that is in use refuses another call, from either callback, and is free again afterwards") {
+  const dSpaceID space = dSimpleSpaceCreate(nullptr);
+  Random random(3);
+  for (int i = 0; i < 20; ++i) place(random_body(random, space), 0.3 * random.direction());
+  struct Calls {
+    snBatchID batch;
+    dSpaceID space;
+    int allowed = 0, refused = 0, pairs = 0;
+
+    void again() {
+      const int result = snBatchCollide(batch, space, 4, nullptr, nullptr, append);
+      (result == -1 && std::string(snLastError()).find("the batch is in use") != std::string::npos ? refused : allowed) += 1;
+    }
+  };
+  Calls calls{snBatchCreate(2), space};
+  const auto wanted = [](void* data, dGeomID, dGeomID) {
+    static_cast<Calls*>(data)->again();
+    return 1;
+  };
+  const auto contacts = [](void* data, dGeomID, dGeomID, const dContactGeom*, int) {
+    static_cast<Calls*>(data)->again();
+    ++static_cast<Calls*>(data)->pairs;
+  };
+  const int count = snBatchCollide(calls.batch, space, 4, &calls, wanted, contacts);
+  CHECK(count > 0);
+  CHECK(calls.pairs > 0);
+  CHECK(calls.allowed == 0);
+  CHECK(calls.refused > calls.pairs);
+  calls.refused = 0;
+  CHECK(snBatchCollide(calls.batch, space, 4, &calls, nullptr, contacts) == count);
+  CHECK(calls.refused == calls.pairs / 2);
+  snBatchDestroy(calls.batch);
+  dSpaceDestroy(space);
+}
