@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "ode/api/registration.hpp"
 #include "ode/support/last_error.hpp"
 #include "ode/support/require.hpp"
 #include "supernormal/supernormal.h"
@@ -49,6 +50,7 @@ extern "C" int snBatchCollide(snBatchID batch, dSpaceID space, int max_contacts,
   return guarded("snBatchCollide", -1, [&] {
     require_not_null("batch", batch);
     require_not_null("space", space);
+    require_space(space);
     if (contacts == nullptr) throw std::invalid_argument("contacts = NULL, but must be a function");
     if (max_contacts < 1 || max_contacts > 0xffff) {
       throw std::invalid_argument("max_contacts = " + std::to_string(max_contacts) + " is outside [1, 65535]");

@@ -65,6 +65,7 @@ extern "C" dGeomID snCreateFromDescription(dSpaceID space, const char* text) {
 
 extern "C" dGeomID snGeomCopy(dSpaceID space, dGeomID geom) {
   return guarded("snGeomCopy", dGeomID{}, [&] {
+    require_space(space);
     const dGeomID copy = create_geom(nullptr, require_body(geom).copy());
     copy_geom(geom, copy);
     if (space != nullptr) dSpaceAdd(space, copy);

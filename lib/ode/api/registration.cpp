@@ -88,7 +88,14 @@ int require_geom_class() {
   return geom_class();
 }
 
+void require_space(dSpaceID space) {
+  const auto geom = reinterpret_cast<dGeomID>(space);
+  if (geom == nullptr || dGeomIsSpace(geom) != 0) return;
+  throw std::invalid_argument("space is " + geom_class_name(geom) + ", but must be a space");
+}
+
 dGeomID create_geom(dSpaceID space, std::unique_ptr<Body> body) {
+  require_space(space);
   const dGeomID geom = dCreateGeom(require_geom_class());
   static_cast<ClassData*>(dGeomGetClassData(geom))->body = body.release();
   ++live_geoms;

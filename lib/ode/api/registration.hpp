@@ -13,6 +13,9 @@ class Body;
 /// precision than this library, cannot be initialised or has no free user class.
 int require_geom_class();
 
+/// Refuses a geom that is no space, at which ODE would end the program. Null is a space: none.
+void require_space(dSpaceID space);
+
 /// Creates a geom of our class that owns `body`. Adds it to `space` unless that is null.
 dGeomID create_geom(dSpaceID space, std::unique_ptr<Body> body);
 

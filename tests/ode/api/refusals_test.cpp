@@ -54,6 +54,20 @@ TEST_CASE("refusals: half-axes and exponents at creation") {
   CHECK(snGeomClass() == -1);  // no refused geom is alive
 }
 
+TEST_CASE("refusals: a geom in place of a space") {
+  OdeSession session;
+  const Geom sphere(dCreateSphere(nullptr, 1)), body(snCreateEllipsoid(nullptr, 1, 2, 3));
+  const auto space_of = [](dGeomID geom) { return reinterpret_cast<dSpaceID>(geom); };
+  CHECK(snCreateEllipsoid(space_of(sphere), 1, 2, 3) == nullptr);
+  check_error("snCreateEllipsoid", "space is a dSphere", "must be a space");
+  CHECK(snGeomCopy(space_of(body), body) == nullptr);
+  check_error("snGeomCopy", "space is a geom of this library's class", "must be a space");
+  const snBatchID batch = snBatchCreate(1);
+  CHECK(snBatchCollide(batch, space_of(body), 1, nullptr, nullptr, [](void*, dGeomID, dGeomID, const dContactGeom*, int) {}) == -1);
+  check_error("snBatchCollide", "space is", "must be a space");
+  snBatchDestroy(batch);
+}
+
 TEST_CASE("refusals: a refused change leaves the geom unchanged") {
   OdeSession session;
   const Geom geom(snCreateSuperellipsoid(nullptr, 1, 2, 3, 4, 5));
