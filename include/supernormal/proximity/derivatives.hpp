@@ -42,8 +42,9 @@ enum class DerivativeStatus {
 /// origins of their bodies' frames. So the derivative with respect to the position of body 2 is the normal. By the envelope theorem
 /// the change of the normal has no effect to first order (Danskin 1966; lib/proximity/README.md).
 ///
-/// This takes the points of the answer and evaluates nothing. The gradient is as exact as the normal of the answer, whose error is
-/// of the order of sqrt(2 error/R), with R the smallest radius of curvature of the Minkowski difference plus the gap.
+/// This takes the points of the answer and evaluates nothing. By positions the gradient is as exact as the normal of the answer,
+/// whose error is of the order of sqrt(2 error/R), with R the smallest radius of curvature of the Minkowski difference plus the gap.
+/// By rotations it is as exact as the points, whose error is that of the normal times the radius of curvature there.
 /// find_proximity_derivatives() is exact to rounding. Zero if the answer has the status InvalidInput.
 SUPERNORMAL_API TwistVector find_gap_gradient(const Pose& pose1, const Pose& pose2, const Proximity& proximity);
 
