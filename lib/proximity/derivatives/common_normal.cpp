@@ -257,18 +257,18 @@ void CommonNormal::look_beside(const Place& place) {
   const TangentDirections jumps1 = one.jumps(), jumps2 = two.jumps();
   // A smooth body may be flat at one point only, such as a superellipsoid with exponents below 3. Its radius of curvature is
   // infinite there, and its point does not jump: the gap is differentiable once.
-  const bool is_flat_at_point =
-      (jumps1.count == 0 && !gap_.traits1().has_nonsmooth_points) || (jumps2.count == 0 && !gap_.traits2().has_nonsmooth_points);
-  if (is_flat_at_point && is_free_) {
-    is_strict_ = false;
+  const bool has_point1 = jumps1.count == 0 && !gap_.traits1().has_nonsmooth_points;
+  const bool has_point2 = jumps2.count == 0 && !gap_.traits2().has_nonsmooth_points;
+  if (is_free_ && (has_point1 || has_point2)) {
+    is_free_ = is_strict_ = false;
     // Its point is known, and the other body's is opposite.
-    if (jumps1.count == 0 && !gap_.traits1().has_nonsmooth_points) {
+    if (has_point1) {
       lever2_ = point1_ + s_ * n_ - gap_.offset();
     } else {
       point1_ = lever2_ + gap_.offset() - s_ * n_;
     }
   }
-  is_free_ = (is_free_ && !is_flat_at_point) || jumps1.share_one_with(jumps2);
+  is_free_ = is_free_ || jumps1.share_one_with(jumps2);
   if (one.bends().share_one_with(two.bends())) is_strict_ = false;
 }
 

@@ -7,9 +7,6 @@
 
 namespace supernormal {
 
-// In units of the last place of the bodies' sizes: vertices whose heights along a normal differ by less are tied.
-inline constexpr double kTieUnits = 32;
-
 /// The common normal near an answer's normal, by Newton's method over the pieces of both bodies.
 class CommonNormal {
  public:

@@ -35,7 +35,7 @@ NearbyFlats::NearbyFlats(const Shape& shape, const TangentPlane& plane, const Je
 void NearbyFlats::add_vertices(const Shape& shape, const Jet& jet) {
   ActiveVertices vertices;
   shape.add_active_vertices(plane_.n, jet.r, vertices);
-  const double rounding = 32 * std::numeric_limits<double>::epsilon() * shape.bounding_radius();
+  const double rounding = kTieUnits * std::numeric_limits<double>::epsilon() * shape.bounding_radius();
   for (int k = 0; k < vertices.size(); ++k) {
     const Vector2 across = plane_.project(vertices[k] - point_);
     if (jet.h - plane_.n.dot(vertices[k]) > kNearby * across.norm() + rounding) continue;

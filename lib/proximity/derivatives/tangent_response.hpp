@@ -7,6 +7,9 @@
 
 namespace supernormal {
 
+// In units of the last place of the bodies' sizes: vertices whose heights along a normal differ by less are tied.
+inline constexpr double kTieUnits = 32;
+
 using Matrix2 = Eigen::Matrix2d;
 
 /// The radii of curvature of one body in a tangent plane. Along at most two directions the radius is infinite: along an edge, a
