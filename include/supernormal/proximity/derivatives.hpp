@@ -43,8 +43,8 @@ enum class DerivativeStatus {
 /// the change of the normal has no effect to first order (Danskin 1966; lib/proximity/README.md).
 ///
 /// This takes the points of the answer and evaluates nothing. By positions the gradient is as exact as the normal of the answer,
-/// whose error is of the order of sqrt(2 error/R), with R the smallest radius of curvature of the Minkowski difference plus the gap.
-/// By rotations it is as exact as the points, whose error is that of the normal times the radius of curvature there.
+/// whose error is of the order of sqrt(2 error/R), with R the smallest radius of curvature of the Minkowski difference plus the
+/// gap. By rotations it is as exact as the points, whose error is that of the normal times the radius of curvature there.
 /// find_proximity_derivatives() is exact to rounding. Zero if the answer has the status InvalidInput.
 SUPERNORMAL_API TwistVector find_gap_gradient(const Pose& pose1, const Pose& pose2, const Proximity& proximity);
 
