@@ -13,6 +13,8 @@ namespace supernormal {
 
 using Vector2 = Eigen::Vector2d;
 
+inline double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
 /// An orthonormal basis t1, t2 of the plane perpendicular to a unit normal n. A direction near n has gnomonic coordinates u: it is
 /// the direction of n + u1 t1 + u2 t2. So |u| is the tangent of the angle.
 struct TangentPlane {

@@ -1,14 +1,13 @@
 #include "raycast/portal.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace supernormal {
 namespace {
 
 // Relative rounding error of a few products and sums.
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
-
-double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 Vector2 rotated_left(const Vector2& a) { return {-a.y(), a.x()}; }
 
@@ -134,7 +133,7 @@ Vector3 Portal::edge_normal() const {
 }
 
 double Portal::sector() const {
-  if (is_empty_) return 2 * M_PI;
+  if (is_empty_) return 2 * std::numbers::pi;
   const Vector2 a = sector_[0].p.normalized();
   const Vector2 b = sector_[1].p.normalized();
   return 2 * std::atan2((a + b).norm(), (a - b).norm());

@@ -28,14 +28,15 @@ enum class DerivativeStatus {
   /// A witness point is at the border of its face or edge, or a body is flat at this point only: the gradient is defined, the
   /// others are one-sided or change much within 1e-6 rad.
   Degenerate,
-  /// Faces, flat sides or edges share more than a point, or do so after a rotation of 1e-6 rad: the witness points and the gradient
-  /// of rotations are not unique.
+  /// Faces, flat sides or edges share more than a point, or do so after a rotation of 1e-6 rad, so that the gap has a kink: the
+  /// witness points and the gradient of rotations are not unique.
   FreeOnFace,
-  SingularCurvature,  ///< H1 + H2 + gap is singular across the normal (vertex to vertex): the normal may not be unique
-  SeveralMaxima,      ///< the opposite normal has the same gap: the gap is not differentiable
-  NoHessian,          ///< a shape has no Hessian: only the gradient of the gap is known
-  NotConverged,       ///< the answer's normal is not a common normal
-  InvalidInput,       ///< a pose is not usable, or a number is not finite
+  /// H1 + H2 + gap is singular across the normal (vertex to vertex), or below 1e-6 half-extents: the normal may not be unique
+  SingularCurvature,
+  SeveralMaxima,  ///< the opposite normal has the same gap: the gap is not differentiable
+  NoHessian,      ///< a shape has no Hessian: only the gradient of the gap is known
+  NotConverged,   ///< the answer's normal is not a common normal
+  InvalidInput,   ///< a pose is not usable, or a number is not finite
 };
 
 /// The gradient of the gap with respect to the twists: (-n, -P1 x n, n, P2 x n) with the witness points P1 and P2 relative to the
@@ -77,9 +78,10 @@ struct ProximityDerivatives {
 /// the local maximum of the answer. Where bodies have faces or edges the set of active vertices is kept, so the derivatives are
 /// exact while the contact stays on its face, edge or vertex.
 ///
-/// Newton's method first brings the answer's normal to rounding, with two evaluations as a rule and at most 32. If both bodies
-/// may be flat there, four more look beside it: boundary points that jump within 1e-6 rad leave no gradient. All is computed in
-/// body 1's frame, so a large distance from the world's origin costs no digits.
+/// Newton's method first brings the answer's normal to rounding, with two evaluations as a rule and at most 32. Where both bodies
+/// may be flat, a point is near the border of a face, or both bodies are sharp, four poses that are rotated by 1e-6 rad are solved,
+/// too: the status says whether the derivatives hold there. All is computed in body 1's frame, so a large distance from the world's
+/// origin costs no digits.
 ///
 /// The relative error is about 1e-7 or less, as long as the radii of curvature of the Minkowski difference differ by less than 1e9.
 /// Beyond, the status is SingularCurvature. A radius of curvature above 1e8 times the smallest half-extent counts as infinite.
@@ -89,7 +91,8 @@ SUPERNORMAL_API ProximityDerivatives find_proximity_derivatives(const Shape& sha
 
 /// The derivatives of find_plane_proximity(). Body 2 is the half-space, and the origin of its frame the origin of the world: its
 /// twist moves the plane by v2 and rotates it about this origin by w2. Nothing is iterated, and `evaluations` is 0. The status is
-/// FreeOnFace if an edge or a face of the body lies on the plane. plane_normal and plane_offset as in find_plane_proximity().
+/// FreeOnFace if an edge or a face of the body lies on the plane, or does so after a rotation of 1e-6 rad. plane_normal and
+/// plane_offset as in find_plane_proximity().
 SUPERNORMAL_API ProximityDerivatives find_plane_derivatives(const Shape& shape, const Pose& pose, const Vector3& plane_normal,
                                                             double plane_offset, const DerivativeSettings& settings = {});
 

@@ -7,8 +7,6 @@
 
 namespace supernormal {
 
-inline double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// Coordinates in the tangent plane of a contact, about the contact point.
 struct ContactFrame {
   TangentPlane plane;

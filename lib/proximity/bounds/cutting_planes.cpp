@@ -34,7 +34,7 @@ Vector2 nearest_on_segment(const Vector2& a, const Vector2& b) {
   if (!(b.dot(edge) > 0)) return b;
   const double squared = edge.squaredNorm();
   if (squared < kShort * a.squaredNorm()) return a - a.dot(edge) / squared * edge;
-  return (a.x() * b.y() - a.y() * b.x()) / squared * Vector2(edge.y(), -edge.x());
+  return cross(a, b) / squared * Vector2(edge.y(), -edge.x());
 }
 
 using Cuts = std::array<Cut, 1 + CuttingPlanes::kCapacity>;

@@ -15,9 +15,9 @@ class CommonNormal {
 
   bool is_converged() const { return is_converged_; }  ///< whether the last step was small enough
   bool has_active_set() const { return active_set_; }  ///< whether a witness point is on a face or edge of several vertices
-  /// Whether all multipliers are positive, no other vertex is tied, and no radius of curvature changes much within kNearby
-  bool is_strict() const { return is_strict_; }
-  bool is_free() const { return is_free_; }  ///< whether both bodies are flat in one direction, within kNearby: the gap has a kink
+  bool is_strict() const { return is_strict_; }        ///< whether all multipliers are positive, and no other vertex is tied
+  /// Whether a rotation by kNearby may change more than the response says: both bodies may be flat, or a point is near a border.
+  bool may_change_nearby() const { return may_change_nearby_; }
   const TangentResponse& response() const { return response_; }
   const TangentPlane& plane() const { return plane_; }  ///< at the normal of the last evaluation, whose radii the response has
 
@@ -39,14 +39,14 @@ class CommonNormal {
     Vector2 across = Vector2::Zero();  // m; point 2 - point 1 across the normal
     Vector2 step = Vector2::Zero();    // of the normal, gnomonic
     double rest = 0;                   // m; about twice what the gap would gain by the step
-    bool has_active_set = false, is_strict = true;
+    bool has_active_set = false, is_strict = true, is_near_border = false;
   };
 
   bool look_at(const Vector3& n, Place& place);
   void find_active_set(Place& place) const;
   Vector3 moved(const Place& place) const;
   void finish(const Place& place);
-  void look_beside(const Place& place);
+  void choose_points(const Place& place);
 
   GapFunction& gap_;
   const bool has_nonsmooth_points_, has_flat_faces_;
@@ -54,7 +54,7 @@ class CommonNormal {
   TangentResponse response_;
   Vector3 n_ = Vector3::UnitX(), point1_ = Vector3::Zero(), lever2_ = Vector3::Zero();
   double s_ = 0;
-  bool is_converged_ = false, active_set_ = false, is_strict_ = true, is_free_ = false;
+  bool is_converged_ = false, active_set_ = false, is_strict_ = true, may_change_nearby_ = false;
 };
 
 }  // namespace supernormal

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "proximity/limits.hpp"
-
 namespace supernormal {
 namespace {
 
@@ -15,8 +13,6 @@ constexpr double kParallel = 1e-7;
 // Relative to the trace: a smaller eigenvalue is not known to 1e-7.
 constexpr double kSingular = 1e-9;
 
-double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 Vector2 quarter_turn(const Vector2& a) { return {-a.y(), a.x()}; }
 
 Matrix2 dense(const Symmetric2& A) {
@@ -25,10 +21,9 @@ Matrix2 dense(const Symmetric2& A) {
   return M;
 }
 
-/// Whether a radius of curvature `low` beside a trace is a number and not rounding.
-bool is_known(double low, double trace, double length_unit) {
-  return low > kSingular * trace && low > limits::kNothing * length_unit;
-}
+/// Whether a radius of curvature `low` beside a trace is a number and not rounding, and the normal does not rotate by a radian when
+/// a body rotates by kNearby.
+bool is_known(double low, double trace, double length_unit) { return low > kSingular * trace && low > kNearby * length_unit; }
 
 TangentResponse smooth(const BodyCurvature& body1, const BodyCurvature& body2, double s, double length_unit) {
   const Symmetric2 M = (body1.A + body2.A).plus_identity(s);

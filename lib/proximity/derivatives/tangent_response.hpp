@@ -7,6 +7,10 @@
 
 namespace supernormal {
 
+// rad: derivatives that hold over a smaller rotation only count as not defined. Over 1e-6 the difference of two gaps still has nine
+// digits, and poses from a solver or a measurement that are nearer to a kink are usually meant to be on it.
+inline constexpr double kNearby = 1e-6;
+
 // In units of the last place of the bodies' sizes: vertices whose heights along a normal differ by less are tied.
 inline constexpr double kTieUnits = 32;
 

@@ -86,15 +86,15 @@ class Candidates {
   void try_three(std::size_t i, std::size_t j, std::size_t k) {
     const Vector2 a = piece(j).slope - piece(i).slope;
     const Vector2 b = piece(k).slope - piece(i).slope;
-    const double determinant = a.x() * b.y() - a.y() * b.x();
+    const double determinant = cross(a, b);
     const double ra = piece(i).value - piece(j).value;
     const double rb = piece(i).value - piece(k).value;
     const Vector2 meeting(ra * b.y() - rb * a.y(), a.x() * rb - b.x() * ra);
     if (!is_moderate(meeting.x(), determinant) || !is_moderate(meeting.y(), determinant)) return;
     const Vector2 u = meeting / determinant;
     const Vector2 rest = model_.A * u - piece(i).slope;
-    const double wj = (rest.x() * b.y() - rest.y() * b.x()) / determinant;
-    const double wk = (a.x() * rest.y() - a.y() * rest.x()) / determinant;
+    const double wj = cross(rest, b) / determinant;
+    const double wk = cross(a, rest) / determinant;
     if (!(wj >= 0 && wk >= 0 && wj + wk <= 1)) return;
     offer({u, 0, {i, j, k}, {1 - wj - wk, wj, wk}, 3});
   }

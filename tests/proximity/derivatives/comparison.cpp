@@ -302,7 +302,7 @@ Vector3 DerivativePairs::direction() {
 }
 
 Vector3 DerivativePairs::lengths(double low, double high) {
-  return Vector3{log_uniform(low, high), log_uniform(low, high), log_uniform(low, high)};
+  return scale_ * Vector3{log_uniform(low, high), log_uniform(low, high), log_uniform(low, high)};
 }
 
 PairedBody DerivativePairs::smooth(int kind) {
@@ -333,7 +333,7 @@ PairedBody DerivativePairs::smooth(int kind) {
       return paired_superovoid(a, delta, epsilon, taper, taper);
     }
     case 8:
-      return rounded(superellipsoid(0.5, 1.5, 1.05, 20), log_uniform(0.01, 0.5));
+      return rounded(superellipsoid(0.5, 1.5, 1.05, 20), scale_ * log_uniform(0.01, 0.5));
     case 9: {
       const PairedBody first = superellipsoid(0.5, 1.5, 1.3, 8);
       return sum(first, paired_ellipsoid(lengths(0.2, 1)));
@@ -363,7 +363,7 @@ PairedBody DerivativePairs::any(int kind) {
       return paired_polytope(points);
     }
     default:
-      return rounded(paired_box(a), log_uniform(0.01, 0.5));
+      return rounded(paired_box(a), scale_ * log_uniform(0.01, 0.5));
   }
 }
 
@@ -413,6 +413,29 @@ Vector3 DerivativePairs::witness(const Shape& shape, const Vector3& n) {
   return weights > 0 ? Vector3(mean / weights) : shape.point(n);
 }
 
+DerivativePair DerivativePairs::draw_flat() {
+  scale_ = log_uniform(2e-3, 7);
+  const int kind1 = count_ % kKinds, kind2 = std::uniform_int_distribution<int>(0, kKinds - 1)(engine_);
+  DerivativePair pair{std::string(kKindNames[kind1]) + " and " + kKindNames[kind2], any(kind1), any(kind2), {}, {}};
+  const Vector3 n1 = normal_of_face_or_edge(kind1, *pair.body1.shape), n2 = normal_of_face_or_edge(kind2, *pair.body2.shape);
+  pair.pose1.rotation = Eigen::AngleAxisd(uniform(0, 3.14), direction()).toRotationMatrix();
+  const Vector3 n = pair.pose1.rotation * n1;
+  const double tilt = uniform(0, 1) < 0.2 ? 0 : log_uniform(1e-14, 1e-3);
+  const Matrix3 facing = Eigen::Quaterniond::FromTwoVectors(n2, -n).toRotationMatrix(),
+                about = Eigen::AngleAxisd(uniform(0, 6.28), n).toRotationMatrix(),
+                tilted = Eigen::AngleAxisd(tilt, n.cross(direction()).normalized()).toRotationMatrix();
+  pair.pose2.rotation = tilted * about * facing;
+  const double smallest = std::min(pair.body1.shape->half_extents().minCoeff(), pair.body2.shape->half_extents().minCoeff());
+  const int place = count_ / kKinds % 3;
+  const double gap = smallest * (place == 0 ? uniform(0, 1) : place == 1 ? 0 : -uniform(0, 0.2));
+  const Vector3 point1 = pair.pose1.rotation * witness(*pair.body1.shape, n1);
+  const Vector3 point2 = pair.pose2.rotation * witness(*pair.body2.shape, -(pair.pose2.rotation.transpose() * n));
+  pair.pose2.position = point1 + gap * n - point2;
+  ++count_;
+  scale_ = 1;
+  return pair;
+}
+
 DerivativePair DerivativePairs::draw() {
   const int kind1 = count_ % kKinds;
   // Half of the partners are of the same kind, the others of any.
@@ -445,6 +468,55 @@ DerivativePair DerivativePairs::draw() {
 }
 
 void compare(const DerivativePair& pair, const std::string& name, Tally& tally) { Comparison(pair, name, tally).run(); }
+
+void compare_flat(const DerivativePair& pair, const std::string& name, FlatTally& tally) {
+  constexpr double kStep = 1e-6;  // rad; a gradient holds within it, by DerivativeStatus
+  constexpr double kWrong = 1e-2, kSame = 1e-4;
+  const Shape &shape1 = *pair.body1.shape, &shape2 = *pair.body2.shape;
+  Settings settings;
+  settings.tolerance = 1e-14;
+  ++tally.pairs;
+  const Proximity answer = find_proximity(shape1, pair.pose1, shape2, pair.pose2, settings);
+  const ProximityDerivatives found = find_proximity_derivatives(shape1, pair.pose1, shape2, pair.pose2, answer);
+  tally.evaluations += found.evaluations;
+  if (found.status != DerivativeStatus::FreeOnFace && !found.has_gap) {
+    ++tally.unanswered;
+    return;
+  }
+  ++(found.has_gap ? tally.defined : tally.refused);
+  tally.second += found.has_normal;
+  const double size = std::min(shape1.half_extents().norm(), shape2.half_extents().norm());
+  const Vector3 t1 = answer.normal.unitOrthogonal(), t2 = answer.normal.cross(t1);
+  double off = 0, kink = 0;
+  for (const double angle : {0.0, 0.8, 1.6, 2.4}) {
+    const Vector3 axis = std::cos(angle) * t1 + std::sin(angle) * t2;
+    const auto gap_at = [&](double step) {
+      Vector3 normal = pair.pose1.rotation.transpose() * answer.normal;  // keeps to the answer's maximum
+      const Pose turned{pair.pose2.position, Eigen::AngleAxisd(step, axis) * pair.pose2.rotation};
+      return find_proximity(shape1, pair.pose1, shape2, turned, settings, &normal).gap;
+    };
+    const double ahead = (gap_at(kStep) - answer.gap) / kStep, behind = (answer.gap - gap_at(-kStep)) / kStep;
+    const double claimed = found.gap_gradient.segment<3>(9).dot(axis);
+    const double bend = 0.5 * kStep * axis.dot(found.gap_hessian.block<3, 3>(9, 9) * axis);  // 0 where there is no Hessian
+    off = std::max({off, std::abs(claimed + bend - ahead), std::abs(claimed - bend - behind)});
+    kink = std::max(kink, std::abs(ahead - behind));
+  }
+  if (found.has_gap && off > kWrong * size) {
+    ++tally.wrong;
+    std::ostringstream text;
+    text << name << ' ' << pair.kind << ": off by " << off / size << " sizes, kink " << kink / size << ", status "
+         << static_cast<int>(found.status) << '\n';
+    tally.wrong_pairs += text.str();
+  }
+  if (!found.has_gap && kink < kSame * size) ++tally.needless;
+}
+
+void print(std::ostream& out, const FlatTally& tally) {
+  out << tally.pairs << " flat pairs: gradient defined " << tally.defined << ", wrong " << tally.wrong << ", Jacobians, too "
+      << tally.second << "; refused " << tally.refused << ", without need " << tally.needless << "; others " << tally.unanswered
+      << "; " << tally.evaluations / static_cast<double>(tally.pairs) << " evaluations\n"
+      << tally.wrong_pairs;
+}
 
 void print(std::ostream& out, const Tally& tally) {
   static constexpr const char* kStatuses[] = {"smooth",         "active set", "degenerate",    "free on a face", "singular",

@@ -24,6 +24,9 @@ class DerivativePairs {
   explicit DerivativePairs(unsigned seed) : engine_(seed) {}
   DerivativePair draw();
 
+  /// Bodies of 1 mm to 10 m, a face or flat side of one opposite to one of the other, tilted by 0 to 1e-3 rad.
+  DerivativePair draw_flat();
+
  private:
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
   double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
@@ -35,6 +38,7 @@ class DerivativePairs {
   Vector3 witness(const Shape& shape, const Vector3& n);
 
   std::mt19937_64 engine_;
+  double scale_ = 1;  // of the lengths
   int count_ = 0;
 };
 
@@ -62,5 +66,19 @@ inline constexpr std::array<double, QuantityCount> kLargestErrors = {1e-6, 1e-6,
 void compare(const DerivativePair& pair, const std::string& name, Tally& tally);
 
 void print(std::ostream& out, const Tally& tally);
+
+/// Gradients of the gap of flat pairs, beside one-sided differences over 1e-6 rad.
+struct FlatTally {
+  int pairs = 0, defined = 0, refused = 0, unanswered = 0, evaluations = 0;
+  int second = 0;    ///< all derivatives are defined
+  int wrong = 0;     ///< the gradient is defined, and a difference is off by 1e-2 sizes of the smaller body
+  int needless = 0;  ///< refused, though the differences of both sides agree to 1e-4 sizes
+  std::string wrong_pairs;
+};
+
+/// Compares one pair and adds it to the tally. `name` is for the report.
+void compare_flat(const DerivativePair& pair, const std::string& name, FlatTally& tally);
+
+void print(std::ostream& out, const FlatTally& tally);
 
 }  // namespace supernormal::test
