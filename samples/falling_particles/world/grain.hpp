@@ -42,7 +42,7 @@ struct Grain {
 
 /// The grain of a geom in a World. Null for a wall, whose mesh may have data of its own.
 inline const Grain* grain_of(dGeomID geom) {
-  return dGeomGetClass(geom) == dTriMeshClass ? nullptr : static_cast<const Grain*>(dGeomGetData(geom));
+  return dGeomGetCategoryBits(geom) == kGrainBit ? static_cast<const Grain*>(dGeomGetData(geom)) : nullptr;
 }
 
 /// Creates a geom of the library for a convex body with its lengths times `scale`. Throws std::runtime_error when the library
