@@ -29,6 +29,7 @@ static_assert(SN_DERIVATIVES_NOT_CONVERGED == static_cast<int>(DerivativeStatus:
 
 /// The answer of an earlier query, from g1 to g2.
 Proximity answer_of(const snProximity& at) {
+  if (!std::isfinite(at.gap)) throw std::invalid_argument("at->gap = " + to_text(at.gap) + " m is not finite");
   Proximity answer;
   answer.gap = at.gap;
   answer.status = at.converged != 0 ? Status::Converged : Status::Stalled;
@@ -162,7 +163,7 @@ int answer_gradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal* gradie
     pose1.position = origin_of(g1);
     pose2.position = origin_of(g2);
     const TwistVector found = find_gap_gradient(pose1, pose2, answer_of(*at));
-    if (!found.allFinite()) refuse_pair(geoms.ours, geoms.collider);
+    if (!is_usable(pose1) || !is_usable(pose2) || !found.allFinite()) refuse_pair(geoms.ours, geoms.collider);
     for (int j = 0; j < kTwist; ++j) gradient[j] = to_real(found[j]);
     return 1;
   });

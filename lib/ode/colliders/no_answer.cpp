@@ -10,15 +10,20 @@
 namespace supernormal::ode {
 namespace {
 
+std::string text_of(const Vector3& v) { return "(" + to_text(v.x()) + ", " + to_text(v.y()) + ", " + to_text(v.z()) + ")"; }
+
 void require_usable_pose(dGeomID geom) {
   // These have no pose, or may have none. ODE aborts when asked for it.
   if (dGeomGetClass(geom) == dPlaneClass || dGeomGetClass(geom) == dHeightfieldClass) return;
   const Pose pose{to_vector(dGeomGetPosition(geom)), to_rotation(dGeomGetRotation(geom))};
   if (is_usable(pose)) return;
-  const Vector3& p = pose.position;
+  if (is_usable(Pose{pose.position, Matrix3::Identity()})) {
+    const Matrix3& R = pose.rotation;
+    throw std::invalid_argument("the pose of " + geom_class_name(geom) + " is not finite: rotation = (" + text_of(R.row(0)) + ", " +
+                                text_of(R.row(1)) + ", " + text_of(R.row(2)) + ")");
+  }
   throw std::invalid_argument("the pose of " + geom_class_name(geom) + " is not finite, or its position is not within " +
-                              to_text(kFarthest) + " m: position = (" + to_text(p.x()) + ", " + to_text(p.y()) + ", " +
-                              to_text(p.z()) + ") m");
+                              to_text(kFarthest) + " m: position = " + text_of(pose.position) + " m");
 }
 
 }  // namespace

@@ -284,6 +284,8 @@ TEST_CASE("derivatives and clearance of geoms: bad input is refused with its nam
   const snProximity at = asked(ours, other);
   snProximity broken = at;
   broken.normal[0] = kNotANumber;
+  snProximity no_gap = at;
+  no_gap.gap = kNotANumber;
   snProximity empty = at;
   for (dReal& number : empty.normal) number = 0;
   snDerivatives derivatives;
@@ -302,6 +304,8 @@ TEST_CASE("derivatives and clearance of geoms: bad input is refused with its nam
   CHECK(refused_with("at->normal = (nan, "));
   CHECK(snGeomDerivatives(ours, other, &empty, &derivatives) == 0);
   CHECK(refused_with("at->normal has the length 0, but must have 1"));
+  CHECK(snGeomDerivatives(ours, other, &no_gap, &derivatives) == 0);
+  CHECK(refused_with("at->gap = nan m is not finite"));
   CHECK(snGeomDerivatives(sphere, box, &at, &derivatives) == 0);
   CHECK(refused_with("must be a body made by snCreate"));
   const Geom space(reinterpret_cast<dGeomID>(dSimpleSpaceCreate(nullptr)));
@@ -350,6 +354,13 @@ TEST_CASE("derivatives and clearance of geoms: bad input is refused with its nam
   CHECK(refused_with("pose"));
   CHECK(snGeomIsFartherThan(ours, other, -100, nullptr) == 0);
   CHECK(refused_with("pose"));
+  dGeomSetPosition(other, 0, 0, 3);
+  const dMatrix3 turned = {kNotANumber, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+  dGeomSetRotation(other, turned);
+  CHECK(snGeomDerivatives(ours, other, &at, &derivatives) == 0);
+  CHECK(refused_with("is not finite: rotation = ((nan, "));
+  CHECK(snGeomGapGradient(ours, other, &at, gradient) == 0);
+  CHECK(refused_with("is not finite: rotation = ((nan, "));
   CHECK(derivatives.evaluations == 77);
   CHECK(clearance.evaluations == 77);
   CHECK(gradient[0] == 77);
