@@ -134,3 +134,7 @@ def test_settings_of_a_batch_are_no_pairs_fault(count):
     settings = sn.Settings(tolerance=7)
     with pytest.raises(ValueError, match=r"^tolerance = 7 is outside"):
         sn.find_proximities([sn.Sphere(1)] * count, sn.Pose(), sn.Sphere(1), sn.Pose((3, 0, 0)), settings=settings)
+    with pytest.raises(ValueError, match=r"^tolerance = 7 is outside"):
+        sn.find_ray_hits([sn.Sphere(1)] * count, sn.Pose(), (3, 0, 0), (-1, 0, 0), settings=settings)
+    with pytest.raises(ValueError, match=r"^tolerance = 7 is outside"):
+        sn.Sphere(1).signed_distance([(3.0, 0, 0)] * count if count else np.empty((0, 3)), settings=settings)

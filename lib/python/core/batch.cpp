@@ -22,6 +22,7 @@
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/raycast/ray.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 
 namespace py = pybind11;
@@ -106,6 +107,7 @@ std::unique_ptr<RayHits> ray_hits(const py::object& shapes, const py::object& po
   const ShapesArgument bodies("shapes", shapes, count);
   const PosesArgument places("poses", poses, count);
   const VectorsArgument from("origins", origins, count), along("directions", directions, count);
+  find_ray_hit(Sphere(1), {}, Vector3::Zero(), Vector3::UnitX(), length, settings);  // refuses what is no ray's fault
   auto out = std::make_unique<RayHits>(count.value());
   parallel_for(count.value(), threads, [&](std::ptrdiff_t i) {
     const Vector3 origin = require_place(from.name(i), from[i]), direction = require_direction(along.name(i), along[i]);
