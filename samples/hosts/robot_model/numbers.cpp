@@ -80,6 +80,19 @@ std::vector<double> numbers_in(const std::string& text) {
   return numbers;
 }
 
+bool are_valid(const Quantity& q, const std::vector<double>& numbers) {
+  return numbers.size() == q.count &&
+         std::all_of(numbers.begin(), numbers.end(), [&q](double x) { return x >= q.least && x <= q.greatest; });
+}
+
+[[noreturn]] void refuse(const Quantity& q, const std::string& found, const std::string& where) {
+  std::ostringstream message;
+  message << where << ": " << q.name << " is " << found << ", must be " << q.count << (q.count == 1 ? " number" : " numbers")
+          << " in [" << q.least << ", " << q.greatest << "]";
+  if (*q.unit != 0) message << " " << q.unit;
+  throw std::runtime_error(message.str());
+}
+
 }  // namespace
 
 bool takes_numbers(std::string_view path) { return find(path) != nullptr; }
@@ -87,21 +100,16 @@ bool takes_numbers(std::string_view path) { return find(path) != nullptr; }
 std::vector<double> read_numbers(std::string_view path, const std::optional<std::string>& text, const std::string& where) {
   const Quantity& q = *find(path);
   std::vector<double> numbers = numbers_in(text.value_or(""));
-  if (numbers.size() == q.count &&
-      std::all_of(numbers.begin(), numbers.end(), [&q](double x) { return x >= q.least && x <= q.greatest; })) {
-    return numbers;
-  }
-  std::ostringstream message;
-  message << where << ": " << q.name << (text ? " is \"" + *text + "\"" : " is missing") << ", must be " << q.count
-          << (q.count == 1 ? " number" : " numbers") << " in [" << q.least << ", " << q.greatest << "]";
-  if (*q.unit != 0) message << " " << q.unit;
-  throw std::runtime_error(message.str());
+  if (!are_valid(q, numbers)) refuse(q, text ? "\"" + *text + "\"" : "missing", where);
+  return numbers;
 }
 
 void check_number(std::string_view name, double value, const std::string& where) {
+  const Quantity& q = *find(name);
+  if (are_valid(q, {value})) return;
   std::ostringstream text;
   text << value;
-  read_numbers(name, text.str(), where);
+  refuse(q, text.str(), where);
 }
 
 }  // namespace robot_model
