@@ -15,10 +15,10 @@ expect 0 "$program" "$folder/arm.urdf" --seconds 0 --density 500
 says 'no world'
 expect 2 "$program"
 expect 2 "$program" "$folder/shapes.sdf" --seconds -1
-says 'seconds is "-1", must be 1 number in \[0, 1e+06\] s'
+says 'seconds is -1, must be 1 number in \[0, 1e+06\] s'
 expect 2 "$program" "$folder/shapes.sdf" --seconds nan
 expect 2 "$program" "$folder/shapes.sdf" --density 0
-says 'density is "0", must be 1 number in \[1e-06, 1e+12\] kg/m^3'
+says 'density is 0, must be 1 number in \[1e-06, 1e+12\] kg/m^3'
 expect 2 "$program" "$work/missing.sdf"
 says 'missing.sdf'
 sed 's/<exponents>4 3</<exponents>4 0.5</' "$folder/shapes.sdf" >"$work/bad.sdf"
