@@ -28,7 +28,8 @@ namespace {
 enum ExitCode { Done = 0, Failed = 1, BadInput = 2, Leaked = 3, Interrupted = 130 };
 
 constexpr const char* kFooter =
-    "Writes OUT/<scene>/trajectory.csv, energies.csv, state.csv, summary.toml, of a hopper discharge.csv, of a packing\n"
+    "Writes OUT/<scene>/trajectory.csv, energies.csv, state.csv, final_state.csv, summary.toml, of a hopper discharge.csv, of a "
+    "packing\n"
     "compression.csv, of parts that move parts.csv, of feeders and sinks feeders.csv and sinks.csv, and the pictures that the "
     "scene\n"
     "asks for, view.html, scene.glb and plots of tables if it does not say; until the end they are in "

@@ -22,6 +22,7 @@ assert value("--threads") == "1" and "--no-pictures" in arguments
 scene = pathlib.Path(value("--scene"))
 seed = next(text[5:] for text in arguments if text.startswith("seed="))
 with open(scene.parent / "starts", "a") as starts: starts.write(seed + "\\n")
+with open(scene.parent / "sets", "a") as sets: sets.write(" ".join(text for text in arguments if "=" in text) + "\\n")
 if (scene.parent / f"fail-{{seed}}").exists(): sys.exit("the reason")
 out = pathlib.Path(value("--out")) / scene.stem
 out.mkdir(parents=True, exist_ok=True)
@@ -144,6 +145,55 @@ class Results(RunTest):
             with self.assertRaises(NoValue) as caught:
                 wrong.value(self.folder)
             self.assertIn(says, str(caught.exception))
+
+
+class Starts(RunTest):
+    """Sweeps whose points start from the end of a run before them."""
+
+    def setUp(self):
+        super().setUp()
+        self.write('seeds = 2\n[start.set]\n"b" = 3\n[grid]\n"a" = [1, 2]')
+
+    def sets(self):
+        return (self.folder / "sets").read_text().splitlines()
+
+    def test_each_seed_has_one_start_from_which_its_points_go_on(self):
+        self.assertEqual(self.ensemble("point", *range(4)).returncode, 0)
+        self.assertEqual(self.starts(), ["1", "1", "2", "2", "1", "2"])
+        states = []
+        for line, values in zip(self.sets(), ["b=3 seed=1", "a=1 seed=1", "b=3 seed=2", "a=1 seed=2", "a=2 seed=1", "a=2 seed=2"]):
+            said, _, state = line.partition(" start.file=")
+            self.assertEqual(said, values)
+            states.append(state)
+        starts = sorted((self.out / "runs").glob("*/scene"))  # those of points have gone
+        self.assertEqual(len(starts), 2)
+        self.assertEqual({states[1], states[3]}, {f'"{start.absolute()}/final_state.csv"' for start in starts})
+        self.assertEqual([states[0], states[2], states[4], states[5]], ["", "", states[1], states[3]])
+        self.assertEqual(self.tables_after_collect()[0], "a,seed,steps\n1,1,1\n1,2,2\n2,1,1\n2,2,2\n")
+
+    def tables_after_collect(self):
+        self.ensemble("collect")
+        return self.tables()
+
+    def test_another_start_or_scene_of_it_runs_the_points_again(self):
+        (self.folder / "other.toml").write_text('seed = 1\ncatalogue = "grains.toml"\n')
+        for text in ('[start.set]\n"b" = 3', '[start.set]\n"b" = 4', '[start]\nscene = "other.toml"'):
+            self.write(f"seeds = 1\n{text}")
+            before = len(self.starts())
+            self.ensemble("point", 0)
+            self.ensemble("point", 0)
+            self.assertEqual(len(self.starts()), before + 2)
+        (self.folder / "other.toml").write_text('seed = 2\ncatalogue = "grains.toml"\n')
+        self.ensemble("point", 0)
+        self.assertEqual(len(self.starts()), before + 4)
+
+    def test_a_start_that_fails_is_told_and_run_again(self):
+        self.tell("fail-1")
+        done = self.ensemble("point", 0)
+        self.assertEqual((done.returncode, done.stderr.strip()), (1, "point 0 (a=1 seed=1) FAILED: its start: exit code 1: the reason"))
+        (self.folder / "fail-1").unlink()
+        self.assertEqual(self.ensemble("point", 0).returncode, 0)
+        self.assertEqual(self.starts(), ["1", "1", "1"])
 
 
 class Failures(RunTest):

@@ -34,6 +34,12 @@ class Points(SweepTest):
     def test_settings_are_of_all_points(self):
         self.assertEqual(self.assignments('set = {"time.step" = 1e-3}\n[grid]\na = [1, 2]'), ["time.step=0.001 a=1", "time.step=0.001 a=2"])
 
+    def test_a_start_has_its_own_values_and_the_seed_of_its_point(self):
+        sweep = load_sweep(self.write('seeds = [7]\nset = {a = 1}\n[start.set]\nb = 2'))
+        self.assertEqual(sweep.start.scene, sweep.scene)
+        self.assertEqual(sweep.start_assignments(sweep.points[0]), ["b=2", "seed=7"])
+        self.assertEqual(sweep.assignments(sweep.points[0]), ["a=1", "seed=7"])
+
     def test_grid_list_and_hypercube_are_combined(self):
         text = '[grid]\na = [1, 2]\n[[list]]\nb = 3\n[[list]]\nb = 4\n[latin_hypercube]\npoints = 5\nseed = 1\nranges = {c = {from = 0, to = 1}}'
         sweep = load_sweep(self.write(text))
@@ -68,6 +74,8 @@ class Points(SweepTest):
     def test_the_samples_are_read(self):
         self.assertEqual(len(load_sweep(SCENES.parent / "ensemble/packing.toml").points), 64)
         self.assertEqual(len(load_sweep(SCENES.parent / "ensemble/short.toml").points), 12)
+        for name in ("friction.toml", "friction_anew.toml"):
+            self.assertEqual(len(load_sweep(SCENES.parent / "ensemble" / name).points), 32)
 
     def test_the_sweep_of_the_page_is_read(self):
         page = (SCENES.parent / "ensemble/README.md").read_text(encoding="utf-8")
@@ -107,6 +115,12 @@ class Mistakes(SweepTest):
             ("[latin_hypercube]\npoints = 2\nseed = 1\nranges = {a = {from = 0, to = 1, scale = \"log\"}}", "scale = 'log'", "from 0"),
             ("[latin_hypercube]\npoints = 2\nseed = 1\nranges = {a = {form = 0, to = 1}}", 'unknown key "form"; did you mean "from"?'),
             ("[grid]\na = [1]\n[figure]\nx = \"b\"\ny = \"steps\"", "[figure]: x is 'b'; allowed: a"),
+            ("start = 1", "start is 1; allowed: a table with scene and set"),
+            ("[start]\nsets = {}", 'unknown key "sets"; did you mean "set"?'),
+            ('[start]\nscene = "none.toml"', "[start] scene: there is no file", "allowed: a scene file, its path relative to the sweep file"),
+            ("[start.set]\na = 07:32:00", '[start] set "a" is or holds a date or time'),
+            ("[start.set]\nseed = 1", "[start] set has seed; allowed: seeds of the sweep"),
+            ('set = {"start.file" = "a.csv"}\n[start]', '"start.file" is set besides [start]; allowed: one of them'),
             ("[slurm]\noption = []", 'unknown key "option"; did you mean "options"?'),
             ("a = ", "allowed: valid TOML 1.0"),
             ("[grid]\na = [2024-01-01]", '[grid] "a" is or holds a date or time; allowed: numbers'),

@@ -55,6 +55,26 @@ measurements_are_written() {
   for name in friction stress part_force surface; do grep -q "[[\"]$name[]\"]" "$work/log" || fail "--list does not name $name"; done
 }
 
+# A run goes on from the end of another one with other parameters. The same state gives the same files.
+a_state_is_a_start() {
+  local start=(-q --scene "$samples/scenes/short.toml" --set time.duration=0.05 --set time.frame=0.05 --set friction.coefficient=0.2)
+  start+=(--set "start.file=\"$work/first/short/final_state.csv\"")
+  for threads in 1 2; do
+    expect 0 "$program" "${start[@]}" -t $threads --out "$work/from_state$threads"
+  done
+  for file in trajectory.csv energies.csv state.csv final_state.csv; do
+    cmp "$work/from_state1/short/$file" "$work/from_state2/short/$file" || fail "$file differs with two threads"
+  done
+  # The first frame is the last one of the other run.
+  diff <(grep '^0\.5,' "$work/first/short/trajectory.csv" | cut -d, -f2-6) <(grep '^0,' "$work/from_state1/short/trajectory.csv" | cut -d, -f2-6) ||
+    fail "the grains start elsewhere"
+  sed 's/,mm_mini,/,mm_maxi,/' "$work/first/short/final_state.csv" >"$work/state.csv"
+  for option in --check --scene; do
+    expect 2 "$program" $option "$samples/scenes/short.toml" --set "start.file=\"$work/state.csv\""
+    grep -q 'state.csv:[0-9]*: grain is "mm_maxi"; did you mean "mm_mini"?; allowed' "$work/log" || fail "unclear message: $(cat "$work/log")"
+  done
+}
+
 # The page is what --list prints.
 the_page_lists_everything() {
   "$program" --list >"$work/list" || fail "--list fails"
@@ -286,7 +306,7 @@ a_killed_run_leaves_whole_frames_until_the_next() {
   start_long_run killed
   kill -KILL "$pid"
   wait "$pid" 2>/dev/null || true
-  [ "$(ls "$left" | tr '\n' ' ')" = "UNFINISHED energies.csv state.csv trajectory.csv " ] || fail "left behind: $(ls "$left")"
+  [ "$(ls "$left" | tr '\n' ' ')" = "UNFINISHED energies.csv final_state.csv state.csv trajectory.csv " ] || fail "left behind: $(ls "$left")"
   [ "$(tail -c 1 "$left/energies.csv" | wc -l)" -eq 1 ] || fail "energies.csv ends within a line"
   [ "$(wc -l <"$left/energies.csv")" -ge 3 ] || fail "energies.csv holds no frames"
   awk -F, 'NF != 10 { exit 1 } END { exit (NR - 1) % 60 != 0 || NR < 120 }' "$left/trajectory.csv" ||
@@ -312,6 +332,7 @@ a_killed_run_leaves_whole_frames_until_the_next() {
 mkdir "$work/scenes" && cp -r "$samples/data" "$work/data"
 same_seed_same_result
 measurements_are_written
+a_state_is_a_start
 the_page_lists_everything
 scenes_are_checked
 other_seed_other_result

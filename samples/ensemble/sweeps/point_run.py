@@ -33,7 +33,7 @@ def run_point(sweep, point, store, program):
             return True
         store.forget_failure(key)
         start = time.monotonic()
-        failure = _simulate(sweep, point, store, run, program, lock)
+        failure = _simulate_point(sweep, point, store, run, program, lock)
         if failure is None:
             failure = _collect(sweep, point, store, key, run)
         if failure is not None:
@@ -50,11 +50,25 @@ INTERRUPTED = 130  # exit code of falling_particles; above 128, those of the she
 FIRST_SIGNAL = 128
 
 
-def _results_folder(sweep, store, run):
-    return store.run_folder(run) / sweep.scene.stem
+def _results_folder(scene, store, run):
+    return store.run_folder(run) / scene.stem
 
 
-def _simulate(sweep, point, store, run, program, lock):
+def _simulate_point(sweep, point, store, run, program, lock):
+    """The run of a point, and of its start if nobody has done it yet. None, or why it failed."""
+    assignments = sweep.assignments(point)
+    if sweep.start:
+        start = store.start_key(point)
+        with store.lock(start) as start_lock:
+            failure = _simulate(sweep, sweep.start.scene, sweep.start_assignments(point), store, start, program, start_lock)
+        if failure is not None:
+            return f"its start: {failure}"
+        state = _results_folder(sweep.start.scene, store, start).absolute() / "final_state.csv"
+        assignments = [*assignments, f"start.file={toml_text(str(state))}"]
+    return _simulate(sweep, sweep.scene, assignments, store, run, program, lock)
+
+
+def _simulate(sweep, scene, assignments, store, run, program, lock):
     """None, or why it failed. A run that has ended with exit code 0 before is not done again."""
     end = store.run_folder(run) / "exit_code"
     if end.exists() and end.read_text(encoding="utf-8").strip() == "0":
@@ -62,9 +76,9 @@ def _simulate(sweep, point, store, run, program, lock):
     end.unlink(missing_ok=True)
     end.parent.mkdir(parents=True, exist_ok=True)
     command = ["sh", "-c", SUPERVISED, "sh", str(end.absolute()), str(store.log(run).absolute())]
-    command += [str(program.absolute()), "--quiet", "--no-pictures", "--threads", "1", "--scene", str(sweep.scene), "--out", str(store.run_folder(run))]
+    command += [str(program.absolute()), "--quiet", "--no-pictures", "--threads", "1", "--scene", str(scene), "--out", str(store.run_folder(run))]
     command += sweep.arguments
-    for assignment in sweep.assignments(point):
+    for assignment in assignments:
         command += ["--set", assignment]
     store.log(run).parent.mkdir(parents=True, exist_ok=True)
     threads = dict.fromkeys(["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"], "1")
@@ -84,7 +98,7 @@ def _simulate(sweep, point, store, run, program, lock):
 
 def _collect(sweep, point, store, key, run):
     """Saves the line. None, or why there is none; the run is kept then, for the next time."""
-    folder = _results_folder(sweep, store, run)
+    folder = _results_folder(sweep.scene, store, run)
     try:
         numbers = [quantity.value(folder) for quantity in sweep.quantities]
     except NoValue as error:

@@ -2,7 +2,7 @@
 
 results/KEY.csv    one line, the result of a point
 failures/KEY.txt   why the last attempt at it failed
-runs/RUN/          what falling_particles writes, and exit_code, until the result is there
+runs/RUN/          what falling_particles writes, and exit_code, until the result is there; of a start it stays
 logs/RUN.log       what it said in the last attempt
 locks/RUN          held by who works at it
 program.txt        the version of falling_particles that has run the last point
@@ -24,8 +24,8 @@ class Store:
     def __init__(self, folder, sweep, program=None):
         self.folder = pathlib.Path(folder)
         self.sweep = sweep
-        self._scene = sweep.scene.read_bytes()
-        self._named = _texts_of(_parsed(self._scene))
+        scenes = {sweep.scene, sweep.start.scene if sweep.start else sweep.scene}
+        self._texts = {scene: _texts_of(_parsed(scene.read_bytes())) for scene in scenes}
         self._digests = {}
         if program is not None and program != self._last_program():
             _replace(self.folder / "program.txt", program + "\n")
@@ -36,21 +36,31 @@ class Store:
         return _key([self.run_key(point), [repr(quantity) for quantity in self.sweep.quantities]])
 
     def run_key(self, point):
-        """Of the run of a point: the scene, the files that it names, values, arguments and the program."""
-        texts = self._named | _texts_of([self.sweep.settings, point.values])
-        files = sorted((name, self._digest_of(name)) for name in texts)
-        used = [entry for entry in files if entry[1] is not None]
-        return _key([_digest(self._scene), used, self.sweep.assignments(point), self.sweep.arguments, self._program])
+        """Of the run of a point: the scene, the files that it names, values, arguments, the program, and the run of its start."""
+        sweep = self.sweep
+        parts = self._parts(sweep.scene, [sweep.settings, point.values], sweep.assignments(point))
+        return _key([*parts, *([self.start_key(point)] if sweep.start else [])])
 
-    def _digest_of(self, name):
+    def start_key(self, point):
+        """Of the run from whose end the run of a point starts."""
+        start = self.sweep.start
+        return _key(self._parts(start.scene, start.settings, self.sweep.start_assignments(point)))
+
+    def _parts(self, scene, values, assignments):
+        texts = self._texts[scene] | _texts_of(values)
+        files = sorted((name, self._digest_of(scene, name)) for name in texts)
+        used = [entry for entry in files if entry[1] is not None]
+        return [self._digest_of(scene, scene.name), used, assignments, self.sweep.arguments, self._program]
+
+    def _digest_of(self, scene, name):
         """Of a file beside the scene, where a text of it is the name of one; None where it is not."""
-        if name not in self._digests:
+        path = scene.parent / name
+        if path not in self._digests:
             try:
-                path = self.sweep.scene.parent / name
-                self._digests[name] = _digest(path.read_bytes()) if path.is_file() else None
+                self._digests[path] = _digest(path.read_bytes()) if path.is_file() else None
             except (OSError, ValueError):  # falling_particles complains
-                self._digests[name] = None
-        return self._digests[name]
+                self._digests[path] = None
+        return self._digests[path]
 
     def _last_program(self):
         return (_read(self.folder / "program.txt") or "").strip()

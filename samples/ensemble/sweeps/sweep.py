@@ -11,7 +11,7 @@ from .latin_hypercube import latin_hypercube
 from .quantity import read_quantities
 from .toml_text import WHOLE_NUMBERS, toml_text
 
-KEYS = ["scene", "seeds", "arguments", "keep", "confidence", "set", "grid", "list", "latin_hypercube", "collect", "figure", "slurm"]
+KEYS = ["scene", "seeds", "arguments", "keep", "confidence", "set", "grid", "list", "latin_hypercube", "start", "collect", "figure", "slurm"]
 MOST_POINTS = 1_000_000
 LEAST_DIGITS = 6  # of the numbers of a Latin hypercube
 MOST_DIGITS = 15  # that every double keeps
@@ -33,6 +33,14 @@ class Point:
 
 
 @dataclasses.dataclass(frozen=True)
+class Start:
+    """A run before the points with the same seed, which start from its end."""
+
+    scene: pathlib.Path
+    settings: dict
+
+
+@dataclasses.dataclass(frozen=True)
 class Sweep:
     path: pathlib.Path
     scene: pathlib.Path
@@ -44,16 +52,23 @@ class Sweep:
     seeds: int  # runs with the same parameters, one after the other in `points`
     has_seeds: bool  # whether they are the sweep's, and not the scene's one
     points: list
+    start: Start | None
     quantities: list
     figure: dict | None
     slurm_options: list
 
     def assignments(self, point):
         """What falling_particles is to --set for this run."""
-        values = {**self.settings, **point.values}
-        if point.seed is not None:
-            values["seed"] = point.seed
-        return [f"{key}={toml_text(value)}" for key, value in values.items()]
+        return _assignments({**self.settings, **point.values}, point.seed)
+
+    def start_assignments(self, point):
+        """The same for the run from whose end this run starts."""
+        return _assignments(self.start.settings, point.seed)
+
+
+def _assignments(values, seed):
+    seeds = {} if seed is None else {"seed": seed}
+    return [f"{key}={toml_text(value)}" for key, value in {**values, **seeds}.items()]
 
 
 def load_sweep(path):
@@ -70,9 +85,7 @@ def load_sweep(path):
     except RecursionError:
         raise InputError(f"{path}: tables or arrays are nested too deeply; allowed: fewer levels") from None
     refuse_unknown_keys(table, KEYS, str(path))
-    scene = path.parent / _read(table, "scene", str, "a scene file, its path relative to the sweep file", path)
-    if not scene.is_file():
-        raise InputError(f"{path}: scene: there is no file {scene}; allowed: a scene file, its path relative to the sweep file")
+    scene = _scene(table, "scene", path)
     settings = _read(table, "set", dict, "a table of keys of the scene and values", path, {})
     _check_values(settings, f"{path}: [set]")
     axes = [_grid(table, path), _list(table, path), _latin_hypercube(table, path)]
@@ -99,6 +112,7 @@ def load_sweep(path):
         seeds=len(seeds),
         has_seeds=seeds != [None],
         points=points,
+        start=_start(table, parameters, settings, scene, path),
         quantities=quantities,
         figure=_figure(table, parameters, quantities, path),
         slurm_options=_texts(slurm, "options", path),
@@ -112,6 +126,31 @@ def _read(table, key, kind, allowed, path, default=None):
     if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
         raise InputError(f"{path}: {key} is {value!r}; allowed: {allowed}")
     return value
+
+
+def _scene(table, name, path):
+    allowed = "a scene file, its path relative to the sweep file"
+    scene = path.parent / _read(table, "scene", str, allowed, path)
+    if not scene.is_file():
+        raise InputError(f"{path}: {name}: there is no file {scene}; allowed: {allowed}")
+    return scene
+
+
+def _start(table, parameters, settings, scene, path):
+    """Its scene is the sweep's where it names none; its values are its own."""
+    if "start" not in table:
+        return None
+    where = f"{path}: [start]"
+    section = _read(table, "start", dict, "a table with scene and set", path)
+    refuse_unknown_keys(section, ["scene", "set"], where)
+    for key in [*parameters, *settings]:
+        if key == "start" or key == "start.file":
+            raise InputError(f'{path}: "{key}" is set besides [start]; allowed: one of them')
+    values = _read(section, "set", dict, "a table of keys of the scene and values", where, {})
+    _check_values(values, f"{where} set")
+    if "seed" in values:
+        raise InputError(f"{where} set has seed; allowed: seeds of the sweep, which its start has too")
+    return Start(_scene(section, "[start] scene", path) if "scene" in section else scene, values)
 
 
 def _refuse_too_many(points, path):

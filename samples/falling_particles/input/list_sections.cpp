@@ -18,6 +18,9 @@ std::string list_sections() {
   height           m, in [0, 1000]; of the lowest grains above the floor at the start
   gap              in [0, 10]; between grains at the start, relative to their size
   total            a whole number from 1 to 1000000; of all grains, where they have fractions; without it, they have counts
+[start]
+  file             of the grains, in place of [drop] and counts: final_state.csv of a run, another CSV file, or a dump of LAMMPS
+  overlap          in (0, 1], of the smallest half-axis: the deepest allowed overlap of the file's grains; 0.1 without it
 [[grain]]
   name             of the catalogue
   count            a whole number from 1 to 1000000, from 0 in scenes with feeders

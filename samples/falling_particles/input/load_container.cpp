@@ -221,11 +221,11 @@ Container read_container(const TomlTable& root, const Time& time) {
 
 void check_fit(const TomlTable& root, const Scene& scene) {
   const TomlTable table = root.table("container");
-  if (const Hopper* hopper = std::get_if<Hopper>(&scene.container)) {
+  if (const Hopper* hopper = std::get_if<Hopper>(&scene.container); hopper != nullptr && !scene.start) {
     check_hopper(table, scene, *hopper);
   } else if (const Periodic* periodic = std::get_if<Periodic>(&scene.container)) {
     check_periodic(table, scene, *periodic);
-  } else {
+  } else if (!scene.start) {
     check_width(table, scene);
     check_ceiling(table, scene);
   }

@@ -88,10 +88,14 @@ std::vector<int> read_counts(const std::vector<TomlTable>& entries, const TomlTa
   return counts;
 }
 
-std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop, const std::string& scene_path,
-                                    std::uint64_t seed) {
+void refuse_too_many(const TomlTable& root, std::int64_t grains) {
+  if (grains <= kMostBodies) return;
+  root.fail("grain", "the scene has " + std::to_string(grains) + " grains; allowed: up to " + std::to_string(kMostBodies));
+}
+
+/// The kinds of a scene, none of which has grains yet.
+std::vector<GrainCount> read_kinds(const TomlTable& root, const std::vector<TomlTable>& entries, const std::string& scene_path) {
   const std::vector<CatalogueEntry> catalogue = read_catalogue(root, scene_path);
-  const std::vector<TomlTable> entries = root.tables("grain", {"name", "count", "fraction", "size"});
   const bool by_fraction = entries.front().has("fraction");
   std::vector<GrainCount> kinds;
   std::set<std::string> seen;
@@ -100,27 +104,51 @@ std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop
     if (!seen.insert(found.name).second) {
       entry.fail("name", "grain \"" + found.name + "\" is listed twice; allowed: once, with the sum");
     }
-    kinds.push_back({found.make(), 0});
+    GrainCount& kind = kinds.emplace_back(GrainCount{found.make(), 0});
+    kind.size = load_sizes(entry, kind.kind.sieve_size());
+    kind.is_fed = root.has("feeder");
     const char* other = by_fraction ? "count" : "fraction";
     if (entry.has(other)) {
       entry.fail(other, entry.full_name(other) + " is mixed with " + (by_fraction ? "fraction" : "count") +
                             "; allowed: count for all grains or fraction for all grains");
     }
   }
+  return kinds;
+}
+
+/// Gives the kinds their grains, with drawn sizes.
+void count_grains(const TomlTable& root, const std::vector<TomlTable>& entries, const TomlTable& drop, Scene& scene) {
   const std::vector<int> counts =
-      by_fraction ? read_fractions(entries, drop) : read_counts(entries, drop, root.has("feeder") ? 0 : 1);
+      entries.front().has("fraction") ? read_fractions(entries, drop) : read_counts(entries, drop, root.has("feeder") ? 0 : 1);
   std::int64_t sum = 0;
   for (const int count : counts) sum += count;
-  if (sum > kMostBodies)
-    root.fail("grain", "the scene has " + std::to_string(sum) + " grains; allowed: up to " + std::to_string(kMostBodies));
+  refuse_too_many(root, sum);
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    GrainCount& entry = kinds[i];
+    GrainCount& entry = scene.kinds[i];
     entry.count = counts[i];
-    entry.is_fed = root.has("feeder");
-    entry.size = load_sizes(entries[i], entry.kind.sieve_size());
-    if (entry.size) entry.scales = draw_sizes(*entry.size, entry.count, seed_of_sizes(seed, i));
+    if (entry.size) entry.scales = draw_sizes(*entry.size, entry.count, seed_of_sizes(scene.seed, i));
   }
-  return kinds;
+}
+
+/// Gives the kinds the grains of the state. Counts and fractions of the scene have no effect.
+void count_state(const TomlTable& root, const std::vector<TomlTable>& entries, Scene& scene) {
+  for (const TomlTable& entry : entries) {
+    if (entry.has("count")) entry.integer("count", 0, kMostBodies);
+    if (entry.has("fraction")) entry.number("fraction", Interval::positive(1, ""));
+  }
+  refuse_too_many(root, static_cast<std::int64_t>(scene.start->grains.size()));
+  for (const StartGrain& grain : scene.start->grains) {
+    GrainCount& entry = scene.kinds[grain.kind];
+    ++entry.count;
+    if (entry.size) entry.scales.push_back(grain.scale);
+  }
+}
+
+void read_grains(const TomlTable& root, const TomlTable& drop, const std::string& scene_path, Scene& scene) {
+  const std::vector<TomlTable> entries = root.tables("grain", {"name", "count", "fraction", "size"});
+  scene.kinds = read_kinds(root, entries, scene_path);
+  scene.start = load_start(root, scene.kinds, scene_path);
+  scene.start ? count_state(root, entries, scene) : count_grains(root, entries, drop, scene);
 }
 
 /// The most grains that a scene may have at once. With sinks only the grains of the start count, because the effect of sinks is not
@@ -157,9 +185,9 @@ Solver read_solver(const TomlTable& table) {
 }
 
 /// Reads [drop] into the scene and returns the table that may have `total`. Grains in a periodic container do not drop. A scene
-/// with feeders may lack the section.
+/// with feeders or a state may lack the section.
 TomlTable read_drop(const TomlTable& root, Scene& scene) {
-  if (root.has("feeder") && !root.has("drop")) return root;
+  if ((root.has("feeder") || root.has("start")) && !root.has("drop")) return root;
   if (std::holds_alternative<Periodic>(scene.container)) {
     if (root.has("drop")) return root.table("drop", {"total"});
     return root;
@@ -227,6 +255,7 @@ void read_output(const TomlTable& root, Scene& scene) {
 /// The scene file and the files that it names relative to its folder. All have been read before.
 std::vector<std::filesystem::path> files_of(const TomlTable& root, const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files = {path, path.parent_path() / root.text("catalogue")};
+  if (root.has("start")) files.push_back(path.parent_path() / root.table("start").text("file"));
   if (!root.has("part")) return files;
   for (const TomlTable& part : root.tables("part")) {
     if (const std::optional<std::string> mesh = part.find_text("file")) files.push_back(path.parent_path() / *mesh);
@@ -238,7 +267,7 @@ std::vector<std::filesystem::path> files_of(const TomlTable& root, const std::fi
 std::vector<std::string> sections() {
   std::vector<std::string> names = {"seed",   "catalogue",   "container",   "drop",   "grain", "time",
                                     "solver", "compression", "broad_phase", "output", "part",  "measurement",
-                                    "feeder", "sink",        "periodic",    "query"};
+                                    "feeder", "sink",        "periodic",    "query",  "start"};
   for (std::string& name : effect_sections()) names.push_back(std::move(name));
   return names;
 }
@@ -255,8 +284,8 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
   scene.container = read_container(root, scene.time);
   scene.walls = load_walls(root, scene, path);
   const TomlTable drop = read_drop(root, scene);
-  scene.kinds = read_grains(root, drop, path, scene.seed);
-  if (root.has("feeder") && scene.grains_at_start() > 0) root.table("drop");  // reports that it is missing
+  read_grains(root, drop, path, scene);
+  if (root.has("feeder") && !scene.start && scene.grains_at_start() > 0) root.table("drop");  // reports that it is missing
   load_periodic(root, scene);
   scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);

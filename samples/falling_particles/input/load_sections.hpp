@@ -24,6 +24,10 @@ std::vector<Wall> load_walls(const TomlTable& root, const Scene& scene, const st
 /// the grain. `sieve_size` (m) is its sieve size in the catalogue.
 std::optional<SizeDistribution> load_sizes(const TomlTable& entry, double sieve_size);
 
+/// Reads the section [start] and the file that it names, a path relative to the scene's folder. Empty without the section. Throws
+/// InputError, which names file, line and column.
+std::optional<StartState> load_start(const TomlTable& root, const std::vector<GrainCount>& kinds, const std::string& scene_path);
+
 /// Reads the axes along which a scene repeats, and removes the walls of the container that close it there. The scene's container,
 /// walls and grains must have been read. Throws InputError, also when a wall is not uniform along such an axis.
 void load_periodic(const TomlTable& root, Scene& scene);

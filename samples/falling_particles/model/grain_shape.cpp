@@ -33,6 +33,14 @@ std::shared_ptr<const supernormal::Shape> shape_of(const ConvexBody& body, doubl
   return std::make_shared<supernormal::Rounded>(std::move(core), scale * body.rounding);
 }
 
+supernormal::Matrix3 lammps_inertia(const GrainKind& kind, double scale, const std::array<double, 4>& quaternion) {
+  const Vector3 half_axes = scale * Vector3(kind.half_axes[0], kind.half_axes[1], kind.half_axes[2]);
+  const auto [w, x, y, z] = quaternion;
+  const supernormal::Matrix3 rotation = Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
+  const supernormal::MassProperties unit = supernormal::Superellipsoid(half_axes, kind.delta, kind.epsilon).mass_properties();
+  return kind.density * rotation * unit.inertia() * rotation.transpose();
+}
+
 double mass_of(const GrainKind& kind) {
   if (kind.compound_mass) return kind.compound_mass->mass;
   return kind.density * shape_of(kind.all_components().front().body)->mass_properties().volume;

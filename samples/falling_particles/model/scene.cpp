@@ -30,12 +30,12 @@ std::span<const Wall> Scene::parts() const { return {std::ranges::find_if(walls,
 
 double GrainCount::smallest_scale() const {
   if (!size) return 1;
-  return is_fed ? size->smallest() : std::ranges::min(scales);
+  return is_fed || scales.empty() ? size->smallest() : std::ranges::min(scales);
 }
 
 double GrainCount::largest_scale() const {
   if (!size) return 1;
-  return is_fed ? size->largest() : std::ranges::max(scales);
+  return is_fed || scales.empty() ? size->largest() : std::ranges::max(scales);
 }
 
 int Scene::grains_at_start() const {

@@ -17,6 +17,7 @@
 #include "grain_kind.hpp"
 #include "request.hpp"
 #include "size_distribution.hpp"
+#include "start_state.hpp"
 #include "wall.hpp"
 
 namespace falling_particles {
@@ -25,7 +26,7 @@ struct GrainCount {
   GrainKind kind;
   int count;
   std::optional<SizeDistribution> size = {};  ///< of the factor on the grain's lengths; without one all factors are 1
-  std::vector<double> scales = {};            ///< the drawn factors, one for each grain; empty without a distribution
+  std::vector<double> scales = {};            ///< the factor of each grain, drawn or of a state; empty without a distribution
   bool is_fed = false;                        ///< whether feeders may insert more grains; their factors are drawn during the run
 
   double scale(std::size_t index) const { return scales.empty() ? 1 : scales[index]; }
@@ -89,6 +90,7 @@ struct Scene {
   std::vector<MeasurementRequest> measurements = {};  ///< the measurements that the scene names, and no others
   std::vector<Feeder> feeders = {};                   ///< they insert grains during the run
   std::vector<Sink> sinks = {};                       ///< they remove grains during the run
+  std::optional<StartState> start = {};               ///< in place of the lattice: the grains of a file
   PeriodicAxes periodic = {};                         ///< axes along which the scene repeats; all empty for a periodic container
   std::vector<std::string> overrides = {};            ///< values that replace the file's, KEY=VALUE each (toml_override.hpp)
   std::vector<std::filesystem::path> files = {};      ///< the loaded files: the scene's own first, then those that it names

@@ -46,12 +46,18 @@ struct MeasurementParameter {
   std::string text;  ///< unit, range and default
 };
 
-/// The scenes in which a kind is on without a section: it has a sample in each frame, and its table is NAME.csv.
+/// The scenes in which a kind is on without a section. Its table is NAME.csv.
 struct OnByDefault {
+  enum class When {
+    Frames,  ///< a sample in each frame
+    End,     ///< one sample, at the end of the run
+  };
+
   std::string lines;   ///< what each line is about
   std::string scenes;  ///< the scenes, in words
   bool (*is_on)(const Scene& scene);
   MeasurementMaker make;
+  When when = When::Frames;
 };
 
 /// A kind of measurement. A scene requests it by a section [[measurement]] with kind = "name".

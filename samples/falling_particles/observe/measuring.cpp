@@ -101,8 +101,11 @@ void Measuring::sample(Entry& entry, double time, const std::vector<PairContact>
   entry.state.lines += table.lines();
 }
 
-void Measuring::close_tables() {
-  for (Entry& entry : entries_) entry.file->close();
+void Measuring::finish(double time) {
+  for (Entry& entry : entries_) {
+    if (entry.is_of_end()) sample(entry, time, {});
+    entry.file->close();
+  }
 }
 
 std::vector<MeasurementCost> Measuring::costs() const {

@@ -85,7 +85,8 @@ class Measuring {
   void after_step(int step, double time, bool is_frame);
   /// Samples the kinds that are on by default, with what the watches have seen.
   void after_watches(int step, double time, bool is_frame);
-  void close_tables();
+  /// Samples the kinds that have one sample at the end, and closes all tables.
+  void finish(double time);
 
   /// Continues with another simulation of the same scene.
   void go_on_in(const Simulation& simulation);
@@ -104,7 +105,8 @@ class Measuring {
     MeasurementState state = {};
     Stopwatch watch = {};
 
-    bool is_due(int step, bool is_frame) const { return request == nullptr ? is_frame : request->is_due(step); }
+    bool is_of_end() const { return request == nullptr && kind->on_by_default->when == OnByDefault::When::End; }
+    bool is_due(int step, bool is_frame) const { return request == nullptr ? is_frame && !is_of_end() : request->is_due(step); }
     const MeasurementMaker& maker() const { return request == nullptr ? kind->on_by_default->make : request->make; }
     std::string path() const;  // within the folder of the run
   };

@@ -43,7 +43,11 @@ Overlap measure_overlap(const World& world) {
     const double depth = -proximity.gap;
     ++overlap.pairs;
     overlap.depth = std::max(overlap.depth, depth);
-    overlap.relative_to_pair = std::max(overlap.relative_to_pair, depth / std::min(smallest_half_axis(g1), smallest_half_axis(g2)));
+    const double relative = depth / std::min(smallest_half_axis(g1), smallest_half_axis(g2));
+    if (relative <= overlap.relative_to_pair) continue;
+    overlap.relative_to_pair = relative;
+    overlap.worst = {g1, g2};
+    overlap.worst_depth = depth;
   }
   return overlap;
 }

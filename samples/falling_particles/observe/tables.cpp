@@ -18,6 +18,7 @@ struct TableOfFrames {
   const char* scenes;  // the scenes that have the table, in words
   bool (*is_on)(const Scene& scene);
   void (*write)(const Sample& sample, TableText& table);
+  OnByDefault::When when = OnByDefault::When::Frames;
 };
 
 bool is_always_on(const Scene& /*scene*/) { return true; }
@@ -28,6 +29,19 @@ void write_trajectory(const Sample& sample, TableText& table) {
     table.add(time).add(sample.world.index_of(grain)).add(grain.kind->name);
     for (const double number : grain.position()) table.add(number);
     for (const double number : grain.quaternion()) table.add(number);
+    table.end_line();
+  }
+}
+
+/// Everything from which another run can start (input/load_start.cpp).
+void write_final_state(const Sample& sample, TableText& table) {
+  const std::string time = shortest(sample.time);
+  for (const Grain& grain : sample.world.present()) {
+    table.add(time).add(sample.world.index_of(grain)).add(grain.kind->name).add(grain.scale);
+    for (const double number : grain.position()) table.add(number);
+    for (const double number : grain.quaternion()) table.add(number);
+    for (const double number : grain.velocity()) table.add(number);
+    for (const double number : grain.angular_velocity()) table.add(number);
     table.end_line();
   }
 }
@@ -133,6 +147,10 @@ constexpr std::array kTables = {
     TableOfFrames{"grains", "sizes and masses of the grains; the scale is the factor on the lengths of the kind",
                   "body,grain,scale,sieve_size_m,mass_kg", "a grain", "scenes with grains of many sizes",
                   [](const Scene& scene) { return scene.has_sizes(); }, write_grains},
+    TableOfFrames{"final_state", "poses, velocities and sizes of the grains at the end, from which another run can start",
+                  "time_s,body,grain,scale,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,"
+                  "wz_rad_per_s",
+                  "a grain that is there at the end", "all scenes", is_always_on, write_final_state, OnByDefault::When::End},
     TableOfFrames{"feeders", "the amounts fed so far", "time_s,feeder,grain,grains,kg", "a frame, feeder and kind that it feeds",
                   "scenes with feeders", [](const Scene& scene) { return !scene.feeders.empty(); }, write_feeders},
     TableOfFrames{"sinks", "the amounts removed so far", "time_s,sink,grain,grains,kg", "a frame, sink and kind of the scene",
@@ -161,7 +179,7 @@ MeasurementKind kind_of(const TableOfFrames& table) {
           .measures = table.measures,
           .columns = table.columns,
           .read = read,
-          .on_by_default = OnByDefault{table.lines, table.scenes, table.is_on, make}};
+          .on_by_default = OnByDefault{table.lines, table.scenes, table.is_on, make, table.when}};
 }
 
 }  // namespace

@@ -121,8 +121,7 @@ Frame frame_of(double time, const Energy& energy, const Contents& contents, cons
       frame.grains.push_back({{}, {1, 0, 0, 0}, {}, {}, false});
       continue;
     }
-    frame.grains.push_back(
-        {grain.position(), grain.quaternion(), to_point(dBodyGetLinearVel(grain.body)), to_point(dBodyGetAngularVel(grain.body))});
+    frame.grains.push_back({grain.position(), grain.quaternion(), grain.velocity(), grain.angular_velocity()});
   }
   if (stepper != nullptr) add_contacts(frame, world, *stepper);
   return frame;

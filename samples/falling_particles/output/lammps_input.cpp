@@ -13,6 +13,7 @@
 #include "base/random.hpp"
 #include "base/write_file.hpp"
 #include "model/container_walls.hpp"
+#include "model/grain_shape.hpp"
 #include "world/placement.hpp"
 
 namespace falling_particles {
@@ -137,6 +138,19 @@ Contacts find_contacts(const Scene& scene, const Law& law, const Extremes& extre
   return {words.str(), impact / kStepsPerImpact};
 }
 
+/// Velocities and angular momenta.
+void write_velocities(std::ostream& out, const Scene& scene, const std::vector<Placement>& grains) {
+  out << "\nVelocities # ellipsoid\n\n";
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const auto& [x, y, z] = grains[i].angular_velocity;
+    const supernormal::Vector3 momentum =
+        lammps_inertia(scene.kinds[grains[i].kind].kind, grains[i].scale, grains[i].quaternion) * supernormal::Vector3(x, y, z);
+    out << i + 1;
+    for (const double component : grains[i].velocity) out << ' ' << component;
+    out << ' ' << momentum.x() << ' ' << momentum.y() << ' ' << momentum.z() << '\n';
+  }
+}
+
 std::string write_data(const Scene& scene, const std::vector<Placement>& grains, const LammpsWalls& walls) {
   std::ostringstream out;
   out.precision(17);
@@ -167,6 +181,7 @@ std::string write_data(const Scene& scene, const std::vector<Placement>& grains,
     for (const double component : grains[i].quaternion) out << ' ' << component;
     out << '\n';
   }
+  if (scene.start && scene.start->has_velocities) write_velocities(out, scene, grains);
   return out.str();
 }
 
@@ -218,7 +233,8 @@ LammpsInput lammps_input(const Scene& scene) {
   const long long frame = std::max(1LL, steps(scene.time.frame));
   out << "compute shape all property/atom shapex shapey shapez quati quatj quatk quatw\n"
       << "dump grains all custom " << frame << ' ' << scene.name
-      << ".lammpstrj id type x y z c_shape[1] c_shape[2] c_shape[3] c_shape[4] c_shape[5] c_shape[6] c_shape[7]\n"
+      << ".lammpstrj id type x y z c_shape[1] c_shape[2] c_shape[3] c_shape[4] c_shape[5] c_shape[6] c_shape[7] vx vy vz angmomx "
+      << "angmomy angmomz\n"
       << "thermo " << frame << '\n';
   const long long all = steps(scene.time.duration);
   const bool changes = walls.change && walls.change->time < scene.time.duration;

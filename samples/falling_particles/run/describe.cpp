@@ -77,6 +77,13 @@ std::string describe(const Wall& wall) {
   return text;
 }
 
+std::string describe(const StartState& start) {
+  std::string text = "from " + start.file.filename().string();
+  if (start.time) text += ", " + shortest(*start.time) + " s after the start of its run";
+  return text + (start.has_velocities ? "; the fastest grain has " + rounded(start.largest_speed()) + " m/s"
+                                      : "; it has no velocities: all grains start at rest");
+}
+
 void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   std::string place = kind_of(scene.container);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -91,6 +98,7 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   std::string grains = std::to_string(scene.grains_at_start()) + " at the start: " + kinds_of(scene);
   if (!scene.feeders.empty()) grains += "; up to " + std::to_string(forecast.most_grains) + " with those of the feeders";
   lines.add("grains", grains);
+  if (scene.start) lines.add("start", describe(*scene.start));
   if (const std::optional<Fall> fall = fall_from_start(scene)) {
     lines.add("start", rounded(fall->height) + " m high: without drag grains fall with up to " + rounded(fall->speed) + " m/s, " +
                            rounded(fall->way) + " m a step, " + rounded(fall->way / scene.smallest_half_axis()) +

@@ -78,6 +78,15 @@ void add_fall(const Scene& scene, std::vector<std::string>& doubts) {
                    rounded(scene.smallest_half_axis() / fall->speed) + " s would do");
 }
 
+/// Adds a doubt about the fastest grain of a state.
+void add_speed(const Scene& scene, std::vector<std::string>& doubts) {
+  if (!scene.start || scene.looks_ahead()) return;
+  const double speed = scene.start->largest_speed();
+  if (speed * scene.time.step <= scene.smallest_half_axis()) return;
+  doubts.push_back(moves_too_far("the fastest grain of start.file moves", speed * scene.time.step, scene) + "time.step up to " +
+                   rounded(scene.smallest_half_axis() / speed) + " s would do");
+}
+
 /// m, the depth to which a grain sinks into its support under its own weight; infinite if overlaps are never corrected.
 double rest_depth_of(const GrainCount& entry, const Scene& scene) {
   const auto* const gravity = scene.gravity();
@@ -181,7 +190,8 @@ void add_feeders(const Scene& scene, std::vector<std::string>& doubts) {
 
 std::optional<Fall> fall_from_start(const Scene& scene) {
   const auto* const gravity = scene.gravity();
-  if (gravity == nullptr || scene.grains_at_start() == 0 || std::holds_alternative<Periodic>(scene.container)) return std::nullopt;
+  const bool is_on_lattice = scene.grains_at_start() > 0 && !scene.start && !std::holds_alternative<Periodic>(scene.container);
+  if (gravity == nullptr || !is_on_lattice) return std::nullopt;
   const double height = filled_lattice(scene).top() - lowest_start(scene.container);
   const double speed = std::sqrt(2 * gravity->acceleration.norm() * height);
   return Fall{height, speed, speed * scene.time.step};
@@ -223,6 +233,7 @@ double normal_way_of(const Wall& wall, const Scene& scene) {
 std::vector<std::string> doubts_about(const Scene& scene) {
   std::vector<std::string> doubts;
   add_fall(scene, doubts);
+  add_speed(scene, doubts);
   add_solver(scene, doubts);
   add_layer(scene, doubts);
   add_walls(scene, doubts);
@@ -232,6 +243,7 @@ std::vector<std::string> doubts_about(const Scene& scene) {
 }
 
 void refuse_overlapping_start(const Scene& scene) {
+  if (scene.start) return refuse_bad_state(scene);
   if (scene.parts().empty() || scene.grains_at_start() == 0) return;
   Random random(scene.seed);
   const World world(scene, place(scene, random));

@@ -16,7 +16,7 @@ struct Fall {
   double way;     ///< m, in a step at the end of the fall
 };
 
-/// Empty if grains do not fall: without gravity, without grains at the start, or in a periodic container.
+/// Empty if grains do not fall: without gravity, without grains at the start, from a state, or in a periodic container.
 std::optional<Fall> fall_from_start(const Scene& scene);
 
 /// s, the longest step with overlaps of about 1e-3 of the smallest half-axis in a bed at rest, for grains that look ahead under
@@ -33,7 +33,11 @@ std::vector<std::string> doubts_about(const Scene& scene);
 /// Sentences about grains of the start and of feeders that start behind meshes, above nothing, or where there is no space for them.
 std::vector<std::string> doubts_about_origins(const Scene& scene);
 
-/// Throws InputError when a grain of the start overlaps a wall. It would be pushed out on either side, or not at all.
+/// Throws InputError when a grain of the start overlaps a wall. It would be pushed out on either side, or not at all. The grains of
+/// a state may overlap one another and walls by StartState::overlap, and must be within the container.
 void refuse_overlapping_start(const Scene& scene);
+
+/// The same for the grains of a state (start_check.cpp).
+void refuse_bad_state(const Scene& scene);
 
 }  // namespace falling_particles

@@ -13,6 +13,7 @@ namespace {
 
 // Bytes per grain and frame, from 150 frames of 1000 grains (samples/benchmarks/README.md, pictures).
 constexpr double kTrajectory = 160;
+constexpr double kFinalState = 300;  // bytes per grain, of final_state.csv
 
 double bytes_of_picture(const std::string& format, double grain_frames) {
   constexpr double kMega = 1e6;
@@ -63,7 +64,7 @@ Forecast forecast(const Scene& scene) {
   result.frames = 1 + (result.steps + scene.time.steps_per_frame() - 1) / scene.time.steps_per_frame();
   result.memory = memory_needed(result.most_grains);
   const double grain_frames = most * result.frames;
-  result.table_bytes = kTrajectory * grain_frames + kLineOfFrame * result.frames;
+  result.table_bytes = kTrajectory * grain_frames + kFinalState * most + kLineOfFrame * result.frames;
   for (const std::string& format : scene.pictures) result.picture_bytes += bytes_of_picture(format, grain_frames);
   {
     Simulation simulation(scene, 1);

@@ -147,7 +147,7 @@ bool Run::advance() {
     save();
     if (stop_requested()) return false;
   }
-  measuring_->close_tables();
+  measuring_->finish(time_after(step_, scene_.time));
   return true;
 }
 

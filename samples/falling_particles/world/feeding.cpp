@@ -75,12 +75,13 @@ std::span<const std::size_t> Feeding::feed(double now) {
   if (!is_due(now)) return last_;
   Neighbourhood neighbourhood(world_, feeder_.region);
   while (is_due(now)) {
-    const std::optional<Placement> place = find_place(neighbourhood);
+    std::optional<Placement> place = find_place(neighbourhood);
     if (!place) {
       check_timeout(now);
       return last_;
     }
-    last_.push_back(world_.insert(*place, feeder_.velocity));
+    place->velocity = feeder_.velocity;
+    last_.push_back(world_.insert(*place));
     const Grain& grain = world_.grains()[last_.back()];
     for (const dGeomID geom : grain.geoms()) neighbourhood.add(geom);
     state_.fed[state_.next.kind].add(grain.mass.mass);

@@ -84,6 +84,8 @@ void put(dBodyID body, const Placement& place) {
   const dQuaternion q = {qw, qx, qy, qz};
   dBodySetPosition(body, x, y, z);
   dBodySetQuaternion(body, q);
+  dBodySetLinearVel(body, place.velocity[0], place.velocity[1], place.velocity[2]);
+  dBodySetAngularVel(body, place.angular_velocity[0], place.angular_velocity[1], place.angular_velocity[2]);
 }
 
 dMass mass_of(const Grain& grain) {

@@ -38,6 +38,14 @@ struct Grain {
     const dReal* q = dBodyGetQuaternion(body);
     return {q[0], q[1], q[2], q[3]};
   }
+  Point velocity() const {  ///< m/s
+    const dReal* v = dBodyGetLinearVel(body);
+    return {v[0], v[1], v[2]};
+  }
+  Point angular_velocity() const {  ///< rad/s
+    const dReal* w = dBodyGetAngularVel(body);
+    return {w[0], w[1], w[2]};
+  }
 };
 
 /// The grain of a geom in a World. Null for a wall, whose mesh may have data of its own.
@@ -53,7 +61,7 @@ dGeomID create_geom(dSpaceID space, const ConvexBody& body, double scale = 1);
 /// first one. Throws std::runtime_error when the library refuses one.
 dGeomID attach_geoms(dSpaceID space, const GrainKind& kind, double scale, dBodyID body, void* data);
 
-/// Sets the position and orientation of a body.
+/// Sets the position, orientation and velocities of a body.
 void put(dBodyID body, const Placement& place);
 
 /// The mass and inertia of a grain about its centre. The grain must have its geoms. Throws std::runtime_error when the library

@@ -29,9 +29,19 @@ std::vector<Placement> scatter(const Scene& scene, double side, Random& random) 
   return placements;
 }
 
+std::vector<Placement> placements_of(const StartState& start) {
+  std::vector<Placement> placements;
+  placements.reserve(start.grains.size());
+  for (const StartGrain& grain : start.grains) {
+    placements.push_back({grain.kind, grain.position, grain.quaternion, grain.scale, grain.velocity, grain.angular_velocity});
+  }
+  return placements;
+}
+
 }  // namespace
 
 std::vector<Placement> place(const Scene& scene, Random& random) {
+  if (scene.start) return placements_of(*scene.start);
   if (const Periodic* periodic = std::get_if<Periodic>(&scene.container)) return scatter(scene, periodic->side, random);
   Lattice lattice(scene);
   std::vector<double> radii;  // m, by kind

@@ -16,8 +16,6 @@ struct PairCallback {
   dNearCallback* callback;
 };
 
-Point to_point(const dReal* v) { return {v[0], v[1], v[2]}; }
-
 /// The capacity for all grains of a run: grains must not move in memory.
 std::size_t capacity(const Scene& scene, std::size_t at_start) {
   return static_cast<std::size_t>(static_cast<double>(at_start) + most_fed(scene));
@@ -108,10 +106,9 @@ void World::set_parameters(const Scene& scene) {
   effects_->set_up(world_);
 }
 
-std::size_t World::insert(const Placement& placement, const Point& velocity) {
+std::size_t World::insert(const Placement& placement) {
   if (grains_.size() == grains_.capacity()) throw std::logic_error("feeders bring more grains than they may");
   add_grain(placement);
-  dBodySetLinearVel(grains_.back().body, velocity[0], velocity[1], velocity[2]);
   if (cell_ != nullptr) cell_->add_last();
   return grains_.size() - 1;
 }
@@ -156,8 +153,8 @@ WorldState World::save() const {
     saved.is_awake = dBodyIsEnabled(grain.body) != 0;
     saved.position = grain.position();
     saved.quaternion = grain.quaternion();
-    saved.velocity = to_point(dBodyGetLinearVel(grain.body));
-    saved.angular_velocity = to_point(dBodyGetAngularVel(grain.body));
+    saved.velocity = grain.velocity();
+    saved.angular_velocity = grain.angular_velocity();
   }
   return state;
 }
@@ -169,11 +166,8 @@ void World::restore(const SavedGrain& saved) {
     gone.mass.mass = saved.mass;
     return;
   }
-  add_grain({kind, saved.position, saved.quaternion, saved.scale});
-  dBodyID body = grains_.back().body;
-  dBodySetLinearVel(body, saved.velocity[0], saved.velocity[1], saved.velocity[2]);
-  dBodySetAngularVel(body, saved.angular_velocity[0], saved.angular_velocity[1], saved.angular_velocity[2]);
-  if (!saved.is_awake) dBodyDisable(body);
+  add_grain({kind, saved.position, saved.quaternion, saved.scale, saved.velocity, saved.angular_velocity});
+  if (!saved.is_awake) dBodyDisable(grains_.back().body);
 }
 
 }  // namespace falling_particles

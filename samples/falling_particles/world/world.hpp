@@ -107,7 +107,7 @@ class World {
   WallBodies& walls() const { return *walls_; }       ///< of Scene::walls
 
   /// Inserts a grain and returns its index, the next one. Not during a step.
-  std::size_t insert(const Placement& placement, const Point& velocity);
+  std::size_t insert(const Placement& placement);
   /// Removes a grain. Not during a step. It invalidates the grain's contacts of the last step.
   void remove(std::size_t index);
 

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -47,6 +48,30 @@ std::string refusal(const Scene& scene) {
 }
 
 }  // namespace
+
+TEST_CASE("to LAMMPS: a state has its velocities, as angular momenta of LAMMPS") {
+  Scene scene = scene_of("short");
+  const falling_particles::StartGrain grain{.kind = 1,
+                                            .position = {0.02, 0.02, 0.03},
+                                            .quaternion = {0.8, 0, 0.6, 0},
+                                            .velocity = {1, 2, 3},
+                                            .angular_velocity = {40, 0, 0}};
+  CHECK(!has(lammps_input(scene).data, "Velocities"));
+  scene.start = falling_particles::StartState{.has_velocities = true, .grains = {grain}};
+  const LammpsInput input = lammps_input(scene);
+  CHECK(has(input.data, "\n1 atoms\n"));
+  std::istringstream line(input.data.substr(input.data.find("Velocities # ellipsoid\n\n") + 24));
+  std::array<double, 7> numbers{};
+  for (double& number : numbers) line >> number;
+  CHECK(numbers[3] == 3);
+  // The grain is turned by 2 asin(0.6) about y: its x-axis is (0.28, 0, -0.96), its z-axis (0.96, 0, 0.28).
+  const auto& [a, b, c] = scene.kinds[1].kind.half_axes;
+  const double mass = scene.kinds[1].kind.density * 4 / 3 * std::numbers::pi * a * b * c;  // soybeans are ellipsoids
+  const double along_x = mass / 5 * (b * b + c * c) * 40 * 0.28, along_z = mass / 5 * (a * a + b * b) * 40 * 0.96;
+  CHECK(numbers[4] == relative(0.28 * along_x + 0.96 * along_z).epsilon(1e-12));
+  CHECK(std::abs(numbers[5]) < 1e-12 * numbers[4]);
+  CHECK(numbers[6] == relative(-0.96 * along_x + 0.28 * along_z).epsilon(1e-9));
+}
 
 TEST_CASE("to LAMMPS: a box of grains has the masses of the scene, and springs that overlap by a hundredth") {
   const Scene scene = scene_of("short");

@@ -70,6 +70,7 @@ const std::vector<Section>& sections() {
       {"[time]", "time", ""},
       {"[solver]", "solver", ""},
       {"[drop]", "drop", ""},
+      {"[start]", "start", ""},
       {"[[grain]]", "grain[pea]", ""},
       {"[grain.size] distribution = \"uniform\"",
        "grain[pea].size",

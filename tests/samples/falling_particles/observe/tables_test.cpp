@@ -34,7 +34,7 @@ std::map<std::string, std::string> tables_after(const Scene& scene, int steps, s
     if (step > 0) simulation.watches.after_step(time, simulation.stepper);
     measuring.after_watches(step, time, is_frame);
   }
-  measuring.close_tables();
+  measuring.finish(steps * scene.time.step);
   costs = measuring.costs();
   std::map<std::string, std::string> tables;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder.file(""))) {
@@ -53,10 +53,11 @@ TEST_CASE("tables: a run has those that are on by default, with a sample in each
   const Scene scene = scene_with("kind = \"fabric\"\n");
   std::vector<MeasurementCost> costs;
   const std::map<std::string, std::string> tables = tables_after(scene, 2 * scene.time.steps_per_frame(), costs);
-  CHECK(tables.size() == 4);
+  CHECK(tables.size() == 5);
   CHECK(lines_of(tables.at("trajectory.csv")) == 1 + 3 * 8);  // eight grains
   CHECK(lines_of(tables.at("energies.csv")) == 1 + 3);
   CHECK(lines_of(tables.at("state.csv")) == 1 + 3);
+  CHECK(lines_of(tables.at("final_state.csv")) == 1 + 8);  // of the end alone
   CHECK(lines_of(tables.at("measurements/fabric.csv")) == 1 + 40);  // none at the start
   REQUIRE(costs.size() == 1);
   CHECK(costs[0].state.samples == 40);

@@ -191,6 +191,20 @@ TEST_CASE("resume: compounds and grains of many sizes") {
   check_resume(sample("sizes"));
 }
 
+TEST_CASE("resume: grains that start from a state") {
+  Scene scene = sample("short");
+  StartState start{.has_velocities = true, .overlap = 1};
+  {
+    Simulation before(scene, 1);
+    advance(before, scene, 0, 200);
+    for (const SavedGrain& grain : before.world.save().grains) {
+      start.grains.push_back({grain.kind, grain.scale, grain.position, grain.quaternion, grain.velocity, grain.angular_velocity});
+    }
+  }
+  scene.start = start;
+  check_resume(scene);
+}
+
 TEST_CASE("resume: grains that sleep") {
   Scene scene = sample("short");
   scene.effects.emplace_back(supernormal::effects::AutoDisable{1, 100, 0, 5});  // all fall asleep as soon as they lie
