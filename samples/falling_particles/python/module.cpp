@@ -3,7 +3,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -11,7 +10,6 @@
 #include <vector>
 
 #include "base/input_error.hpp"
-#include "base/interval.hpp"
 #include "columns.hpp"
 #include "observe/energy.hpp"
 #include "observe/measuring.hpp"
@@ -26,18 +24,13 @@ namespace {
 
 using Vectors = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// Checks rows of vectors, one for each grain. Throws std::invalid_argument.
+/// Throws std::invalid_argument unless there is a vector for each grain.
 void require_vectors(const std::string& name, const Vectors& vectors, std::size_t count) {
   if (vectors.ndim() != 2 || vectors.shape(1) != 3 || static_cast<std::size_t>(vectors.shape(0)) != count) {
     std::string shape;
     for (py::ssize_t axis = 0; axis < vectors.ndim(); ++axis) shape += (axis > 0 ? ", " : "") + std::to_string(vectors.shape(axis));
     throw std::invalid_argument(name + " has the shape (" + shape + "), but must have (" + std::to_string(count) +
                                 ", 3): a row for each grain so far");
-  }
-  for (py::ssize_t i = 0; i < vectors.size(); ++i) {
-    if (std::isfinite(vectors.data()[i])) continue;
-    throw std::invalid_argument(name + "[" + std::to_string(i / 3) + ", " + std::to_string(i % 3) + "] is " +
-                                shortest(vectors.data()[i]) + "; allowed: finite");
   }
 }
 

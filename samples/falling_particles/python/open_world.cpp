@@ -52,34 +52,35 @@ OpenWorld::OpenWorld(Source source, Options options) : source_(std::move(source)
 }
 
 OpenWorld::~OpenWorld() {
-  if (thread_.is_in_other_process() || !scene_) return;
-  thread_.run([this] { release(); });
+  if (is_closed()) return;
+  if (thread_.is_in_other_process() || WorldThread::ode_has_failed()) {
+    [[maybe_unused]] Parts* const left = parts_.release();
+    return;
+  }
+  thread_.run_last([this] { release(); });
 }
 
 void OpenWorld::open() {
-  scene_ = source_.load();
-  if (!options_.pictures) scene_->pictures.clear();
   if (options_.checkpoint_every > 0 && source_.text) {
     throw InputError("checkpoint_every is " + std::to_string(options_.checkpoint_every) +
                      "; allowed: 0 for a scene that is no file, with which a resumed run could be compared");
   }
-  admission_.emplace(*scene_);
-  refuse_overlapping_start(*scene_);
+  parts_ = std::make_unique<Parts>(source_.load());
+  Scene& scene = parts_->scene;
+  if (!options_.pictures) scene.pictures.clear();
+  refuse_overlapping_start(scene);
   std::optional<StepwiseRun::Files> files;
   if (options_.out) {
-    folder_.emplace(*options_.out, scene_->name, result_names(), options_.resume);
-    checkpoints_.emplace(*folder_, *scene_, options_.checkpoint_every);
-    files.emplace(StepwiseRun::Files{*folder_, *checkpoints_});
+    parts_->folder.emplace(*options_.out, scene.name, result_names(), options_.resume);
+    parts_->checkpoints.emplace(*parts_->folder, scene, options_.checkpoint_every);
+    files.emplace(StepwiseRun::Files{*parts_->folder, *parts_->checkpoints});
   }
-  run_.emplace(*scene_, options_.threads, files);
+  parts_->run.emplace(scene, options_.threads, files);
 }
 
 void OpenWorld::release() {
-  run_.reset();
-  checkpoints_.reset();
-  folder_.reset();
-  admission_.reset();
-  scene_.reset();
+  Parts* const parts = parts_.release();
+  if (!WorldThread::ode_has_failed()) delete parts;
 }
 
 void OpenWorld::require_open(const char* method) const {
@@ -98,7 +99,7 @@ void OpenWorld::require_unfinished(const char* method) const {
 
 StepwiseRun& OpenWorld::run(const char* method) {
   require_open(method);
-  return *run_;
+  return *parts_->run;
 }
 
 void OpenWorld::occupy(const std::function<void()>& job) {
@@ -130,49 +131,49 @@ void OpenWorld::work(const std::function<void()>& job) {
 
 void OpenWorld::step(int count, bool forces) {
   require_unfinished("step");
-  const int left = run_->scene().time.steps() - run_->step();
+  const int left = parts_->run->scene().time.steps() - parts_->run->step();
   if (count < 0 || count > left) {
     throw std::invalid_argument("count is " + std::to_string(count) + "; allowed: 0 to " + std::to_string(left) +
                                 ", the steps that are left until time.duration of the scene");
   }
   work([&] {
-    const int end = run_->step() + count;
-    while (run_->step() < end && !thread_.is_stopping()) {
-      run_->measure_forces(forces && run_->step() + 1 == end);
-      run_->advance(run_->step() + 1, nullptr);
+    const int end = parts_->run->step() + count;
+    while (parts_->run->step() < end && !thread_.is_stopping()) {
+      parts_->run->measure_forces(forces && parts_->run->step() + 1 == end);
+      parts_->run->advance(parts_->run->step() + 1, nullptr);
     }
   });
 }
 
 void OpenWorld::change(const std::vector<std::string>& values) {
   require_unfinished("change");
-  if (checkpoints_ && checkpoints_->are_on()) {
+  if (parts_->checkpoints && parts_->checkpoints->are_on()) {
     throw std::invalid_argument("values: a checkpoint does not hold changes; allowed: none in a world with checkpoints");
   }
   work([&] {
     const Scene changed = source_.load(values);
-    change_values(*run_, *scene_, changed, values);
+    change_values(*parts_->run, parts_->scene, changed, values);
   });
   source_.values.insert(source_.values.end(), values.begin(), values.end());
 }
 
 void OpenWorld::set_pushes(std::vector<Push> pushes) {
   require_unfinished("set_forces");
-  if (checkpoints_ && checkpoints_->are_on()) {
+  if (parts_->checkpoints && parts_->checkpoints->are_on()) {
     throw std::invalid_argument("forces: a checkpoint does not hold them; allowed: none in a world with checkpoints");
   }
-  run_->set_pushes(std::move(pushes));
+  parts_->run->set_pushes(std::move(pushes));
 }
 
 std::string OpenWorld::finish(bool draws) {
   require_unfinished("finish");
   if (!options_.out) throw std::runtime_error("World.finish(): out is None; allowed: a folder, which the results are written to");
   work([&] {
-    run_->finish();
+    parts_->run->finish();
     is_finished_ = true;
-    if (draws) render(run_->renderings(), folder_->path(), true);
+    if (draws) render(parts_->run->renderings(), parts_->folder->path(), true);
   });
-  return folder_->path().string();
+  return parts_->folder->path().string();
 }
 
 void OpenWorld::close() {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/output_folder.hpp"
@@ -68,7 +70,7 @@ class OpenWorld {
   std::string finish(bool draws);
   void close();
 
-  bool is_closed() const { return !run_; }
+  bool is_closed() const { return parts_ == nullptr; }
   bool is_finished() const { return is_finished_; }
   bool has_files() const { return options_.out.has_value(); }
   /// For reading. `method` names the caller in messages.
@@ -87,11 +89,16 @@ class OpenWorld {
   bool is_busy_ = false;
   bool is_finished_ = false;
   std::string why_closed_ = "was closed";
-  std::optional<Scene> scene_;
-  std::optional<Admission> admission_;
-  std::optional<OutputFolder> folder_;
-  std::optional<Checkpoints> checkpoints_;
-  std::optional<StepwiseRun> run_;
+  struct Parts {
+    Scene scene;
+    Admission admission;
+    std::optional<OutputFolder> folder = {};
+    std::optional<Checkpoints> checkpoints = {};
+    std::optional<StepwiseRun> run = {};
+
+    explicit Parts(Scene loaded) : scene(std::move(loaded)), admission(scene) {}
+  };
+  std::unique_ptr<Parts> parts_;  // null if the world is closed
   WorldThread thread_;
 };
 

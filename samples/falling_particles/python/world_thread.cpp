@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
 #include <cstdarg>
 #include <cstdio>
 #include <optional>
@@ -22,11 +21,13 @@ constexpr auto kBetweenSignals = std::chrono::milliseconds(50);  // Ctrl-C feels
 
 /// What is global in ODE belongs to one job at a time.
 std::mutex ode_mutex;
+std::atomic<bool> ode_failed = false;
 
 /// ODE's own handlers end the process.
 [[noreturn]] void raise_ode_error(int /*number*/, const char* text, va_list arguments) {
   std::array<char, 512> message{};
   std::vsnprintf(message.data(), message.size(), text, arguments);
+  ode_failed = true;
   throw std::runtime_error(std::string("ODE: ") + message.data());
 }
 
@@ -74,16 +75,32 @@ WorldThread::~WorldThread() {
   thread_.join();
 }
 
+bool WorldThread::ode_has_failed() { return ode_failed; }
+
 bool WorldThread::is_in_other_process() const { return getpid() != process_; }
 
-void WorldThread::run(const std::function<void()>& job) {
+void WorldThread::post(const std::function<void()>& job) {
   {
     const std::lock_guard lock(mutex_);
     job_ = &job;
   }
   changed_.notify_all();
+}
+
+/// Returns whether the job has ended.
+bool WorldThread::wait(std::chrono::milliseconds longest) {
+  std::unique_lock lock(mutex_);
+  return changed_.wait_for(lock, longest, [this] { return job_ == nullptr; });
+}
+
+void WorldThread::run(const std::function<void()>& job) {
+  post(job);
+  const auto wait_unlocked = [this] {
+    const supernormal::python::WithoutTheLock unlocked;
+    return wait(kBetweenSignals);
+  };
   std::optional<pybind11::error_already_set> signal;
-  while (!wait_a_while()) {
+  while (!wait_unlocked()) {
     if (signal || PyErr_CheckSignals() == 0) continue;
     signal.emplace();
     is_stopping_ = true;
@@ -93,11 +110,11 @@ void WorldThread::run(const std::function<void()>& job) {
   if (signal) throw pybind11::error_already_set(std::move(*signal));
 }
 
-/// Whether the job has ended.
-bool WorldThread::wait_a_while() {
-  const supernormal::python::WithoutTheLock unlocked;
-  std::unique_lock lock(mutex_);
-  return changed_.wait_for(lock, kBetweenSignals, [this] { return job_ == nullptr; });
+// The lock is kept: it cannot be released while the interpreter ends, and the job does not need it.
+void WorldThread::run_last(const std::function<void()>& job) noexcept {
+  post(job);
+  while (!wait(kBetweenSignals)) continue;
+  error_ = nullptr;
 }
 
 void WorldThread::run_jobs() {
@@ -116,6 +133,7 @@ void WorldThread::run_jobs() {
 void WorldThread::run_one(const std::function<void()>& job) {
   const std::lock_guard lock(ode_mutex);
   try {
+    if (ode_failed) throw std::runtime_error("ODE has failed in this process; allowed: worlds in a new process");
     const OdeOfJob ode(seed_);
     job();
   } catch (...) {

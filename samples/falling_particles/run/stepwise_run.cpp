@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 #include <variant>
 
 #include "base/archive.hpp"
 #include "base/interrupt.hpp"
+#include "base/interval.hpp"
 #include "base/write_file.hpp"
+#include "world/to_vector.hpp"
 
 namespace falling_particles {
 namespace {
@@ -39,6 +42,27 @@ struct SavedRun {
 };
 
 bool is_zero(const Point& vector) { return vector == Point{}; }
+
+/// `most`: the largest allowed absolute value, in `unit`.
+void require_within(const char* name, std::size_t grain, const Point& values, double most, const char* unit) {
+  for (std::size_t axis = 0; axis < values.size(); ++axis) {
+    if (std::abs(values[axis]) <= most) continue;  // false for NaN
+    throw std::invalid_argument(std::string(name) + '[' + std::to_string(grain) + ", " + std::to_string(axis) + "] is " +
+                                shortest(values[axis]) + "; allowed: from " + shortest(-most) + " to " + shortest(most) + ' ' +
+                                unit + ", which change a velocity of the grain by " + shortest(kFastest) + " in a step");
+  }
+}
+
+/// kg m^2, of the grain about its axes.
+double smallest_inertia(const Grain& grain) { return std::min({grain.mass.I[0], grain.mass.I[5], grain.mass.I[10]}); }
+
+void require_slow(const Grain& grain, std::size_t index) {
+  const double speed = to_vector(dBodyGetLinearVel(grain.body)).norm();
+  const double spin = to_vector(dBodyGetAngularVel(grain.body)).norm();
+  if (speed <= kFastest && spin <= kFastest) return;
+  throw std::runtime_error("grain " + std::to_string(index) + " has the speed " + shortest(speed) + " m/s and the spin " +
+                           shortest(spin) + " rad/s by its forces; allowed: up to " + shortest(kFastest));
+}
 
 }  // namespace
 
@@ -96,8 +120,13 @@ void StepwiseRun::change(const std::vector<supernormal::effects::Effect>& effect
 }
 
 void StepwiseRun::set_pushes(std::vector<Push> pushes) {
-  pushes_ = std::move(pushes);
   const std::vector<Grain>& grains = simulation_->world.grains();
+  for (std::size_t i = 0; i < std::min(pushes.size(), grains.size()); ++i) {
+    if (!grains[i].is_present()) continue;
+    require_within("forces", i, pushes[i].force, kFastest * grains[i].mass.mass / scene_.time.step, "N");
+    require_within("torques", i, pushes[i].torque, kFastest * smallest_inertia(grains[i]) / scene_.time.step, "N m");
+  }
+  pushes_ = std::move(pushes);
   for (std::size_t i = 0; i < std::min(pushes_.size(), grains.size()); ++i) {
     const bool acts = !is_zero(pushes_[i].force) || !is_zero(pushes_[i].torque);
     if (acts && grains[i].is_present()) dBodyEnable(grains[i].body);
@@ -109,6 +138,7 @@ void StepwiseRun::push() const {
   for (std::size_t i = 0; i < std::min(pushes_.size(), grains.size()); ++i) {
     // ODE would keep the forces on a sleeping body until it wakes.
     if (!grains[i].is_present() || dBodyIsEnabled(grains[i].body) == 0) continue;
+    require_slow(grains[i], i);
     const auto& [force, torque] = pushes_[i];
     dBodyAddForce(grains[i].body, force[0], force[1], force[2]);
     dBodyAddTorque(grains[i].body, torque[0], torque[1], torque[2]);

@@ -24,6 +24,9 @@ struct Push {
   Point torque;  ///< N m, in the world's frame
 };
 
+/// m/s and rad/s. Faster grains end in numbers that ODE cannot take: it aborts if the square of a square overflows.
+inline constexpr double kFastest = 1e30;
+
 /// A simulation with its results. The same steps write the same bytes, whether they are taken one by one or all at once.
 class StepwiseRun {
  public:
@@ -56,7 +59,8 @@ class StepwiseRun {
   bool measures_forces() const { return measures_forces_; }
 
   /// Sets what acts on the grains in each step from now on, by their index; further grains get nothing. Grains with a force or a
-  /// torque wake.
+  /// torque wake. Throws std::invalid_argument for numbers that are not finite, or that move a grain by more than kFastest in a
+  /// step. advance() throws std::runtime_error when a grain with a push has become faster than kFastest.
   void set_pushes(std::vector<Push> pushes);
 
   /// Calls `change`, which may give the scene `effects` and other settings that the world reads when it is made. Then continues
