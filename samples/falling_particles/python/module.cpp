@@ -59,34 +59,31 @@ py::object first_leak(OpenWorld& world) {
   return leaks.first() ? py::object(py::str(describe(*leaks.first()))) : py::none();
 }
 
+py::dict fields_of(const Scene& scene) {
+  py::dict fields;
+  fields["name"] = scene.name;
+  fields["seed"] = scene.seed;
+  fields["time_step"] = scene.time.step;
+  fields["steps"] = scene.time.steps();
+  fields["kinds"] = kinds_of(scene);
+  return fields;
+}
+
 void bind_source(py::module_& m) {
   py::class_<Source>(m, "Source")
-      .def(py::init([](std::string path, std::optional<std::string> text, std::vector<std::string> values) {
-             return Source{std::move(path), std::move(text), std::move(values)};
-           }),
-           py::arg("path"), py::arg("text"), py::arg("values"))
-      .def("load",
-           [](const Source& source) {
-             const Scene scene = source.load();
-             py::dict fields;
-             fields["name"] = scene.name;
-             fields["seed"] = scene.seed;
-             fields["time_step"] = scene.time.step;
-             fields["steps"] = scene.time.steps();
-             fields["kinds"] = kinds_of(scene);
-             return fields;
-           })
+      .def(py::init(&Source::of), py::arg("path"), py::arg("text"), py::arg("values"))
+      .def("fields", [](const Source& source) { return fields_of(source.scene()); })
       .def("check",
            [](const Source& source) {
-             return about(source, [](const Scene& scene) {
+             return about(source.scene(), [](const Scene& scene) {
                refuse_overlapping_start(scene);
                return describe(scene, forecast(scene));
              });
            })
-      .def("tables", [](const Source& source) { return about(source, &tables_of); })
+      .def("tables", [](const Source& source) { return about(source.scene(), &tables_of); })
       .def("doubts", [](const Source& source) {
         std::vector<std::string> doubts;
-        about(source, [&doubts](const Scene& scene) {
+        about(source.scene(), [&doubts](const Scene& scene) {
           refuse_overlapping_start(scene);
           doubts = doubts_about(scene);
           return std::string();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/input_error.hpp"
+#include "base/interval.hpp"
 #include "output/picture.hpp"
 #include "output/rendering.hpp"
 #include "run/changes.hpp"
@@ -40,6 +41,15 @@ Scene Source::load(const std::vector<std::string>& further_values) const {
   return text ? load_scene_text(*text, path, all) : load_scene(path, all);
 }
 
+Source Source::of(std::string path, std::optional<std::string> text, std::vector<std::string> values) {
+  Source source;
+  source.path = std::move(path);
+  source.text = std::move(text);
+  source.values = std::move(values);
+  source.scene_ = std::make_shared<const Scene>(source.load());
+  return source;
+}
+
 OpenWorld::OpenWorld(Source source, Options options) : source_(std::move(source)), options_(std::move(options)) {
   thread_.run([this] {
     try {
@@ -65,7 +75,7 @@ void OpenWorld::open() {
     throw InputError("checkpoint_every is " + std::to_string(options_.checkpoint_every) +
                      "; allowed: 0 for a scene that is no file, with which a resumed run could be compared");
   }
-  parts_ = std::make_unique<Parts>(source_.load());
+  parts_ = std::make_unique<Parts>(source_.scene());
   Scene& scene = parts_->scene;
   if (!options_.pictures) scene.pictures.clear();
   refuse_overlapping_start(scene);
@@ -153,6 +163,8 @@ void OpenWorld::change(const std::vector<std::string>& values) {
   work([&] {
     const Scene changed = source_.load(values);
     change_values(*parts_->run, parts_->scene, changed, values);
+    const std::string since = " from " + shortest(parts_->run->time()) + " s";
+    for (const std::string& value : values) parts_->scene.overrides.push_back(value + since);  // for the summary
   });
   source_.values.insert(source_.values.end(), values.begin(), values.end());
 }
@@ -182,11 +194,10 @@ void OpenWorld::close() {
   occupy([this] { release(); });
 }
 
-std::string about(const Source& source, const std::function<std::string(const Scene&)>& tell) {
+std::string about(const Scene& scene, const std::function<std::string(const Scene&)>& tell) {
   std::string text;
   WorldThread thread;
   thread.run([&] {
-    const Scene scene = source.load();
     const Admission admission(scene);
     text = tell(scene);
   });

@@ -16,14 +16,21 @@
 
 namespace falling_particles::python {
 
-/// What a scene is loaded from.
+/// A scene, and what it was loaded from.
 struct Source {
   std::string path;                 ///< of the file; with a text, where it would be
   std::optional<std::string> text;  ///< instead of a file
   std::vector<std::string> values;  ///< KEY=VALUE, in place of the scene's own
 
-  /// Throws InputError.
+  /// Loads the scene with further values. Throws InputError.
   Scene load(const std::vector<std::string>& further_values = {}) const;
+  const Scene& scene() const { return *scene_; }
+
+  /// Throws InputError.
+  static Source of(std::string path, std::optional<std::string> text, std::vector<std::string> values);
+
+ private:
+  std::shared_ptr<const Scene> scene_;  // loaded once: the masses of compounds take seconds
 };
 
 /// The options of falling_particles.
@@ -102,7 +109,7 @@ class OpenWorld {
   WorldThread thread_;
 };
 
-/// What `tell` says of the scene, in a thread of its own. Throws InputError.
-std::string about(const Source& source, const std::function<std::string(const Scene&)>& tell);
+/// What `tell` says of the scene, in a thread of its own.
+std::string about(const Scene& scene, const std::function<std::string(const Scene&)>& tell);
 
 }  // namespace falling_particles::python

@@ -211,7 +211,7 @@ class Scene:
     """A scene of falling_particles, which can be run many times.
 
     `values` replace or add values of the scene, as the program's --set does: {"time.step": 1e-3, "container.width[1]": 0.06,
-    "grain[pea].count": 20, "friction": {"coefficient": 0.3}}. The files are read again when a world starts.
+    "grain[pea].count": 20, "friction": {"coefficient": 0.3}}. The files are read when the scene is made, and again by World.change().
 
     Raises ValueError for what the program refuses, with the file, the line and the allowed values.
     """
@@ -242,7 +242,7 @@ class Scene:
         return cls.from_text(text, values, folder=folder, name=name)
 
     def _load(self, source: _scenes.Source) -> None:
-        fields = source.load()
+        fields = source.fields()
         self._source = source
         self._name: str = fields["name"]
         self._seed: int = fields["seed"]
