@@ -161,8 +161,7 @@ void OpenWorld::change(const std::vector<std::string>& values) {
     throw std::invalid_argument("values: a checkpoint does not hold changes; allowed: none in a world with checkpoints");
   }
   work([&] {
-    const Scene changed = source_.load(values);
-    change_values(*parts_->run, parts_->scene, changed, values);
+    change_values(*parts_->run, parts_->scene, values, [&] { return source_.load(values); });
     const std::string since = " from " + shortest(parts_->run->time()) + " s";
     for (const std::string& value : values) parts_->scene.overrides.push_back(value + since);  // for the summary
   });

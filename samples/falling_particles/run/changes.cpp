@@ -123,9 +123,11 @@ void require_like(const Wall& wall, const Wall& changed, WallChange change) {
 
 }  // namespace
 
-void change_values(StepwiseRun& run, Scene& scene, const Scene& changed, const std::vector<std::string>& assignments) {
+void change_values(StepwiseRun& run, Scene& scene, const std::vector<std::string>& assignments,
+                   const std::function<Scene()>& load) {
   std::vector<Change> changes;
   for (const std::string& assignment : assignments) changes.push_back(change_of(assignment, scene));
+  const Scene changed = load();
   const auto is_of = [](const Change& change, const Wall& wall) {
     return std::ranges::find(change.walls, wall.name) != change.walls.end();
   };
