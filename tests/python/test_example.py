@@ -88,18 +88,62 @@ def test_the_gap_in_torch(planner, tmp_path):
     assert re.search(r"after \d+ steps of Adam 0 overlap, the deepest by 0.0000 m", run.stdout)
 
 
-def test_the_notebook_runs(tmp_path, monkeypatch):
+@pytest.fixture
+def settling(monkeypatch):
+    pytest.importorskip("supernormal.scenes", reason="built without samples/falling_particles")
+    monkeypatch.syspath_prepend(str(SAMPLES))
+    return importlib.import_module("settling")
+
+
+def test_beads_settle_at_their_terminal_velocity(settling, tmp_path):
+    for name, (fluid, diameters, duration, step) in settling.CASES.items():
+        found = settling.settle(settling.scene_of_beads(tmp_path, diameters, duration, step), fluid, 5)[-1]
+        diameter = np.array(diameters)
+        reynolds = fluid.density * found * diameter / fluid.viscosity
+        # Weight less buoyancy is the drag at the velocity that was found: 4/3 d g (density / fluid - 1) = C v^2, C = 24 / Re times the law.
+        law = 1 if "Stokes" in name else 1 + 0.15 * reynolds**0.687
+        weight = 4 / 3 * diameter * 9.81 * (2500 / fluid.density - 1)
+        np.testing.assert_allclose(24 / reynolds * law * found**2, weight, rtol=1e-8)
+        if "Stokes" in name:
+            np.testing.assert_allclose(found, (2500 - 1260) * 9.81 * diameter**2 / (18 * 1.4), rtol=1e-8)
+
+
+def test_the_error_of_an_exchange_is_its_interval(settling, tmp_path):
+    fluid = settling.CASES["Stokes, in glycerol"][0]
+    relaxation = 2500 * 3e-3**2 / (18 * fluid.viscosity)
+    scene = settling.scene_of_beads(tmp_path, [3e-3], 2.0e-3, 1e-6)
+    times = np.arange(1, 101) * 20e-6
+    wanted = fluid.terminal_velocity(3e-3, 2500) * (1 - np.exp(-times / relaxation))
+    errors = []
+    for steps in (5, 10, 20):
+        found = settling.settle(scene, fluid, steps)[20 // steps - 1 :: 20 // steps, 0]
+        errors.append(np.abs(found - wanted).max() / wanted[-1])
+    assert errors[0] < 2e-3
+    # Euler's method: the velocity is too large by time / relaxation / 2 of the interval, at most exp(-1) / 2 of it.
+    np.testing.assert_allclose(errors, np.array([5, 10, 20]) * 1e-6 / relaxation * np.exp(-1) / 2, rtol=0.2)
+
+
+def test_the_program_that_couples_a_drag(settling, tmp_path):
+    run = run_sample(tmp_path, "settling.py")
+    assert len(re.findall(r"off by -?\d\.\de-(?:0[89]|1\d)", run.stdout)) == 8, run.stdout
+
+
+@pytest.mark.parametrize("name, figures", [("gap_gradient", 1), ("drum", 2)])
+def test_the_notebook_runs(name, figures, tmp_path, monkeypatch):
     nbformat = pytest.importorskip("nbformat", reason="python3-nbformat is not installed")
     nbclient = pytest.importorskip("nbclient", reason="python3-nbclient is not installed")
     for module, package in (("ipykernel", "python3-ipykernel"), ("matplotlib", "python3-matplotlib")):
         pytest.importorskip(module, reason=f"{package} is not installed")
-    for name in ("MPLCONFIGDIR", "IPYTHONDIR", "JUPYTER_RUNTIME_DIR"):
-        monkeypatch.setenv(name, str(tmp_path / name))
-    notebook = nbformat.read(SAMPLES / "gap_gradient.ipynb", as_version=4)
+    if name == "drum":
+        pytest.importorskip("supernormal.scenes", reason="built without samples/falling_particles")
+    for variable in ("MPLCONFIGDIR", "IPYTHONDIR", "JUPYTER_RUNTIME_DIR"):
+        monkeypatch.setenv(variable, str(tmp_path / variable))
+    notebook = nbformat.read(SAMPLES / f"{name}.ipynb", as_version=4)
     nbformat.validate(notebook)
     code = [cell for cell in notebook.cells if cell.cell_type == "code"]
     assert not any(cell.outputs or cell.execution_count for cell in code)  # as it is committed
 
-    nbclient.NotebookClient(notebook, kernel_name="python3", timeout=120).execute()
-    figures = [output for cell in code for output in cell.outputs if "image/png" in output.get("data", {})]
-    assert len(figures) == 1
+    folder = {"metadata": {"path": str(SAMPLES)}}  # where Jupyter runs it
+    nbclient.NotebookClient(notebook, kernel_name="python3", timeout=120, resources=folder).execute()
+    drawn = [output for cell in code for output in cell.outputs if "image/png" in output.get("data", {})]
+    assert len(drawn) == figures

@@ -230,7 +230,9 @@ std::vector<std::string> TomlTable::names() const {
   return result;
 }
 
-TomlFile::TomlFile(const std::string& path, const std::string& what, const std::vector<std::string>& assignments) {
+namespace {
+
+std::string content_of(const std::string& path, const std::string& what) {
   if (const std::string other = what_is_no_file(path); !other.empty()) {
     throw InputError("cannot read " + what + " " + in_quotes(path) + ": it is " + other + "; allowed: a file");
   }
@@ -238,13 +240,23 @@ TomlFile::TomlFile(const std::string& path, const std::string& what, const std::
   if (!stream) throw InputError("cannot read " + what + " " + in_quotes(path) + ": " + std::strerror(errno));
   std::ostringstream content;
   content << stream.rdbuf();
-  if (const std::optional<unsigned> line = find_deep_toml(content.str())) {
+  return content.str();
+}
+
+}  // namespace
+
+TomlFile::TomlFile(const std::string& path, const std::string& what, const std::vector<std::string>& assignments)
+    : TomlFile(Text{content_of(path, what), path}, assignments) {}
+
+TomlFile::TomlFile(const Text& text, const std::vector<std::string>& assignments) {
+  const auto& [content, path] = text;
+  if (const std::optional<unsigned> line = find_deep_toml(content)) {
     throw InputError(path, *line,
                      "keys, arrays or tables are nested in more than " + std::to_string(kMostTomlLevels) +
                          " levels; allowed: up to " + std::to_string(kMostTomlLevels));
   }
   try {
-    auto root = std::make_shared<toml::table>(toml::parse(content.str(), path));
+    auto root = std::make_shared<toml::table>(toml::parse(content, path));
     set_values(*root, assignments);
     const toml::table* top = root.get();
     node_ = std::make_shared<const TomlTable::Node>(TomlTable::Node{std::move(root), top, path, ""});

@@ -73,6 +73,12 @@ class TomlFile {
   /// Replaces values of the file first (set_values()). Throws InputError when `path` is not a readable file or not valid TOML.
   /// `what` names its purpose in the message: "scene file".
   TomlFile(const std::string& path, const std::string& what, const std::vector<std::string>& assignments = {});
+  /// The content of a file. `path` names the file in messages; it need not exist.
+  struct Text {
+    std::string content;
+    std::string path;
+  };
+  explicit TomlFile(const Text& text, const std::vector<std::string>& assignments = {});
 
   /// The top level of the file, which may have the given keys and no others.
   TomlTable root(const std::vector<std::string>& keys) const;

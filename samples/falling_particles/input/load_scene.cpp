@@ -252,9 +252,9 @@ void read_output(const TomlTable& root, Scene& scene) {
   scene.pictures = table->choices("pictures", names);
 }
 
-/// The scene file and the files that it names relative to its folder. All have been read before.
+/// The files that the scene names relative to its folder. All have been read before.
 std::vector<std::filesystem::path> files_of(const TomlTable& root, const std::filesystem::path& path) {
-  std::vector<std::filesystem::path> files = {path, path.parent_path() / root.text("catalogue")};
+  std::vector<std::filesystem::path> files = {path.parent_path() / root.text("catalogue")};
   if (root.has("start")) files.push_back(path.parent_path() / root.table("start").text("file"));
   if (!root.has("part")) return files;
   for (const TomlTable& part : root.tables("part")) {
@@ -272,10 +272,8 @@ std::vector<std::string> sections() {
   return names;
 }
 
-}  // namespace
-
-Scene load_scene(const std::string& path, const std::vector<std::string>& overrides) {
-  const TomlTable root = TomlFile(path, "scene file", overrides).root(sections());
+Scene load(const TomlFile& file, const std::string& path, const std::vector<std::string>& overrides) {
+  const TomlTable root = file.root(sections());
   Scene scene{};
   scene.name = std::filesystem::path(path).stem().string();
   scene.overrides = overrides;
@@ -301,6 +299,18 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
   check_fit(root, scene);
   scene.files = files_of(root, path);
   return scene;
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  Scene scene = load(TomlFile(path, "scene file", overrides), path, overrides);
+  scene.files.insert(scene.files.begin(), path);
+  return scene;
+}
+
+Scene load_scene_text(const std::string& content, const std::string& path, const std::vector<std::string>& overrides) {
+  return load(TomlFile(TomlFile::Text{content, path}, overrides), path, overrides);
 }
 
 }  // namespace falling_particles

@@ -1,6 +1,8 @@
 #include "simulation.hpp"
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 #include <variant>
 
 #include "base/archive.hpp"
@@ -65,12 +67,17 @@ Simulation::Simulation(const Scene& scene, int threads, Saved&& saved)
   snResetStatistics();
 }
 
-std::string Simulation::save() const {
+std::string Simulation::save_for(const std::vector<supernormal::effects::Effect>& effects) const {
   Writer writer;
   writer(world.save(), random, stepper, watches, population);
   const snStatistics counts = statistics();
   for (const auto count : kCounts) writer(counts.*count);
-  for (const Cost& cost : effect_costs()) writer(cost.rows, cost.contacts, cost.coarse, cost.bodies, cost.seconds);
+  const std::vector<Cost> known = effect_costs();
+  for (Cost cost : supernormal::effects::Effects(effects, world.scene().time.step).costs()) {
+    const auto before = std::ranges::find(known, std::string_view(cost.name), &Cost::name);
+    if (before != known.end()) cost = *before;
+    writer(cost.rows, cost.contacts, cost.coarse, cost.bodies, cost.seconds);
+  }
   return writer.bytes();
 }
 

@@ -49,7 +49,9 @@ class Simulation {
   Simulation(const Scene& scene, int threads, const std::string& saved);
 
   /// Call it between two steps.
-  std::string save() const;
+  std::string save() const { return save_for(world.scene().effects); }
+  /// The same for a simulation with other effects. The work for effects that it lacks is forgotten.
+  std::string save_for(const std::vector<supernormal::effects::Effect>& effects) const;
 
   /// Of all steps since the start.
   snStatistics statistics() const;

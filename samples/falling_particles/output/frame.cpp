@@ -47,11 +47,13 @@ ContactState state_of(const dContactGeom& contact, const World& world) {
           index_of(contact.g1, world), index_of(contact.g2, world), {}};
 }
 
-/// Adds the contacts of the last step. If forces are measured, these are the contacts that the effects have kept.
-void add_contacts(Frame& frame, const World& world, const Stepper& stepper) {
-  for (const MeasuredContact& contact : stepper.measured_contacts()) {
-    frame.contacts.push_back(state_of(contact.geom, world));
-    frame.contacts.back().force = contact.force();
+/// Adds the contacts of the last step. With forces these are the contacts that the effects have kept.
+void add_contacts(Frame& frame, const World& world, const Stepper& stepper, bool with_forces) {
+  if (with_forces) {
+    for (const MeasuredContact& contact : stepper.measured_contacts()) {
+      frame.contacts.push_back(state_of(contact.geom, world));
+      frame.contacts.back().force = contact.force();
+    }
   }
   if (!frame.contacts.empty()) return;
   frame.contacts.reserve(stepper.contact_geoms().size());
@@ -105,7 +107,8 @@ void add_new_grains(Contents& contents, const World& world) {
   }
 }
 
-Frame frame_of(double time, const Energy& energy, const Contents& contents, const World& world, const Stepper* stepper) {
+Frame frame_of(double time, const Energy& energy, const Contents& contents, const World& world, const Stepper* stepper,
+               bool with_forces) {
   Frame frame;
   frame.time = time;
   frame.energy = energy;
@@ -123,7 +126,7 @@ Frame frame_of(double time, const Energy& energy, const Contents& contents, cons
     }
     frame.grains.push_back({grain.position(), grain.quaternion(), grain.velocity(), grain.angular_velocity()});
   }
-  if (stepper != nullptr) add_contacts(frame, world, *stepper);
+  if (stepper != nullptr) add_contacts(frame, world, *stepper, with_forces);
   return frame;
 }
 

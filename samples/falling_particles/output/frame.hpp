@@ -105,7 +105,8 @@ Contents contents_of(const World& world, const Scene& scene);
 /// Appends the grains that were inserted since the last call.
 void add_new_grains(Contents& contents, const World& world);
 
-/// `stepper`: null before the first step.
-Frame frame_of(double time, const Energy& energy, const Contents& contents, const World& world, const Stepper* stepper);
+/// `stepper`: null before the first step. `with_forces`: shows the contacts with their forces, if the step measured them.
+Frame frame_of(double time, const Energy& energy, const Contents& contents, const World& world, const Stepper* stepper,
+               bool with_forces = true);
 
 }  // namespace falling_particles

@@ -1,0 +1,206 @@
+#include "open_world.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "base/input_error.hpp"
+#include "base/interval.hpp"
+#include "output/picture.hpp"
+#include "output/rendering.hpp"
+#include "run/changes.hpp"
+#include "run/doubts.hpp"
+
+namespace falling_particles::python {
+namespace {
+
+/// The settings of [query] hold for the process. Jobs change these numbers, one at a time.
+int open_worlds = 0;
+int worlds_with_query = 0;
+
+}  // namespace
+
+Admission::Admission(const Scene& scene) : has_query_(scene.query.has_value()) {
+  if (open_worlds > 0 && (has_query_ || worlds_with_query > 0)) {
+    throw std::runtime_error("[query] of " + std::string(worlds_with_query > 0 ? "an open world" : "the scene") +
+                             " holds for all worlds of the process; allowed: one open world with it, and no other beside it");
+  }
+  ++open_worlds;
+  if (has_query_) ++worlds_with_query;
+}
+
+Admission::~Admission() {
+  --open_worlds;
+  if (has_query_) --worlds_with_query;
+}
+
+Scene Source::load(const std::vector<std::string>& further_values) const {
+  std::vector<std::string> all = values;
+  all.insert(all.end(), further_values.begin(), further_values.end());
+  return text ? load_scene_text(*text, path, all) : load_scene(path, all);
+}
+
+Source Source::of(std::string path, std::optional<std::string> text, std::vector<std::string> values) {
+  Source source;
+  source.path = std::move(path);
+  source.text = std::move(text);
+  source.values = std::move(values);
+  source.scene_ = std::make_shared<const Scene>(source.load());
+  return source;
+}
+
+OpenWorld::OpenWorld(Source source, Options options) : source_(std::move(source)), options_(std::move(options)) {
+  thread_.run([this] {
+    try {
+      open();
+    } catch (...) {
+      release();
+      throw;
+    }
+  });
+}
+
+OpenWorld::~OpenWorld() {
+  if (is_closed()) return;
+  if (thread_.is_in_other_process() || WorldThread::ode_has_failed()) {
+    [[maybe_unused]] Parts* const left = parts_.release();
+    return;
+  }
+  thread_.run_last([this] { release(); });
+}
+
+void OpenWorld::open() {
+  if (options_.checkpoint_every > 0 && source_.text) {
+    throw InputError("checkpoint_every is " + std::to_string(options_.checkpoint_every) +
+                     "; allowed: 0 for a scene that is no file, with which a resumed run could be compared");
+  }
+  parts_ = std::make_unique<Parts>(source_.scene());
+  Scene& scene = parts_->scene;
+  if (!options_.pictures) scene.pictures.clear();
+  refuse_overlapping_start(scene);
+  std::optional<StepwiseRun::Files> files;
+  if (options_.out) {
+    parts_->folder.emplace(*options_.out, scene.name, result_names(), options_.resume);
+    parts_->checkpoints.emplace(*parts_->folder, scene, options_.checkpoint_every);
+    files.emplace(StepwiseRun::Files{*parts_->folder, *parts_->checkpoints});
+  }
+  parts_->run.emplace(scene, options_.threads, files);
+}
+
+void OpenWorld::release() {
+  Parts* const parts = parts_.release();
+  if (!WorldThread::ode_has_failed()) delete parts;
+}
+
+void OpenWorld::require_open(const char* method) const {
+  const std::string name = std::string("World.") + method + "(): the world ";
+  if (thread_.is_in_other_process()) throw std::runtime_error(name + "was opened in another process; allowed: in its own");
+  if (is_busy_) throw std::runtime_error(name + "is at work in another thread; allowed: one thread at a time");
+  if (is_closed()) throw std::runtime_error(name + why_closed_ + "; allowed: an open world");
+}
+
+void OpenWorld::require_unfinished(const char* method) const {
+  require_open(method);
+  if (is_finished_) {
+    throw std::runtime_error(std::string("World.") + method + "(): the results are complete; allowed: before finish()");
+  }
+}
+
+StepwiseRun& OpenWorld::run(const char* method) {
+  require_open(method);
+  return *parts_->run;
+}
+
+void OpenWorld::occupy(const std::function<void()>& job) {
+  struct Occupation {
+    explicit Occupation(bool& flag) : is_busy(flag) { is_busy = true; }
+    Occupation(const Occupation&) = delete;
+    Occupation& operator=(const Occupation&) = delete;
+    ~Occupation() { is_busy = false; }
+    bool& is_busy;
+  };
+  const Occupation occupation(is_busy_);
+  thread_.run(job);
+}
+
+// An exception may leave a step half done.
+void OpenWorld::work(const std::function<void()>& job) {
+  occupy([&] {
+    try {
+      job();
+    } catch (const InputError&) {
+      throw;  // before anything was changed
+    } catch (const std::exception& error) {
+      why_closed_ = std::string("ended with an error (") + error.what() + ")";
+      release();
+      throw;
+    }
+  });
+}
+
+void OpenWorld::step(int count, bool forces) {
+  require_unfinished("step");
+  const int left = parts_->run->scene().time.steps() - parts_->run->step();
+  if (count < 0 || count > left) {
+    throw std::invalid_argument("count is " + std::to_string(count) + "; allowed: 0 to " + std::to_string(left) +
+                                ", the steps that are left until time.duration of the scene");
+  }
+  work([&] {
+    const int end = parts_->run->step() + count;
+    while (parts_->run->step() < end && !thread_.is_stopping()) {
+      parts_->run->measure_forces(forces && parts_->run->step() + 1 == end);
+      parts_->run->advance(parts_->run->step() + 1, nullptr);
+    }
+  });
+}
+
+void OpenWorld::change(const std::vector<std::string>& values) {
+  require_unfinished("change");
+  if (parts_->checkpoints && parts_->checkpoints->are_on()) {
+    throw std::invalid_argument("values: a checkpoint does not hold changes; allowed: none in a world with checkpoints");
+  }
+  work([&] {
+    change_values(*parts_->run, parts_->scene, values, [&] { return source_.load(values); });
+    const std::string since = " from " + shortest(parts_->run->time()) + " s";
+    for (const std::string& value : values) parts_->scene.overrides.push_back(value + since);  // for the summary
+  });
+  source_.values.insert(source_.values.end(), values.begin(), values.end());
+}
+
+void OpenWorld::set_pushes(std::vector<Push> pushes) {
+  require_unfinished("set_forces");
+  if (parts_->checkpoints && parts_->checkpoints->are_on()) {
+    throw std::invalid_argument("forces: a checkpoint does not hold them; allowed: none in a world with checkpoints");
+  }
+  parts_->run->set_pushes(std::move(pushes));
+}
+
+std::string OpenWorld::finish(bool draws) {
+  require_unfinished("finish");
+  if (!options_.out) throw std::runtime_error("World.finish(): out is None; allowed: a folder, which the results are written to");
+  work([&] {
+    parts_->run->finish();
+    is_finished_ = true;
+    if (draws) render(parts_->run->renderings(), parts_->folder->path(), true);
+  });
+  return parts_->folder->path().string();
+}
+
+void OpenWorld::close() {
+  if (is_closed()) return;
+  require_open("close");
+  occupy([this] { release(); });
+}
+
+std::string about(const Scene& scene, const std::function<std::string(const Scene&)>& tell) {
+  std::string text;
+  WorldThread thread;
+  thread.run([&] {
+    const Admission admission(scene);
+    text = tell(scene);
+  });
+  return text;
+}
+
+}  // namespace falling_particles::python

@@ -1,0 +1,60 @@
+// A thread for the world of a scene.
+#pragma once
+
+#include <sys/types.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace falling_particles::python {
+
+/// Runs jobs in a thread of its own. ODE and Supernormal keep data for each thread, such as warm-start normals and counts. So a
+/// world does the same whichever thread of Python calls it, and whatever else this thread does.
+class WorldThread {
+ public:
+  WorldThread();
+  ~WorldThread();
+  WorldThread(const WorldThread&) = delete;
+  WorldThread(WorldThread&&) = delete;
+  WorldThread& operator=(const WorldThread&) = delete;
+  WorldThread& operator=(WorldThread&&) = delete;
+
+  /// Runs the job and waits for its end, without the interpreter's lock. Jobs of all worlds run one after the other, because ODE's
+  /// random numbers are global. Rethrows an exception of the job. Once ODE itself has failed, jobs are refused with
+  /// std::runtime_error. If a signal handler of Python raises one, such as
+  /// KeyboardInterrupt, is_stopping() is true from then on until the end of the job, and the exception is raised then.
+  void run(const std::function<void()>& job);
+  /// The same for a destructor, also while the interpreter ends: raises and throws nothing.
+  void run_last(const std::function<void()>& job) noexcept;
+
+  /// Whether the job shall end early.
+  bool is_stopping() const { return is_stopping_; }
+  /// Whether this process is a fork of the one with the thread.
+  bool is_in_other_process() const;
+  /// Whether ODE has failed in this process. Then its worlds cannot even be destroyed: a failed step leaves work in a list that all
+  /// worlds share.
+  static bool ode_has_failed();
+
+ private:
+  void post(const std::function<void()>& job);
+  bool wait(std::chrono::milliseconds longest);
+  void run_jobs();
+  void run_one(const std::function<void()>& job);
+
+  pid_t process_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  const std::function<void()>* job_ = nullptr;
+  std::exception_ptr error_;
+  bool is_closing_ = false;
+  std::atomic<bool> is_stopping_ = false;
+  unsigned long seed_ = 0;  // of ODE's random numbers, in this thread's jobs
+  std::thread thread_;
+};
+
+}  // namespace falling_particles::python
