@@ -34,8 +34,8 @@ PairContact contact_of(const supernormal::Proximity& found, const supernormal::C
   const double gap = found.gap;
   const std::optional<FaceContact> faces =
       gap < body1.bulge + body2.bulge ? find_face_contact(body1, body2, found.normal) : std::nullopt;
-  const bool do_faces_touch = faces && faces->count > 0;
-  if (gap >= 0 && !do_faces_touch) {
+  pair.do_faces_meet = faces && faces->count > 0;
+  if (gap >= 0 && !pair.do_faces_meet) {
     if (step > 0) {
       history.release_springs();
       // A normal that still proves the separation stays as it is, to the bit. So queries may be skipped while it does.

@@ -257,6 +257,7 @@ void PairSupernormal::count_and_apply(int i, int j, const PairContact& pair) {
   if (pair.state == PairState::Apart) return;
   sums_[Contacts] += part;
   sums_[Slipping] += pair.force.slips ? part : 0;
+  sums_[Faces] += pair.do_faces_meet ? part : 0;
   apply(i, j, pair);
 }
 
