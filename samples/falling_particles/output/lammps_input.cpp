@@ -213,7 +213,8 @@ LammpsInput lammps_input(const Scene& scene) {
       << "# contacts are springs, which overlap; a step is " << kStepsPerImpact
       << " times shorter than an impact; contacts without\n"
       << "# restitution have " << kRigidRestitution << ", and none has less than " << kLeastRestitution
-      << "; it holds at every velocity; flat faces\n# rest on one point; grains are not rounded; nothing sleeps.\n"
+      << "; it holds at every velocity; sides\n# of cans, and faces on meshes and in drums, rest on one point; grains are not "
+         "rounded; nothing sleeps.\n"
       << "units si\natom_style ellipsoid\ncomm_modify vel yes\nboundary f f m\nread_data " << scene.name << ".data\n"
       << "pair_style supernormal\npair_coeff * * " << contacts.words << '\n';
   for (std::size_t k = 0; k < scene.kinds.size(); ++k) {

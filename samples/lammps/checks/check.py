@@ -5,13 +5,14 @@ import argparse
 import sys
 import time
 
+import bricks
 import collision
 import gas
 import ranks
 import walls
 from driver import Driver
 
-CHECKS = {"collision": collision.check, "gas": gas.check, "ranks": ranks.check, "walls": walls.check}
+CHECKS = {"bricks": bricks.check, "collision": collision.check, "gas": gas.check, "ranks": ranks.check, "walls": walls.check}
 
 
 def main():

@@ -2,7 +2,7 @@
 
 import filecmp
 
-BED = "bed.restart"
+BED, BRICKS = "bed.restart", "bricks.restart"
 
 
 def largest_difference(rows, reference, columns):
@@ -11,36 +11,42 @@ def largest_difference(rows, reference, columns):
     return max(sum((row[c] - other[c]) ** 2 for c in columns) ** 0.5 for row, other in zip(rows, reference)) / longest
 
 
-def check_forces(driver):
-    """Compares with one rank and newton on. After 20 steps the springs of friction and rolling have grown."""
-    reference = None
+def check_forces(driver, bed, limit, single_limit, newton_matters):
+    """Compares with one rank. After 20 steps the springs of friction and rolling have grown."""
+    kind = bed.split(".")[0]
+    references = {}
     for ranks in (1, 2, 4):
         for newton in ("on", "off"):
-            dump = f"forces_{ranks}_{newton}.dump"
-            (table,) = driver.run("dense_forces", ranks, newton=newton, bed=BED, steps=20, out=dump)
+            dump = f"forces_{kind}_{ranks}_{newton}.dump"
+            (table,) = driver.run("dense_forces", ranks, newton=newton, bed=bed, steps=20, out=dump)
             pairs = max(abs(row["c_sums[1]"] / row["PotEng"] - 1) for row in table)
-            yield f"{ranks} ranks, newton {newton}: energies of single pairs", pairs, 1e-10
+            yield f"{kind}, {ranks} ranks, newton {newton}: energies of single pairs", pairs, single_limit
             frames = driver.dump(dump)
-            if reference is None:
-                reference = frames
+            reference = references.setdefault(newton if newton_matters else "any", frames)
+            if reference is frames:
                 continue
             for step, rows in frames.items():
                 for quantity, columns in (("forces", (7, 8, 9)), ("torques", (10, 11, 12))):
                     difference = largest_difference(rows, reference[step], columns)
-                    yield f"{ranks} ranks, newton {newton}, step {step}: {quantity}", difference, 1e-10
+                    yield f"{kind}, {ranks} ranks, newton {newton}, step {step}: {quantity}", difference, limit
 
 
-def check_restart(driver):
+def check_restart(driver, bed):
+    kind = bed.split(".")[0]
     for ranks in (1, 2):
-        whole, again = f"whole_{ranks}", f"again_{ranks}"
-        driver.run("dense_restart", ranks, bed=BED, until=4400, every=100, out=whole)
+        whole, again = f"whole_{kind}_{ranks}", f"again_{kind}_{ranks}"
+        driver.run("dense_restart", ranks, bed=bed, until=4400, every=100, out=whole)
         driver.run("dense_restart", ranks, bed=f"{whole}.4200.restart", until=4400, every=100, out=again)
         same = filecmp.cmp(driver.folder / f"{whole}.4400.restart", driver.folder / f"{again}.4400.restart", shallow=False)
-        yield f"{ranks} ranks: restarted run differs", 0 if same else 1, 0
+        yield f"{kind}, {ranks} ranks: restarted run differs", 0 if same else 1, 0
 
 
 def check(driver):
     """Yields the name, the value and the limit of each comparison."""
     driver.run("dense", out=BED)
-    yield from check_forces(driver)
-    yield from check_restart(driver)
+    driver.run("dense", out=BRICKS, exponents1="20 20", exponents2="8 12", scale=0.84)
+    # With newton off, ghosts are solved from positions rounded differently, and single pairs from another normal. On nearly flat
+    # faces both change an answer within the tolerance of the query, 1e-9.
+    for bed, *limits in ((BED, 1e-10, 1e-10, False), (BRICKS, 1e-12, 1e-6, True)):
+        yield from check_forces(driver, bed, *limits)
+        yield from check_restart(driver, bed)

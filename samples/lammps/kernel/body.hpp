@@ -2,14 +2,13 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <span>
 
+#include "kernel/face.hpp"
 #include "supernormal/proximity/pose.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace granular {
-
-using supernormal::Matrix3;
-using supernormal::Vector3;
 
 /// The state of a body in the world frame.
 struct Body {
@@ -20,6 +19,8 @@ struct Body {
   double inverse_mass = 0;                     ///< 1/kg; 0 for a body that forces do not move
   Matrix3 inverse_inertia = Matrix3::Zero();   ///< 1/(kg m^2)
   double width = 0;                            ///< m; the mean half-extent
+  std::span<const Face> faces{};               ///< none for a round body
+  double bulge = 0;                            ///< m; no face sticks out of the body by more than this
 
   /// The velocity of the body's point at `arm` from its centre, m/s.
   Vector3 velocity_at(const Vector3& arm) const { return velocity + angular_velocity.cross(arm); }

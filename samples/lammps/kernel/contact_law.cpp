@@ -22,7 +22,7 @@ NormalForce hooke_force(const ContactMaterial& material, double depth) {
 
 NormalForce hertz_force(const ContactMaterial& material, double depth, const supernormal::ContactCurvature& curvature,
                         double width) {
-  const double punch = 2 * material.stiffness * width;  // N/m
+  const double punch = face_stiffness(material, width);
   // An ellipse longer than a thousand times its width counts as a line contact.
   const double smaller = std::max(curvature.smaller, 1e-6 * curvature.larger);
   if (!(smaller > 0)) return {punch * depth, punch, 0.5 * punch * depth * depth};
@@ -78,68 +78,204 @@ class FrameTurn {
   double spin_;
 };
 
+/// What the springs against sliding, twisting and rolling need.
+struct Grip {
+  double stiffness;   // N/m; of the normal force
+  double spread = 0;  // m; lever arm of the twist; 0 for a single point
+  Mobility mobility;
+};
+
+/// Relative motions of the bodies at a contact.
+struct Rates {
+  Vector3 sliding;  // m/s; along the normal: of the twist, times its lever arm
+  Vector3 rolling;  // rad/s
+  double spin;      // rad/s; mean of both bodies about the normal
+};
+
 /// Advances the springs by a step. Rotates them and extends them by the motion. If the contact becomes stiffer, their force is
 /// kept: new contact area is unstrained, so loading adds no energy to them.
-void advance(const Contact& contact, const Vector3& sliding_rate, const Vector3& rolling_rate, double spin, double stiffness,
-             double step, ContactHistory& history) {
-  const FrameTurn turn(history.has_normal() ? history.normal : contact.normal, contact.normal, spin * step);
+void advance(const Vector3& normal, const Rates& rates, const Grip& grip, double stiffness, double step, ContactHistory& history) {
+  const FrameTurn turn(history.has_normal() ? history.normal : normal, normal, rates.spin * step);
   const double kept = history.stiffness > 0 && history.stiffness < stiffness ? history.stiffness / stiffness : 1;
-  history.sliding = kept * turn(history.sliding) + step * sliding_rate;
-  history.rolling = kept * turn(history.rolling) + step * rolling_rate;
+  const double twist = grip.spread > 0 ? history.sliding.dot(history.normal) : 0;
+  if (grip.spread > 0) history.release_twist();
+  history.sliding = kept * turn(history.sliding) + step * rates.sliding;
+  if (grip.spread > 0) history.sliding += kept * twist * normal;
+  history.rolling = kept * turn(history.rolling) + step * rates.rolling;
   history.stiffness = stiffness;
 }
+
+double damper(const ContactMaterial& material, double stiffness, double inverse_mass) {
+  return inverse_mass > 0 ? 2 * material.damping_ratio * std::sqrt(stiffness / inverse_mass) : 0;
+}
+
+/// The damper of hertz_damping_ratio() uses 5/6 of the tangent stiffness.
+double damped_stiffness(const ContactMaterial& material, double stiffness) {
+  return material.law == NormalLaw::Hertz ? 5.0 / 6 * stiffness : stiffness;
+}
+
+Mobility find_mobility(const Contact& contact, const Body& body1, const Body& body2) {
+  Mobility mobility;
+  add_mobility(body1, contact.arm1, contact.normal, mobility);
+  add_mobility(body2, contact.arm2, contact.normal, mobility);
+  return mobility;
+}
+
+/// Adds friction and rolling resistance to a normal force.
+void add_sliders(const Contact& contact, const Grip& grip, const ContactMaterial& material, const Body& body1, const Body& body2,
+                 double step, ContactHistory& history, ContactForce& found) {
+  if (material.friction == 0 && material.rolling_length == 0) return;
+  const Vector3& n = contact.normal;
+  const Vector3 velocity = body1.velocity_at(contact.arm1) - body2.velocity_at(contact.arm2);
+  const Vector3 turning = body1.angular_velocity - body2.angular_velocity;
+  Rates rates{velocity - velocity.dot(n) * n, turning - turning.dot(n) * n,
+              0.5 * (body1.angular_velocity + body2.angular_velocity).dot(n)};
+  if (grip.spread > 0) rates.sliding += grip.spread * turning.dot(n) * n;
+  const double stiffness = material.tangential_ratio * grip.stiffness;
+  if (step > 0) advance(n, rates, grip, stiffness, step, history);
+  const auto write = [&](const SliderForce& slider, Vector3& spring) {
+    if (step > 0) spring = slider.spring;
+  };
+  if (material.friction > 0 && stiffness > 0) {
+    const SliderForce friction = slide(history.sliding, rates.sliding, stiffness,
+                                       damper(material, stiffness, grip.mobility.tangential), material.friction * found.normal);
+    write(friction, history.sliding);
+    const double twist = grip.spread > 0 ? friction.force.dot(n) : 0;
+    found.force += grip.spread > 0 ? Vector3(friction.force - twist * n) : friction.force;
+    found.torque += grip.spread * twist * n;
+    found.energy += 0.5 * stiffness * friction.spring.squaredNorm();
+    found.slips = friction.slips;
+  }
+  if (material.rolling_length > 0 && grip.stiffness > 0) {
+    const double k = kRollingStiffness * grip.stiffness * material.rolling_length * material.rolling_length;
+    const double mean_mobility = (body1.inverse_inertia + body2.inverse_inertia).trace() / 3;
+    const SliderForce rolling =
+        slide(history.rolling, rates.rolling, k, damper(material, k, mean_mobility), material.rolling_length * found.normal);
+    write(rolling, history.rolling);
+    found.torque += rolling.force;
+    found.energy += 0.5 * k * rolling.spring.squaredNorm();
+  }
+}
+
+/// A spring of a face contact: a corner, or the deepest point.
+struct PointForce {
+  Vector3 point;  // m
+  Vector3 normal, lateral;
+  double force;      // N; elastic
+  double stiffness;  // N/m; of the damper
+};
+
+/// The springs of a face contact, and what they add up to.
+class Pressure {
+ public:
+  Pressure(const FaceContact& faces, double face_stiffness, const Contact& deepest, const NormalForce& elastic,
+           const ContactMaterial& material, const Vector3& origin) {
+    const double rest = 1 - faces.share;
+    if (rest > 0 && deepest.depth > 0) {
+      add({origin + deepest.arm1, deepest.normal, Vector3::Zero(), rest * elastic.force,
+           rest * damped_stiffness(material, elastic.stiffness)});
+    }
+    for (int k = 0; k < faces.count; ++k) {
+      const FaceCorner& corner = faces.corners[static_cast<std::size_t>(k)];
+      const double stiffness = faces.share * face_stiffness * corner.weight;
+      add({corner.point, faces.normal, corner.lateral, stiffness * corner.depth, stiffness});
+    }
+  }
+
+  double force() const { return force_; }          // N
+  double stiffness() const { return stiffness_; }  // N/m
+
+  Vector3 centre() const {
+    Vector3 moment = Vector3::Zero();
+    for (int k = 0; k < count_; ++k)
+      moment += points_[static_cast<std::size_t>(k)].force * points_[static_cast<std::size_t>(k)].point;
+    return moment / force_;
+  }
+
+  /// The root of the mean square distance of the pressure from an axis, m.
+  double spread(const Vector3& centre, const Vector3& axis) const {
+    double sum = 0;
+    for (int k = 0; k < count_; ++k) {
+      const PointForce& one = points_[static_cast<std::size_t>(k)];
+      sum += one.force * axis.cross(one.point - centre).squaredNorm();
+    }
+    return std::sqrt(sum / force_);
+  }
+
+  /// Adds the forces on body 1, with the torque about `centre`. `damping` (s) times the stiffness is the damper of each spring.
+  void apply(double damping, const Vector3& centre, const Body& body1, const Body& body2, ContactForce& found) const {
+    for (int k = 0; k < count_; ++k) {
+      const PointForce& one = points_[static_cast<std::size_t>(k)];
+      const Vector3 velocity =
+          body1.velocity_at(one.point - body1.pose.position) - body2.velocity_at(one.point - body2.pose.position);
+      const double normal = std::max(0.0, one.force + damping * one.stiffness * velocity.dot(one.normal));
+      const Vector3 force = -normal * one.normal - one.force * one.lateral;
+      found.normal += normal;
+      found.force += force;
+      found.torque += (one.point - centre).cross(force);
+    }
+  }
+
+ private:
+  void add(const PointForce& one) {
+    points_[static_cast<std::size_t>(count_++)] = one;
+    force_ += one.force;
+    stiffness_ += one.stiffness;
+  }
+
+  std::array<PointForce, FaceContact::kMostCorners + 1> points_;
+  int count_ = 0;
+  double force_ = 0, stiffness_ = 0;
+};
 
 }  // namespace
 
 ContactForce contact_force(const Contact& contact, const NormalForce& elastic, const ContactMaterial& material, const Body& body1,
                            const Body& body2, double step, ContactHistory& history) {
   const Vector3& n = contact.normal;
-  Mobility mobility;
-  add_mobility(body1, contact.arm1, n, mobility);
-  add_mobility(body2, contact.arm2, n, mobility);
-  const auto damper = [&](double stiffness, double inverse_mass) {
-    return inverse_mass > 0 ? 2 * material.damping_ratio * std::sqrt(stiffness / inverse_mass) : 0;
-  };
-
-  const Vector3 velocity = body1.velocity_at(contact.arm1) - body2.velocity_at(contact.arm2);
-  const double approach = velocity.dot(n);
-  // The damper of hertz_damping_ratio() uses 5/6 of the tangent stiffness.
-  const double damped_stiffness = material.law == NormalLaw::Hertz ? 5.0 / 6 * elastic.stiffness : elastic.stiffness;
+  const Mobility mobility = find_mobility(contact, body1, body2);
+  const double approach = (body1.velocity_at(contact.arm1) - body2.velocity_at(contact.arm2)).dot(n);
+  const double damped = damped_stiffness(material, elastic.stiffness);
   ContactForce found;
-  found.normal = std::max(0.0, elastic.force + damper(damped_stiffness, mobility.normal) * approach);
+  found.normal = std::max(0.0, elastic.force + damper(material, damped, mobility.normal) * approach);
   found.force = -found.normal * n;
   found.energy = elastic.energy;
-  if (material.friction == 0 && material.rolling_length == 0) return found;
-
-  const Vector3 sliding_rate = velocity - approach * n;
-  const Vector3 turning = body1.angular_velocity - body2.angular_velocity;
-  const Vector3 rolling_rate = turning - turning.dot(n) * n;
-  const double stiffness = material.tangential_ratio * elastic.stiffness;
-  if (step > 0) {
-    const double spin = 0.5 * (body1.angular_velocity + body2.angular_velocity).dot(n);
-    advance(contact, sliding_rate, rolling_rate, spin, stiffness, step, history);
-  }
-  const auto write = [&](const SliderForce& slider, Vector3& spring) {
-    if (step > 0) spring = slider.spring;
-  };
-  if (material.friction > 0 && stiffness > 0) {
-    const SliderForce friction =
-        slide(history.sliding, sliding_rate, stiffness, damper(stiffness, mobility.tangential), material.friction * found.normal);
-    write(friction, history.sliding);
-    found.force += friction.force;
-    found.energy += 0.5 * stiffness * friction.spring.squaredNorm();
-    found.slips = friction.slips;
-  }
-  if (material.rolling_length > 0 && elastic.stiffness > 0) {
-    const double k = kRollingStiffness * elastic.stiffness * material.rolling_length * material.rolling_length;
-    const double mean_mobility = (body1.inverse_inertia + body2.inverse_inertia).trace() / 3;
-    const SliderForce rolling =
-        slide(history.rolling, rolling_rate, k, damper(k, mean_mobility), material.rolling_length * found.normal);
-    write(rolling, history.rolling);
-    found.rolling_torque = rolling.force;
-    found.energy += 0.5 * k * rolling.spring.squaredNorm();
-  }
+  add_sliders(contact, {elastic.stiffness, 0, mobility}, material, body1, body2, step, history, found);
   return found;
+}
+
+ContactForce face_contact_force(const FaceContact& faces, double face_stiffness, const NormalForce& elastic,
+                                const ContactMaterial& material, const Body& body1, const Body& body2, double step,
+                                Contact& contact, ContactHistory& history) {
+  const Pressure pressure(faces, face_stiffness, contact, elastic, material, body1.pose.position);
+  if (pressure.force() > 0) {
+    const Vector3 centre = pressure.centre();
+    contact.arm1 = centre - body1.pose.position;
+    contact.arm2 = centre - body2.pose.position;
+  }
+  const Vector3 centre = body1.pose.position + contact.arm1;
+  const Mobility mobility = find_mobility(contact, body1, body2);
+  const double stiffness = pressure.stiffness();
+  ContactForce found;
+  pressure.apply(stiffness > 0 ? damper(material, stiffness, mobility.normal) / stiffness : 0, centre, body1, body2, found);
+
+  // The forces by the weights, which depend on the poses, too.
+  const double energy = 0.5 * face_stiffness * faces.mean_square;
+  const Vector3 by_share = (elastic.energy - energy) * faces.share_by_way;
+  found.force += by_share;
+  found.torque += (elastic.energy - energy) * faces.share_by_turn + (faces.origin - centre).cross(by_share) -
+                  0.5 * faces.share * face_stiffness * faces.turning;
+  found.energy = faces.share * energy + (1 - faces.share) * elastic.energy;
+
+  const double grip = faces.share * face_stiffness + (1 - faces.share) * elastic.stiffness;
+  const double spread = pressure.force() > 0 ? pressure.spread(centre, contact.normal) : 0;
+  if (step > 0 && spread == 0) history.release_twist();
+  add_sliders(contact, {grip, spread, mobility}, material, body1, body2, step, history, found);
+  return found;
+}
+
+double face_stiffness(const ContactMaterial& material, double width) {
+  return material.law == NormalLaw::Hooke ? material.stiffness : 2 * material.stiffness * width;
 }
 
 }  // namespace granular

@@ -5,6 +5,7 @@
 
 #include "kernel/body.hpp"
 #include "kernel/contact_material.hpp"
+#include "kernel/face_contact.hpp"
 #include "supernormal/contact/contact_curvature.hpp"
 
 namespace granular {
@@ -24,7 +25,7 @@ SliderForce slide(const Vector3& spring, const Vector3& rate, double stiffness, 
 /// The history of a pair, in the world frame, for body 1.
 struct ContactHistory {
   Vector3 normal = Vector3::Zero();   ///< of the last query, from body 1 to body 2; zero if there was none
-  Vector3 sliding = Vector3::Zero();  ///< m; deflection of the tangential spring
+  Vector3 sliding = Vector3::Zero();  ///< m; deflection of the tangential spring; of faces, along the normal: of the twist spring
   Vector3 rolling = Vector3::Zero();  ///< rad; deflection of the rolling spring
   double stiffness = 0;               ///< N/m; of the tangential spring in the last step
 
@@ -36,6 +37,8 @@ struct ContactHistory {
     rolling.setZero();
     stiffness = 0;
   }
+  /// Faces that no longer meet have no twist spring.
+  void release_twist() { sliding -= sliding.dot(normal) * normal; }
 
   /// Reads and writes a history as an array of numbers.
   static ContactHistory load(const double* values) {
@@ -74,11 +77,11 @@ struct Contact {
 
 /// The result of the contact law.
 struct ContactForce {
-  Vector3 force = Vector3::Zero();           ///< N; on body 1, at the contact point; the opposite acts on body 2
-  Vector3 rolling_torque = Vector3::Zero();  ///< N m; on body 1, in addition to the force's; the opposite acts on body 2
-  double normal = 0;                         ///< N; >= 0
-  double energy = 0;                         ///< J; in the springs
-  bool slips = false;                        ///< whether friction is at its limit
+  Vector3 force = Vector3::Zero();   ///< N; on body 1, at the contact point; the opposite acts on body 2
+  Vector3 torque = Vector3::Zero();  ///< N m; on body 1, in addition to the force's; the opposite acts on body 2
+  double normal = 0;                 ///< N; >= 0
+  double energy = 0;                 ///< J; in the springs
+  bool slips = false;                ///< whether friction is at its limit
 };
 
 /// The contact force for the elastic normal force `elastic`:
@@ -88,5 +91,18 @@ struct ContactForce {
 /// `history` holds the springs and the normal at `step` (s) earlier, and is advanced. With a step of 0 it is only read.
 ContactForce contact_force(const Contact& contact, const NormalForce& elastic, const ContactMaterial& material, const Body& body1,
                            const Body& body2, double step, ContactHistory& history);
+
+/// The contact force where faces meet:
+/// - the corners share it. Each has its weight in the stiffness `face_stiffness` (N/m), and in the damper;
+/// - the deepest point, with `elastic`, has what FaceContact::share leaves;
+/// - friction acts at the centre of pressure, with the spring of the pair and a twist spring about the normal. The spread of the
+///   pressure is the lever arm of the twist, and both springs have one common limit.
+/// The contact point of `contact` becomes the centre of pressure.
+ContactForce face_contact_force(const FaceContact& faces, double face_stiffness, const NormalForce& elastic,
+                                const ContactMaterial& material, const Body& body1, const Body& body2, double step,
+                                Contact& contact, ContactHistory& history);
+
+/// The stiffness (N/m) of two flat faces: Hooke's, or the flat punch of hertz_force().
+double face_stiffness(const ContactMaterial& material, double width);
 
 }  // namespace granular

@@ -1,6 +1,7 @@
 #include "kernel/pair_contact.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace granular {
 namespace {
@@ -30,7 +31,11 @@ PairContact contact_of(const supernormal::Proximity& found, const supernormal::C
     pair.state = PairState::Failed;
     return pair;
   }
-  if (found.gap >= 0) {
+  const double gap = found.gap;
+  const std::optional<FaceContact> faces =
+      gap < body1.bulge + body2.bulge ? find_face_contact(body1, body2, found.normal) : std::nullopt;
+  pair.do_faces_meet = faces && faces->count > 0;
+  if (gap >= 0 && !pair.do_faces_meet) {
     if (step > 0) {
       history.release_springs();
       // A normal that still proves the separation stays as it is, to the bit. So queries may be skipped while it does.
@@ -40,9 +45,16 @@ PairContact contact_of(const supernormal::Proximity& found, const supernormal::C
     return pair;
   }
   pair.state = PairState::Touching;
-  pair.contact = {found.normal, found.contact - body1.pose.position, found.contact - body2.pose.position, -found.gap};
-  const NormalForce elastic = elastic_force(material, curvature, std::min(body1.width, body2.width), -found.gap);
-  pair.force = contact_force(pair.contact, elastic, material, body1, body2, step, history);
+  pair.contact = {found.normal, found.contact - body1.pose.position, found.contact - body2.pose.position, std::max(0.0, -gap)};
+  const double width = std::min(body1.width, body2.width);
+  const NormalForce elastic = gap < 0 ? elastic_force(material, curvature, width, -gap) : NormalForce();
+  if (faces) {
+    pair.force =
+        face_contact_force(*faces, face_stiffness(material, width), elastic, material, body1, body2, step, pair.contact, history);
+  } else {
+    if (step > 0 && !body1.faces.empty() && !body2.faces.empty()) history.release_twist();
+    pair.force = contact_force(pair.contact, elastic, material, body1, body2, step, history);
+  }
   if (step > 0) history.normal = found.normal;
   return pair;
 }

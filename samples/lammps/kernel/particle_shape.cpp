@@ -23,10 +23,17 @@ double bounding_radius(const Vector3& half_axes, double delta, double epsilon) {
 ParticleShape::ParticleShape(const Vector3& half_axes, double delta, double epsilon)
     : body(half_axes, delta, epsilon),
       bounding_radius(granular::bounding_radius(half_axes, delta, epsilon)),
-      width(half_axes.mean()) {
+      width(half_axes.mean()),
+      faces(find_faces(body)) {
   const supernormal::MassProperties mass = body.mass_properties();
   volume = mass.volume;
   unit_inertia = mass.inertia().diagonal() / mass.volume;
+  for (const Face& face : faces) {
+    bulge = std::max(bulge, face.bulge);
+    for (int k = 0; k < face.count; ++k) {
+      bounding_radius = std::max(bounding_radius, std::hypot(face.height, face.vertices.at(static_cast<std::size_t>(k)).norm()));
+    }
+  }
 }
 
 }  // namespace granular

@@ -1,11 +1,10 @@
 // A superellipsoid with the quantities that a particle simulation needs at every step.
 #pragma once
 
+#include "kernel/face.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 
 namespace granular {
-
-using supernormal::Vector3;
 
 /// The shape of all particles of one size and kind.
 struct ParticleShape {
@@ -13,10 +12,12 @@ struct ParticleShape {
   ParticleShape(const Vector3& half_axes, double delta, double epsilon);
 
   supernormal::Superellipsoid body;
-  double bounding_radius;  ///< m; largest distance of a point of the body from its centre
+  double bounding_radius;  ///< m; largest distance of a point of the body, or of a face, from its centre
   double width;            ///< m; the mean half-axis
   double volume;           ///< m^3
   Vector3 unit_inertia;    ///< m^2; principal moments of inertia over the mass, along the axes of the body
+  std::vector<Face> faces;
+  double bulge = 0;  ///< m; no face sticks out of the body by more than this
 };
 
 /// The largest distance of a point of a superellipsoid from its centre, m.

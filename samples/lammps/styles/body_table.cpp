@@ -79,6 +79,8 @@ void BodyTable::read_motion() {
     Body& body = bodies_[i];
     body.shape = &shape.body;
     body.width = shape.width;
+    body.faces = shape.faces;
+    body.bulge = shape.bulge;
     body.pose.position = Vector3::Map(atom.x[i]);
     body.pose.rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
     body.velocity = Vector3::Map(atom.v[i]);

@@ -235,10 +235,12 @@ void PairSupernormal::solve_pending(double step) {
     if (step > 0) {
       *pending.known = 1;
       pending.history.store(pending.values);
-      // Twice the margin of separation().
+      // Twice the margin of separation(). Faces may meet before the bodies do.
       const double rounding = kProofMargin * (bodies_->shape(first).bounding_radius + bodies_->shape(second).bounding_radius);
-      *pending.proof = pair.state == PairState::Apart ? separation(first, second, pending.history.normal) - found[k].gap + rounding
-                                                      : std::numeric_limits<double>::infinity();
+      const double bulge = bodies_->shape(first).bulge + bodies_->shape(second).bulge;
+      *pending.proof = pair.state == PairState::Apart
+                           ? separation(first, second, pending.history.normal) - found[k].gap + bulge + rounding
+                           : std::numeric_limits<double>::infinity();
     }
     count_and_apply(pending.i, pending.j, pair);
   }
@@ -255,6 +257,7 @@ void PairSupernormal::count_and_apply(int i, int j, const PairContact& pair) {
   if (pair.state == PairState::Apart) return;
   sums_[Contacts] += part;
   sums_[Slipping] += pair.force.slips ? part : 0;
+  sums_[Faces] += pair.do_faces_meet ? part : 0;
   apply(i, j, pair);
 }
 

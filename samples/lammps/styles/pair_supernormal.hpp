@@ -42,8 +42,8 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   const supernormal::Settings& query_settings() const { return query_settings_; }
 
  private:
-  enum Sum { Contacts, Slipping, Queries, Evaluations, SumCount };  // compute pair
-  static constexpr int kSingles = 12;                               // compute pair/local
+  enum Sum { Contacts, Slipping, Queries, Evaluations, Faces, SumCount };  // compute pair
+  static constexpr int kSingles = 12;                                      // compute pair/local
 
   void allocate();
   void report_volumes() const;

@@ -136,7 +136,7 @@ TEST_CASE("lammps: friction stays in Coulomb's cone and rotates with the pair") 
     }();
     const double friction = (before.force.force - before.force.force.dot(before.contact.normal) * before.contact.normal).norm();
     CHECK(friction <= 0.4 * before.force.normal * (1 + 1e-12));
-    CHECK(before.force.rolling_torque.norm() <= 1e-3 * before.force.normal * (1 + 1e-12));
+    CHECK(before.force.torque.norm() <= 1e-3 * before.force.normal * (1 + 1e-12));
     // Both bodies rotate by half a revolution as one, and the springs rotate with them.
     const Vector3 spin = 30 * Vector3(1, -2, 0.5).normalized();
     pair.first.set_velocity(Vector3::Zero(), Vector3::Zero());
@@ -157,7 +157,7 @@ TEST_CASE("lammps: friction stays in Coulomb's cone and rotates with the pair") 
       turned = pair.find(step);
     }
     CHECK((turned.force.force - rotation * still.force.force).norm() < 2e-3 * still.force.force.norm());
-    CHECK((turned.force.rolling_torque - rotation * still.force.rolling_torque).norm() <= 2e-3 * still.force.rolling_torque.norm());
+    CHECK((turned.force.torque - rotation * still.force.torque).norm() <= 2e-3 * still.force.torque.norm());
   }
 }
 

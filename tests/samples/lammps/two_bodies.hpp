@@ -55,6 +55,8 @@ class Particle {
   void update() {
     body.shape = &shape->body;
     body.width = shape->width;
+    body.faces = shape->faces;
+    body.bulge = shape->bulge;
     body.pose.rotation = attitude.toRotationMatrix();
     body.inverse_mass = 1 / mass;
     body.inverse_inertia =

@@ -1,6 +1,7 @@
 // A rigid surface in contact with particles.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "kernel/particle_shape.hpp"
@@ -8,14 +9,13 @@
 
 namespace granular {
 
-using supernormal::Matrix3;
-
 /// An overlap of a particle and a wall, in the frame of the wall.
 struct WallContact {
   Vector3 normal;                       ///< unit, from the particle to the wall
   Vector3 point;                        ///< m; where the force acts
-  double depth = 0;                     ///< m; > 0
+  double depth = 0;                     ///< m; > 0, or > -bulge of the particle if there is a plane
   Matrix3 curvature = Matrix3::Zero();  ///< 1/m; of the wall; negative where it is concave
+  std::optional<Vector3> plane{};       ///< m; a point of the wall's plane, on which faces rest
 };
 
 /// A wall at rest in its own frame.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "supernormal/contact/contact_curvature.hpp"
 
@@ -24,6 +25,7 @@ ContactHistory take_nearest(WallHistory& old, const Vector3& n) {
 
 NormalForce elastic_force(const ContactMaterial& material, const ParticleShape& shape, const Body& particle, const Vector3& n,
                           double depth, const Matrix3& wall_curvature) {
+  if (depth <= 0) return {};
   if (material.law == NormalLaw::Hooke) return hooke_force(material, depth);
   const Matrix3 sum = supernormal::find_curvature(shape.body, particle.pose, n) + wall_curvature;
   return hertz_force(material, depth, supernormal::find_contact_curvature(sum, n), shape.width);
@@ -47,16 +49,24 @@ WallForce find_wall_force(Wall& wall, const Body& wall_body, const ParticleShape
   for (const WallContact& found : contacts) {
     const Vector3 arm2 = rotation * found.point;
     const Vector3 arm1 = wall_body.pose.position + arm2 - particle.pose.position;
-    const Contact contact{rotation * found.normal, arm1, arm2, found.depth};
+    Contact contact{rotation * found.normal, arm1, arm2, std::max(0.0, found.depth)};
+    const std::optional<FaceContact> faces =
+        found.plane ? find_plane_face_contact(particle, wall_body.pose.position + rotation * *found.plane, contact.normal)
+                    : std::nullopt;
+    const bool do_faces_touch = faces && faces->count > 0;
+    if (found.depth <= 0 && !do_faces_touch) continue;
     const NormalForce elastic =
         elastic_force(material, shape, particle, contact.normal, found.depth, rotation * found.curvature * rotation.transpose());
     ContactHistory one = take_nearest(old, contact.normal);
-    const ContactForce force = contact_force(contact, elastic, material, particle, wall_body, step, one);
+    if (!faces && !particle.faces.empty()) one.release_twist();
+    const ContactForce force = faces ? face_contact_force(*faces, face_stiffness(material, shape.width), elastic, material,
+                                                          particle, wall_body, step, contact, one)
+                                     : contact_force(contact, elastic, material, particle, wall_body, step, one);
     one.normal = contact.normal;
     if (kept.count < WallHistory::kMost) kept.contacts.at(static_cast<std::size_t>(kept.count++)) = one;
     sum.force += force.force;
-    sum.torque += arm1.cross(force.force) + force.rolling_torque;
-    sum.wall_torque -= arm2.cross(force.force) + force.rolling_torque;
+    sum.torque += contact.arm1.cross(force.force) + force.torque;
+    sum.wall_torque -= contact.arm2.cross(force.force) + force.torque;
     sum.energy += force.energy;
     ++sum.contacts;
   }

@@ -1,0 +1,85 @@
+"""Bricks rest on their faces: one as in ODE, and a wall of them."""
+
+import csv
+import subprocess
+
+COURSES, LONGEST = 6, 5
+LENGTH, HEIGHT = 0.04, 0.02  # m
+STEPS = 50000
+
+CATALOGUE = """[brick]
+half_axes = [0.02, 0.015, 0.01]
+delta = 20
+epsilon = 20
+density = 2000
+source = "a brick"
+"""
+
+SCENE = """seed = 3
+catalogue = "catalogue.toml"
+[container]
+kind = "box"
+width = [0.2, 0.2]
+[drop]
+height = 0.005
+gap = 0.05
+total = 4
+[[grain]]
+name = "brick"
+fraction = 1
+[time]
+duration = 1.0
+step = 5e-4
+frame = 0.1
+[solver]
+iterations = 40
+erp = 0.2
+cfm = 1e-10
+[compliance]
+stiffness = 20000
+damping = 20
+[gravity]
+acceleration = [0, 0, -9.81]
+[friction]
+coefficient = 0.5
+"""
+
+
+def check_ode(driver):
+    """Four bricks fall on the floor in any orientation: falling_particles, and LAMMPS from the same start with the same stiffness."""
+    (driver.folder / "catalogue.toml").write_text(CATALOGUE, encoding="utf-8")
+    scene = driver.folder / "brick.toml"
+    scene.write_text(SCENE, encoding="utf-8")
+    program = driver.program.parent.parent / "falling_particles/falling_particles"
+    subprocess.run([program, "-q", "-t", "1", "--no-pictures", "--scene", scene, "--out", driver.folder], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([program, "--scene", scene, "--to-lammps", driver.folder], check=True)
+    (table,) = driver.run(str((driver.folder / "brick").resolve()))
+    with open(driver.folder / "brick/trajectory.csv", encoding="utf-8") as file:
+        rigid = [row for row in csv.DictReader(file)][-4:]
+    soft = sorted(driver.dump("brick.lammpstrj").items())[-1][1]
+    heights = zip(sorted(float(row["z_m"]) for row in rigid), sorted(row[4] for row in soft))
+    yield "four bricks on the floor: height of the centre, from ODE's, of the half-height", max(abs(a - b) for a, b in heights) / 0.01, 1e-4
+    yield "four bricks on the floor: kinetic energy, of the largest", table[-1]["Temp"] / max(row["Temp"] for row in table), 1e-20
+
+
+def check_wall(driver):
+    lines = []
+    for course in range(COURSES):
+        count = LONGEST - course % 2
+        lines += [f"create_atoms 1 single {(k - (count - 1) / 2) * 1.005 * LENGTH} 0 {(course + 0.5) * HEIGHT}" for k in range(count)]
+    (driver.folder / "wall.bricks").write_text("\n".join(lines) + "\n", encoding="ascii")
+    (table,) = driver.run("bricks", 1, bricks="wall.bricks", steps=STEPS, every=STEPS // 10, out="wall.dump")
+    frames = driver.dump("wall.dump")
+    start, end = frames[0], frames[STEPS]
+    moved = max(max(abs(a - b) for a, b in zip(old[1:4], new[1:4])) for old, new in zip(start, end))
+    tilted = max(2 * max(abs(q) for q in row[5:8]) for row in end)
+    yield "wall of bricks after 1 s: distance moved, of the height of a brick", moved / HEIGHT, 0.01
+    yield "wall of bricks: rotation, rad", tilted, 2e-3
+    yield "wall of bricks: kinetic energy, J", table[-1]["v_kinetic"], 1e-12
+    yield "wall of bricks: weight on the floor", abs(table[-1]["v_borne"] - 1), 1e-6
+
+
+def check(driver):
+    """Yields the name, the value and the limit of each comparison."""
+    yield from check_ode(driver)
+    yield from check_wall(driver)

@@ -1,0 +1,266 @@
+#include "kernel/face_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace granular {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;  // rad
+
+// Faces count in full if they overlap in this fraction of a square as wide as the narrower face. Bodies that overlap with their
+// edges only, in two directions, have less: there the nearest face may change.
+constexpr double kFullOverlap = 0.2;
+
+// The sine of the angle between edges that count as parallel: such corners have no weight.
+constexpr double kParallel = 1e-9;
+
+double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+template <typename Array>
+auto& at(Array& array, int k) {
+  return array[static_cast<std::size_t>(k)];
+}
+
+/// A function that is 0 up to 0 and 1 from 1 on, with its slope.
+struct Ramp {
+  double value, slope;
+
+  explicit Ramp(double x) {
+    const double t = std::clamp(x, 0.0, 1.0);
+    value = t * t * (3 - 2 * t);
+    slope = 6 * t * (1 - t);
+  }
+};
+
+/// A directed edge of one of the polygons, in the plane of face 2.
+struct Edge {
+  Vector2 start;
+  Vector2 direction;  // unit
+  double angle;       // rad; of the direction
+  double rise;        // of the edge above face 2, by its length in the plane; 0 for edges of face 2
+};
+
+/// A corner of the region, with the edges before and after it.
+struct Corner {
+  Vector2 place;
+  int in, out;
+};
+
+/// The region in which two faces overlap, in the plane of face 2: x and y in the plane, z out of body 2. Face 1 is a sloped plane.
+/// All depths are those of its points below z = 0.
+class Region {
+ public:
+  static constexpr int kFirstOfTwo = Face::kMostVertices;  // edges from here on belong to face 2
+
+  Region(const FacePose& face1, const Matrix3& frame, const Vector3& origin) : frame_(frame), origin_(origin) {
+    const Vector3 normal = frame.transpose() * face1.frame.col(2);
+    const Vector3 centre = frame.transpose() * (face1.centre - origin);
+    slope_ = normal.head<2>() / normal.z();
+    depth_ = -centre.z() - slope_.dot(centre.head<2>());
+    const Eigen::Matrix<double, 3, 2> sides = frame.transpose() * face1.frame.leftCols<2>();
+    std::array<Vector3, Face::kMostVertices> vertices;
+    // Seen from outside of body 2, face 1 is clockwise.
+    const int count = face1.face->count;
+    for (int k = 0; k < count; ++k) at(vertices, k) = sides * at(face1.face->vertices, count - 1 - k) + centre;
+    for (int k = 0; k < count; ++k) {
+      const int next = (k + 1) % count;
+      const Vector3 along = at(vertices, next) - at(vertices, k);
+      const double length = along.head<2>().norm();
+      at(edges_, k) = {at(vertices, k).head<2>(), along.head<2>() / length, std::atan2(along.y(), along.x()), along.z() / length};
+      at(corners_, k) = {at(vertices, k).head<2>(), (k + count - 1) % count, k};
+    }
+    count_ = count;
+  }
+
+  /// Cuts away what is not above face 2.
+  void clip(const Face& face2) {
+    for (int k = 0; k < face2.count && count_ > 0; ++k) {
+      const Vector2& start = at(face2.vertices, k);
+      const Vector2 along = at(face2.vertices, (k + 1) % face2.count) - start;
+      at(edges_, kFirstOfTwo + k) = {start, along.normalized(), std::atan2(along.y(), along.x()), 0};
+      clip(kFirstOfTwo + k);
+    }
+  }
+
+  double area() const {
+    double twice = 0;
+    for (int k = 1; k + 1 < count_; ++k) {
+      twice += cross(at(corners_, k).place - at(corners_, 0).place, at(corners_, k + 1).place - at(corners_, 0).place);
+    }
+    return 0.5 * twice;
+  }
+
+  /// Adds corners, mean_square and turning.
+  void add_corners(FaceContact& contact) const {
+    Vector3 turning = Vector3::Zero();
+    for (int k = 0; k < count_; ++k) {
+      const Corner& corner = at(corners_, k);
+      const double depth = depth_at(corner.place);
+      if (depth <= 0) continue;
+      const double weight = turning_angle(corner) / kTurn;
+      at(contact.corners, contact.count++) = {lift(corner.place), frame_ * lateral(corner), depth, weight};
+      contact.mean_square += weight * depth * depth;
+      turning += depth * depth / kTurn * (rotation_of(corner.out) - rotation_of(corner.in));
+    }
+    contact.turning = frame_ * turning;
+  }
+
+  /// The derivatives of the area by a displacement and a rotation (about the origin) of body 1.
+  void add_area_derivatives(double factor, Vector3& by_way, Vector3& by_turn) const {
+    for (int k = 0; k < count_; ++k) {
+      const Corner &here = at(corners_, k), &next = at(corners_, (k + 1) % count_);
+      if (here.out >= kFirstOfTwo) continue;
+      const Vector2 along = next.place - here.place;
+      const Vector3 growth = factor * (frame_ * Vector3(along.y(), -along.x(), 0));
+      by_way += growth;
+      by_turn += (lift(0.5 * (here.place + next.place)) - origin_).cross(growth);
+    }
+  }
+
+ private:
+  double depth_at(const Vector2& place) const { return depth_ + slope_.dot(place); }
+
+  Vector3 lift(const Vector2& place) const { return origin_ + frame_ * Vector3(place.x(), place.y(), -depth_at(place)); }
+
+  /// Sutherland and Hodgman's clipping by one edge. The new corners name their edges, so an edge of no length is harmless.
+  void clip(int by) {
+    const Edge& edge = at(edges_, by);
+    std::array<Corner, FaceContact::kMostCorners> kept;
+    int count = 0;
+    for (int k = 0; k < count_; ++k) {
+      const Corner &here = at(corners_, k), &next = at(corners_, (k + 1) % count_);
+      const double inside = cross(edge.direction, here.place - edge.start),
+                   next_inside = cross(edge.direction, next.place - edge.start);
+      if (inside >= 0) at(kept, count++) = here;
+      if ((inside >= 0) == (next_inside >= 0)) continue;
+      const Vector2 place = here.place + inside / (inside - next_inside) * (next.place - here.place);
+      at(kept, count++) = inside >= 0 ? Corner{place, here.out, by} : Corner{place, by, here.out};
+    }
+    std::copy_n(kept.begin(), count, corners_.begin());
+    count_ = count;
+  }
+
+  double turning_angle(const Corner& corner) const {
+    const double angle = at(edges_, corner.out).angle - at(edges_, corner.in).angle;
+    return angle < -0.25 * kTurn ? angle + kTurn : angle > 0.75 * kTurn ? angle - kTurn : angle;
+  }
+
+  /// d(angle of an edge) by a rotation of body 1.
+  Vector3 rotation_of(int edge) const {
+    if (edge >= kFirstOfTwo) return Vector3::Zero();
+    const Edge& moved = at(edges_, edge);
+    return {-moved.rise * moved.direction.x(), -moved.rise * moved.direction.y(), 1};
+  }
+
+  /// How the depth of a corner depends on a displacement along the plane.
+  Vector3 lateral(const Corner& corner) const {
+    const bool in_of_one = corner.in < kFirstOfTwo, out_of_one = corner.out < kFirstOfTwo;
+    if (in_of_one && out_of_one) return Vector3::Zero();  // a vertex of face 1 moves with it
+    Vector2 by_way = -slope_;                             // a vertex of face 2 stands, and face 1 moves past it
+    if (in_of_one != out_of_one) {
+      // A crossing moves along the edge of face 2.
+      const Vector2& edge1 = at(edges_, in_of_one ? corner.in : corner.out).direction;
+      const Vector2& edge2 = at(edges_, in_of_one ? corner.out : corner.in).direction;
+      const Vector2 outwards(edge1.y(), -edge1.x());
+      const double sine = edge2.dot(outwards);
+      if (std::abs(sine) > kParallel) by_way += slope_.dot(edge2) / sine * outwards;
+    }
+    return {by_way.x(), by_way.y(), 0};
+  }
+
+  Matrix3 frame_;
+  Vector3 origin_;
+  Vector2 slope_;  // of the depth
+  double depth_;   // m; at the origin
+  std::array<Edge, std::size_t{2} * Face::kMostVertices> edges_;
+  std::array<Corner, FaceContact::kMostCorners> corners_;
+  int count_ = 0;
+};
+
+/// How much two faces with these outward normals count, and its derivative by a rotation of body 1.
+struct Tilt {
+  double share = 0;
+  Vector3 by_turn = Vector3::Zero();
+
+  Tilt(const Vector3& normal1, const Vector3& normal2, double largest) {
+    const double cosine = -normal1.dot(normal2);
+    if (!(cosine > std::cos(2 * largest))) return;
+    const Vector3 axis = normal1.cross(normal2);
+    const double sine = axis.norm(), angle = std::atan2(sine, cosine);
+    const Ramp ramp(angle / largest - 1);
+    share = 1 - ramp.value;
+    if (ramp.slope > 0) by_turn = -ramp.slope / largest / sine * axis;
+  }
+};
+
+/// The face of a body whose outward normal is nearest to `direction`.
+std::optional<FacePose> find_face(const Body& body, const Vector3& direction) {
+  const Vector3 own = body.pose.rotation.transpose() * direction;
+  int axis = 0;
+  own.cwiseAbs().maxCoeff(&axis);
+  const auto face = std::find_if(body.faces.begin(), body.faces.end(), [&](const Face& one) { return one.axis == axis; });
+  if (face == body.faces.end()) return std::nullopt;
+  return FacePose(*face, own[axis] > 0 ? 1 : -1, body.pose);
+}
+
+/// The same contact with the bodies exchanged.
+void exchange(FaceContact& contact) {
+  contact.normal = -contact.normal;
+  contact.turning = -contact.turning;
+  contact.share_by_way = -contact.share_by_way;
+  contact.share_by_turn = -contact.share_by_turn;
+  for (int k = 0; k < contact.count; ++k) {
+    Vector3& lateral = contact.corners[static_cast<std::size_t>(k)].lateral;
+    lateral = -lateral;
+  }
+}
+
+}  // namespace
+
+std::optional<FaceContact> find_face_contact(const Body& body1, const Body& body2, const Vector3& normal) {
+  if (body1.faces.empty() || body2.faces.empty()) return std::nullopt;
+  std::optional<FacePose> face1 = find_face(body1, normal), face2 = find_face(body2, -normal);
+  if (!face1 || !face2) return std::nullopt;
+  // The smaller face is laid over the larger one.
+  const bool exchanged = face1->face->width > face2->face->width;
+  if (exchanged) std::swap(face1, face2);
+  const Tilt tilt(face1->frame.col(2), face2->frame.col(2), std::min(face1->face->tilt, face2->face->tilt));
+  if (tilt.share == 0) return std::nullopt;
+  Region region(*face1, face2->frame, face2->centre);
+  region.clip(*face2->face);
+  const double full = kFullOverlap * face1->face->width * face1->face->width;
+  const Ramp overlap(region.area() / full);
+  if (overlap.value == 0) return std::nullopt;
+
+  FaceContact contact;
+  contact.normal = -face2->frame.col(2);
+  contact.origin = face2->centre;
+  region.add_corners(contact);
+  contact.share = tilt.share * overlap.value;
+  contact.share_by_turn = overlap.value * tilt.by_turn;
+  region.add_area_derivatives(tilt.share * overlap.slope / full, contact.share_by_way, contact.share_by_turn);
+  if (exchanged) exchange(contact);
+  return contact;
+}
+
+std::optional<FaceContact> find_plane_face_contact(const Body& body, const Vector3& point, const Vector3& normal) {
+  if (body.faces.empty()) return std::nullopt;
+  const std::optional<FacePose> face = find_face(body, normal);
+  if (!face) return std::nullopt;
+  const Tilt tilt(face->frame.col(2), -normal, face->face->tilt);
+  if (tilt.share == 0) return std::nullopt;
+  Matrix3 frame;
+  frame << normal.unitOrthogonal(), Vector3::Zero(), -normal;
+  frame.col(1) = frame.col(2).cross(frame.col(0));
+  FaceContact contact;
+  contact.normal = normal;
+  contact.origin = point;
+  Region(*face, frame, point).add_corners(contact);
+  contact.share = tilt.share;
+  contact.share_by_turn = tilt.by_turn;
+  return contact;
+}
+
+}  // namespace granular
