@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <supernormal/shapes/superellipsoid.hpp>
 #include <vector>
 
 #include "input/read_data.hpp"
@@ -32,6 +33,8 @@ struct Options {
   double density = 1000;
   std::string name;
   std::string out = "out/fit";
+  std::string sides = "auto";
+  fit::ShapeLimits limits;
   bool uses_vertices = false;
   bool is_quick = false;
   int bodies = 1;
@@ -64,6 +67,11 @@ fit::FitSettings settings_of(const Options& options, const fit::Data& data) {
   settings.rejects_outliers = options.outliers == "auto" ? !is_mesh : options.outliers == "reject";
   if (is_mesh && options.noise == "auto") settings.noise = fit::Noise::AlongNormal;
   settings.is_whole = fit::is_closed(data);
+  if (settings.is_whole) settings.volume = fit::volume_target(data);
+  const std::map<std::string, fit::Sides> sides = {
+      {"auto", fit::Sides::Auto}, {"all", fit::Sides::All}, {"some", fit::Sides::Some}};
+  settings.sides = sides.at(options.sides);
+  settings.limits = options.limits;
   settings.threads = options.threads;
   settings.progress = say;
   return settings;
@@ -140,9 +148,27 @@ void run(const Options& options) {
   say("comparing surfaces and volumes");
   std::vector<fit::Body> bodies(fitted.size());
   std::ranges::transform(fitted, bodies.begin(), &fit::FittedBody::body);
-  const fit::FitError error = fit::find_error(bodies, without_outliers(data, fitted));
+  fit::FitError error = fit::find_error(bodies, without_outliers(data, fitted));
+  fit::add_uncertainty(error, fitted);
   std::fputs(fit::describe(error).c_str(), stdout);
   write_results(options, fitted, bodies, data, error);
+}
+
+/// Throws std::invalid_argument for options that contradict one another.
+void require_consistent(const Options& options) {
+  const fit::ShapeLimits& limits = options.limits;
+  if (options.shape == "ellipsoid" && (limits.delta || limits.epsilon)) {
+    throw std::invalid_argument("--delta and --epsilon: the exponents of --shape ellipsoid are 2; allowed: another shape");
+  }
+  if (limits.has_round_section && limits.delta && *limits.delta != 2) {
+    throw std::invalid_argument("--delta " + std::to_string(*limits.delta) + " with --round; allowed: 2");
+  }
+  for (const std::optional<double>& exponent : {limits.delta, limits.epsilon}) {
+    if (exponent && *exponent > limits.max_exponent) {
+      throw std::invalid_argument("--delta and --epsilon: " + std::to_string(*exponent) + "; allowed: at most --max-exponent, " +
+                                  std::to_string(limits.max_exponent));
+    }
+  }
 }
 
 int run_program(int argc, char** argv) {
@@ -166,6 +192,20 @@ int run_program(int argc, char** argv) {
   app.add_option("--outliers", options.outliers, "points beyond 5 standard deviations; auto: reject in a cloud, keep in a mesh")
       ->check(CLI::IsMember({"auto", "reject", "keep"}))
       ->capture_default_str();
+  app.add_option(
+         "--sides", options.sides,
+         "where the data show the surface; all: no body shall extend beyond the data; some: it may where nothing was scanned; "
+         "auto: all, if the data are a closed mesh or no body fits them within the noise")
+      ->check(CLI::IsMember({"auto", "all", "some"}))
+      ->capture_default_str();
+  const CLI::Range exponents(supernormal::Superellipsoid::kMinExponent, supernormal::Superellipsoid::kMaxExponent);
+  app.add_option("--max-exponent", options.limits.max_exponent,
+                 "the largest exponent; above 20, edges cost evaluations and show no more")
+      ->check(exponents)
+      ->capture_default_str();
+  app.add_option("--delta", options.limits.delta, "fixes the exponent delta")->check(exponents);
+  app.add_option("--epsilon", options.limits.epsilon, "fixes the exponent epsilon")->check(exponents);
+  app.add_flag("--round", options.limits.has_round_section, "bodies of revolution about z: a = b, delta = 2");
   app.add_option("--out", options.out, "folder for the results")->capture_default_str();
   app.add_option("--threads", options.threads, "for the last descent; the same result to rounding")
       ->check(CLI::Range(1, 256))
@@ -181,6 +221,7 @@ int run_program(int argc, char** argv) {
     std::fprintf(stderr, "fit: --name \"%s\"; allowed: letters, digits and _, no digit first\n", options.name.c_str());
     return BadInput;
   }
+  require_consistent(options);
   run(options);
   return Done;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -48,6 +49,16 @@ std::vector<std::size_t> cut_off(std::span<const Eigen::Vector3d> points, std::s
     if (radius_at(i) > *first) beyond.push_back(i);
   }
   return beyond;
+}
+
+std::vector<Eigen::Vector3d> spread_directions(int count) {
+  std::vector<Eigen::Vector3d> directions;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - (2 * i + 1.0) / count, angle = 2 * std::numbers::pi * i / std::numbers::phi;
+    const double radius = std::sqrt(1 - z * z);
+    directions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+  }
+  return directions;
 }
 
 Cloud normalized(const Cloud& cloud, const Extent& extent) {

@@ -36,6 +36,9 @@ Cloud normalized(const Cloud& cloud, const Extent& extent);
 /// only.
 Cloud thinned(const Cloud& cloud, std::size_t count);
 
+/// Uniformly spread unit vectors, always the same (Gonzalez, Mathematical Geosciences 42, 2010).
+std::vector<Eigen::Vector3d> spread_directions(int count);
+
 /// The points with these indices.
 Cloud selected(const Cloud& cloud, std::span<const std::size_t> indices);
 
