@@ -14,22 +14,27 @@
 #include <vector>
 
 #include "input/read_data.hpp"
+#include "input/table.hpp"
 #include "model/fit_error.hpp"
 #include "model/fit_union.hpp"
+#include "output/json.hpp"
 #include "output/paste.hpp"
 #include "output/picture.hpp"
 #include "output/report.hpp"
 
 namespace {
 
-enum ExitCode { Done = 0, Failed = 1, BadInput = 2 };
+enum ExitCode { Done = 0, Failed = 1, BadInput = 2, BadFit = 3 };
 
 struct Options {
   std::string path;
   std::string shape = "auto";
   std::string noise = "auto";
   std::string outliers = "auto";
-  double scale = 1;
+  std::string table = "auto";
+  std::string group;
+  std::string unit = "m";
+  std::optional<double> scale;
   double density = 1000;
   std::string name;
   std::string out = "out/fit";
@@ -85,7 +90,7 @@ void write(const std::filesystem::path& path, const std::string& text) {
 }
 
 void write_results(const Options& options, const std::vector<fit::FittedBody>& fitted, const std::vector<fit::Body>& bodies,
-                   const fit::Data& data, const fit::FitError& error) {
+                   const fit::Data& data, const fit::FitError& error, const std::vector<std::string>& doubts) {
   const std::string file = std::filesystem::path(options.path).filename().string();
   const std::string name =
       options.name.empty() ? fit::identifier(std::filesystem::path(options.path).stem().string()) : options.name;
@@ -98,7 +103,10 @@ void write_results(const Options& options, const std::vector<fit::FittedBody>& f
   write(folder / (name + ".toml"), toml);
   write(folder / (name + ".c"), c);
   write(folder / (name + ".svg"), fit::draw(bodies, data.vertices, error.rms, file));
-  std::printf("\nwritten: %s.toml, .c and .svg\n", (folder / name).c_str());
+  write(folder / (name + ".json"), fit::json_text(fitted, error, doubts, name, source));
+  write(folder / (name + "_aligned.ply"), fit::aligned_ply(data, fitted));
+  std::printf("\nwritten: %s.toml, .c, .svg and .json, and the data in the frame of the grain: %s_aligned.ply\n",
+              (folder / name).c_str(), name.c_str());
 }
 
 std::vector<fit::FittedBody> fit_points(const fit::Cloud& points, const Options& options, const fit::Data& data) {
@@ -120,6 +128,8 @@ fit::Data without_outliers(fit::Data data, const std::vector<fit::FittedBody>& f
   return data;
 }
 
+const std::map<std::string, double> kUnits = {{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"in", 0.0254}};
+
 /// Accepts finite numbers above 0. CLI::PositiveNumber accepts nan.
 const CLI::Validator kPositive(
     [](std::string& text) {
@@ -129,12 +139,17 @@ const CLI::Validator kPositive(
     },
     "POSITIVE");
 
-void run(const Options& options) {
-  const fit::Data data = fit::read_data(options.path, options.scale);
+/// Metres in a unit of the file.
+double scale_of(const Options& options) { return options.scale.value_or(kUnits.at(options.unit)); }
+
+ExitCode run(const Options& options) {
+  fit::Data data = fit::read_data(options.path, scale_of(options), options.group);
   const bool is_mesh = !data.triangles.empty();
   say(options.path + ": " + std::to_string(data.vertices.points.size()) + " points, " + std::to_string(data.triangles.size()) +
       " triangles");
   if (!data.note.empty()) say(data.note);
+  const std::string table = options.table == "auto" ? fit::remove_table(data) : "";
+  if (!table.empty()) say(table);
   const fit::Cloud points = points_of(data, options.uses_vertices);
   const std::vector<fit::FittedBody> fitted = fit_points(points, options, data);
   if (fitted.size() < static_cast<std::size_t>(options.bodies)) {
@@ -144,14 +159,18 @@ void run(const Options& options) {
   }
   for (const fit::FittedBody& each : fitted) std::fputs(fit::describe(each).c_str(), stdout);
   if (!is_mesh) std::fputs(fit::describe_outliers(fitted, points).c_str(), stdout);
-  if (options.is_quick) return;
+  if (options.is_quick) return Done;
   say("comparing surfaces and volumes");
   std::vector<fit::Body> bodies(fitted.size());
   std::ranges::transform(fitted, bodies.begin(), &fit::FittedBody::body);
   fit::FitError error = fit::find_error(bodies, without_outliers(data, fitted));
   fit::add_uncertainty(error, fitted);
   std::fputs(fit::describe(error).c_str(), stdout);
-  write_results(options, fitted, bodies, data, error);
+  const std::vector<std::string> doubts = fit::doubts_about(fitted, error);
+  write_results(options, fitted, bodies, data, error, doubts);
+  std::fflush(stdout);
+  for (const std::string& doubt : doubts) std::fprintf(stderr, "fit: warning: %s\n", doubt.c_str());
+  return doubts.empty() ? Done : BadFit;
 }
 
 /// Throws std::invalid_argument for options that contradict one another.
@@ -174,14 +193,18 @@ void require_consistent(const Options& options) {
 int run_program(int argc, char** argv) {
   CLI::App app("Finds the ellipsoid, superellipsoid or superovoid that is nearest to a mesh or to points.", "fit");
   Options options;
-  app.add_option("file", options.path, "mesh (.stl, .obj, .ply) or points (.ply, .obj, .xyz)")->required();
+  app.add_option("file", options.path, "mesh (.stl, .obj, .off, .glb, .ply) or points (.ply, .obj, .xyz)")->required();
   app.add_option("--shape", options.shape, "what to look for; auto: what the data call for")
       ->check(CLI::IsMember({"auto", "ellipsoid", "superellipsoid", "superovoid"}))
       ->capture_default_str();
   app.add_option("--bodies", options.bodies, "the most bodies that a union may have")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
-  app.add_option("--scale", options.scale, "metres in a unit of the file")->check(kPositive)->capture_default_str();
+  CLI::Option* const unit = app.add_option("--unit", options.unit, "of the file's lengths")
+                                ->check(CLI::IsMember({"m", "cm", "mm", "um", "in"}))
+                                ->capture_default_str();
+  app.add_option("--scale", options.scale, "metres in a unit of the file, instead of --unit")->check(kPositive)->excludes(unit);
+  app.add_option("--group", options.group, "one object of a file with several: a group of an .obj, a node or mesh of a .glb");
   app.add_option("--density", options.density, "kg/m^3, for the catalogue of grains")->check(kPositive)->capture_default_str();
   app.add_option("--name", options.name, "of the body in what is written; the file's if not given");
   app.add_option("--noise", options.noise,
@@ -212,6 +235,7 @@ int run_program(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--vertices", options.uses_vertices, "fit the vertices of a mesh and not random points of its triangles");
   app.add_flag("--quick", options.is_quick, "fit only: no comparison of volumes and surfaces, nothing written");
+  app.footer("Exit codes: 0: done; 1: failed; 2: bad input; 3: the fit is bad, as the warnings say, and written nevertheless.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -222,8 +246,7 @@ int run_program(int argc, char** argv) {
     return BadInput;
   }
   require_consistent(options);
-  run(options);
-  return Done;
+  return run(options);
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <random>
 
+#include "point_tree.hpp"
+
 namespace fit {
 
 Extent extent_of(std::span<const Eigen::Vector3d> points) {
@@ -49,6 +51,28 @@ std::vector<std::size_t> cut_off(std::span<const Eigen::Vector3d> points, std::s
     if (radius_at(i) > *first) beyond.push_back(i);
   }
   return beyond;
+}
+
+std::vector<std::size_t> isolated(std::span<const Eigen::Vector3d> points) {
+  constexpr std::size_t kNeighbours = 8;
+  constexpr double kFarther = 3;  // than the median
+  const bool is_finite = std::ranges::all_of(points, [](const Eigen::Vector3d& x) { return x.allFinite(); });
+  if (!is_finite || points.size() <= kNeighbours) return {};
+  const PointTree tree({points.begin(), points.end()});
+  std::vector<double> distances;
+  for (const Eigen::Vector3d& x : points) {
+    double sum = 0;
+    for (const std::uint32_t i : tree.nearest(x, kNeighbours + 1)) sum += (points[i] - x).norm();
+    distances.push_back(sum / static_cast<double>(kNeighbours));
+  }
+  std::vector<double> sorted = distances;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::ranges::nth_element(sorted, middle);
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (distances[i] > kFarther * *middle) found.push_back(i);
+  }
+  return !(*middle > 0) || 4 * found.size() > points.size() ? std::vector<std::size_t>() : found;
 }
 
 std::vector<Eigen::Vector3d> spread_directions(int count) {

@@ -354,7 +354,7 @@ void require_points(const Cloud& cloud, std::size_t least) {
   if (!(range >= kLeast && range <= kLargest)) {
     std::ostringstream text;
     text << "the points extend over " << range << " m; allowed: " << kLeast << " to " << kLargest
-         << ". Is the unit right (--scale)?";
+         << ". Is the unit right (--unit)?";
     throw std::invalid_argument(text.str());
   }
   const Extent extent = extent_of(cloud.points);
@@ -367,7 +367,13 @@ std::vector<std::size_t> gross_outliers(const Cloud& cloud, const FitSettings& s
   // body.
   const std::size_t most = cloud.points.size() / 5;
   const std::size_t fewest_of_body = least_points(settings.family.value_or(Family::Ellipsoid));
-  return cut_off(cloud.points, is_union ? std::min(most, fewest_of_body - 1) : most);
+  std::vector<std::size_t> outliers = cut_off(cloud.points, is_union ? std::min(most, fewest_of_body - 1) : most);
+  const std::vector<std::size_t> single = isolated(cloud.points);
+  outliers.insert(outliers.end(), single.begin(), single.end());
+  std::ranges::sort(outliers);
+  const auto repeated = std::ranges::unique(outliers);
+  outliers.erase(repeated.begin(), repeated.end());
+  return outliers;
 }
 
 Cloud without(const Cloud& cloud, std::span<const std::size_t> indices) {

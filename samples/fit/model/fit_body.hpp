@@ -74,8 +74,8 @@ void require_points(const Cloud& cloud, std::size_t least);
 /// Fits the points and computes error measures. Throws like require_points().
 FittedBody fit_body(const Cloud& cloud, const FitSettings& settings = {});
 
-/// The points that fit_body() and fit_union() ignore before the search: cut_off() with at most a fifth of the points. For a union
-/// the limit is also below the number of points that bounds a body.
+/// The points that fit_body() and fit_union() ignore before the search: isolated(), and cut_off() with at most a fifth of the
+/// points. For a union the limit is also below the number of points that bounds a body.
 std::vector<std::size_t> gross_outliers(const Cloud& cloud, const FitSettings& settings, bool is_union);
 
 /// without(): the cloud without these points. add_gross_outliers(): adds the gross outliers to the outliers of a fit to the rest,

@@ -292,11 +292,13 @@ std::vector<FittedBody> unite(const Cloud& cloud, int largest_count, const FitSe
   const Family family = settings.family.value_or(Family::Superellipsoid);
   FitSettings of_data = moved(settings, 1 / extent.size, -extent.centre / extent.size);
   if (settings.sides != Sides::Some) of_data.empty = find_empty_space(data);
+  FitSettings of_search = of_data;
+  of_search.empty = thinned(of_data.empty, 4);  // all balls for all clusterings would take most of the time
 
   Model best;
   for (int count = 1; count <= largest_count; ++count) {
     if (progress) progress(count, largest_count);
-    const Model of_count = count == 1 ? best_of_one(few, family, of_data) : best_of_clusterings(few, of_data, count, family);
+    const Model of_count = count == 1 ? best_of_one(few, family, of_search) : best_of_clusterings(few, of_search, count, family);
     if (is_better(of_count, best, few.points.size())) best = of_count;
   }
   if (best.bodies.size() <= 1) return {fit_body(cloud, settings)};

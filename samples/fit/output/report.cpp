@@ -120,6 +120,32 @@ std::string describe_outliers(std::span<const FittedBody> fitted, const Cloud& c
   return text;
 }
 
+std::vector<std::string> doubts_about(std::span<const FittedBody> fitted, const FitError& error) {
+  constexpr double kMostDistance = 0.05, kMostReach = 0.05, kMostVolume = 0.1, kMostOutliers = 0.2;
+  std::vector<std::string> doubts;
+  const auto add = [&](const std::string& what, double value, double most, const std::string& of, const char* advice) {
+    if (value > most)
+      doubts.push_back(what + format(" %.3g %% of ", 100 * value) + of + format(" (at most %g %%); ", 100 * most) + advice);
+  };
+  constexpr const char* kMoreBodies = "try more --bodies";
+  add("the root mean square distance of the data from the surface is", error.rms / error.radius, kMostDistance, "their radius",
+      kMoreBodies);
+  add("the surface extends beyond the data by", error.reach / error.radius, kMostReach, "their radius", kMoreBodies);
+  if (!error.is_hull)
+    add("the volume differs by", std::abs(error.body.volume / error.data.volume - 1), kMostVolume, "the closed mesh's",
+        kMoreBodies);
+  std::size_t outliers = 0, points = 0;
+  for (std::size_t k = 0; k < fitted.size(); ++k) {
+    outliers += fitted[k].outliers.size();
+    points += fitted[k].outliers.size() + fitted[k].inliers;
+    if (fitted[k].is_at_largest_size)
+      doubts.push_back(format("body %zu: the data do not bound a half-axis, which ended at its limit; scan more sides", k + 1));
+  }
+  add("the outliers are", static_cast<double>(outliers) / static_cast<double>(points), kMostOutliers, "the points",
+      "remove what is not the object, or --outliers keep");
+  return doubts;
+}
+
 std::string describe(const FitError& error) {
   std::string text =
       format("distance of the data from the surface: root mean square %.4g, largest %.4g\n", error.rms, error.to_body);
