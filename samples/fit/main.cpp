@@ -10,28 +10,36 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <supernormal/shapes/superellipsoid.hpp>
 #include <vector>
 
 #include "input/read_data.hpp"
+#include "input/table.hpp"
 #include "model/fit_error.hpp"
 #include "model/fit_union.hpp"
+#include "output/json.hpp"
 #include "output/paste.hpp"
 #include "output/picture.hpp"
 #include "output/report.hpp"
 
 namespace {
 
-enum ExitCode { Done = 0, Failed = 1, BadInput = 2 };
+enum ExitCode { Done = 0, Failed = 1, BadInput = 2, BadFit = 3 };
 
 struct Options {
   std::string path;
   std::string shape = "auto";
   std::string noise = "auto";
   std::string outliers = "auto";
-  double scale = 1;
+  std::string table = "auto";
+  std::string group;
+  std::string unit = "m";
+  std::optional<double> scale;
   double density = 1000;
   std::string name;
   std::string out = "out/fit";
+  std::string sides = "auto";
+  fit::ShapeLimits limits;
   bool uses_vertices = false;
   bool is_quick = false;
   int bodies = 1;
@@ -64,6 +72,11 @@ fit::FitSettings settings_of(const Options& options, const fit::Data& data) {
   settings.rejects_outliers = options.outliers == "auto" ? !is_mesh : options.outliers == "reject";
   if (is_mesh && options.noise == "auto") settings.noise = fit::Noise::AlongNormal;
   settings.is_whole = fit::is_closed(data);
+  if (settings.is_whole) settings.volume = fit::volume_target(data);
+  const std::map<std::string, fit::Sides> sides = {
+      {"auto", fit::Sides::Auto}, {"all", fit::Sides::All}, {"some", fit::Sides::Some}};
+  settings.sides = sides.at(options.sides);
+  settings.limits = options.limits;
   settings.threads = options.threads;
   settings.progress = say;
   return settings;
@@ -77,7 +90,7 @@ void write(const std::filesystem::path& path, const std::string& text) {
 }
 
 void write_results(const Options& options, const std::vector<fit::FittedBody>& fitted, const std::vector<fit::Body>& bodies,
-                   const fit::Data& data, const fit::FitError& error) {
+                   const fit::Data& data, const fit::FitError& error, const std::vector<std::string>& doubts) {
   const std::string file = std::filesystem::path(options.path).filename().string();
   const std::string name =
       options.name.empty() ? fit::identifier(std::filesystem::path(options.path).stem().string()) : options.name;
@@ -90,7 +103,10 @@ void write_results(const Options& options, const std::vector<fit::FittedBody>& f
   write(folder / (name + ".toml"), toml);
   write(folder / (name + ".c"), c);
   write(folder / (name + ".svg"), fit::draw(bodies, data.vertices, error.rms, file));
-  std::printf("\nwritten: %s.toml, .c and .svg\n", (folder / name).c_str());
+  write(folder / (name + ".json"), fit::json_text(fitted, error, doubts, name, source));
+  write(folder / (name + "_aligned.ply"), fit::aligned_ply(data, fitted));
+  std::printf("\nwritten: %s.toml, .c, .svg and .json, and the data in the frame of the grain: %s_aligned.ply\n",
+              (folder / name).c_str(), name.c_str());
 }
 
 std::vector<fit::FittedBody> fit_points(const fit::Cloud& points, const Options& options, const fit::Data& data) {
@@ -112,6 +128,8 @@ fit::Data without_outliers(fit::Data data, const std::vector<fit::FittedBody>& f
   return data;
 }
 
+const std::map<std::string, double> kUnits = {{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"in", 0.0254}};
+
 /// Accepts finite numbers above 0. CLI::PositiveNumber accepts nan.
 const CLI::Validator kPositive(
     [](std::string& text) {
@@ -121,12 +139,17 @@ const CLI::Validator kPositive(
     },
     "POSITIVE");
 
-void run(const Options& options) {
-  const fit::Data data = fit::read_data(options.path, options.scale);
+/// Metres in a unit of the file.
+double scale_of(const Options& options) { return options.scale.value_or(kUnits.at(options.unit)); }
+
+ExitCode run(const Options& options) {
+  fit::Data data = fit::read_data(options.path, scale_of(options), options.group);
   const bool is_mesh = !data.triangles.empty();
   say(options.path + ": " + std::to_string(data.vertices.points.size()) + " points, " + std::to_string(data.triangles.size()) +
       " triangles");
   if (!data.note.empty()) say(data.note);
+  const std::string table = options.table == "auto" ? fit::remove_table(data) : "";
+  if (!table.empty()) say(table);
   const fit::Cloud points = points_of(data, options.uses_vertices);
   const std::vector<fit::FittedBody> fitted = fit_points(points, options, data);
   if (fitted.size() < static_cast<std::size_t>(options.bodies)) {
@@ -136,26 +159,52 @@ void run(const Options& options) {
   }
   for (const fit::FittedBody& each : fitted) std::fputs(fit::describe(each).c_str(), stdout);
   if (!is_mesh) std::fputs(fit::describe_outliers(fitted, points).c_str(), stdout);
-  if (options.is_quick) return;
+  if (options.is_quick) return Done;
   say("comparing surfaces and volumes");
   std::vector<fit::Body> bodies(fitted.size());
   std::ranges::transform(fitted, bodies.begin(), &fit::FittedBody::body);
-  const fit::FitError error = fit::find_error(bodies, without_outliers(data, fitted));
+  fit::FitError error = fit::find_error(bodies, without_outliers(data, fitted));
+  fit::add_uncertainty(error, fitted);
   std::fputs(fit::describe(error).c_str(), stdout);
-  write_results(options, fitted, bodies, data, error);
+  const std::vector<std::string> doubts = fit::doubts_about(fitted, error);
+  write_results(options, fitted, bodies, data, error, doubts);
+  std::fflush(stdout);
+  for (const std::string& doubt : doubts) std::fprintf(stderr, "fit: warning: %s\n", doubt.c_str());
+  return doubts.empty() ? Done : BadFit;
+}
+
+/// Throws std::invalid_argument for options that contradict one another.
+void require_consistent(const Options& options) {
+  const fit::ShapeLimits& limits = options.limits;
+  if (options.shape == "ellipsoid" && (limits.delta || limits.epsilon)) {
+    throw std::invalid_argument("--delta and --epsilon: the exponents of --shape ellipsoid are 2; allowed: another shape");
+  }
+  if (limits.has_round_section && limits.delta && *limits.delta != 2) {
+    throw std::invalid_argument("--delta " + std::to_string(*limits.delta) + " with --round; allowed: 2");
+  }
+  for (const std::optional<double>& exponent : {limits.delta, limits.epsilon}) {
+    if (exponent && *exponent > limits.max_exponent) {
+      throw std::invalid_argument("--delta and --epsilon: " + std::to_string(*exponent) + "; allowed: at most --max-exponent, " +
+                                  std::to_string(limits.max_exponent));
+    }
+  }
 }
 
 int run_program(int argc, char** argv) {
   CLI::App app("Finds the ellipsoid, superellipsoid or superovoid that is nearest to a mesh or to points.", "fit");
   Options options;
-  app.add_option("file", options.path, "mesh (.stl, .obj, .ply) or points (.ply, .obj, .xyz)")->required();
+  app.add_option("file", options.path, "mesh (.stl, .obj, .off, .glb, .ply) or points (.ply, .obj, .xyz)")->required();
   app.add_option("--shape", options.shape, "what to look for; auto: what the data call for")
       ->check(CLI::IsMember({"auto", "ellipsoid", "superellipsoid", "superovoid"}))
       ->capture_default_str();
   app.add_option("--bodies", options.bodies, "the most bodies that a union may have")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
-  app.add_option("--scale", options.scale, "metres in a unit of the file")->check(kPositive)->capture_default_str();
+  CLI::Option* const unit = app.add_option("--unit", options.unit, "of the file's lengths")
+                                ->check(CLI::IsMember({"m", "cm", "mm", "um", "in"}))
+                                ->capture_default_str();
+  app.add_option("--scale", options.scale, "metres in a unit of the file, instead of --unit")->check(kPositive)->excludes(unit);
+  app.add_option("--group", options.group, "one object of a file with several: a group of an .obj, a node or mesh of a .glb");
   app.add_option("--density", options.density, "kg/m^3, for the catalogue of grains")->check(kPositive)->capture_default_str();
   app.add_option("--name", options.name, "of the body in what is written; the file's if not given");
   app.add_option("--noise", options.noise,
@@ -166,12 +215,27 @@ int run_program(int argc, char** argv) {
   app.add_option("--outliers", options.outliers, "points beyond 5 standard deviations; auto: reject in a cloud, keep in a mesh")
       ->check(CLI::IsMember({"auto", "reject", "keep"}))
       ->capture_default_str();
+  app.add_option(
+         "--sides", options.sides,
+         "where the data show the surface; all: no body shall extend beyond the data; some: it may where nothing was scanned; "
+         "auto: all, if the data are a closed mesh or no body fits them within the noise")
+      ->check(CLI::IsMember({"auto", "all", "some"}))
+      ->capture_default_str();
+  const CLI::Range exponents(supernormal::Superellipsoid::kMinExponent, supernormal::Superellipsoid::kMaxExponent);
+  app.add_option("--max-exponent", options.limits.max_exponent,
+                 "the largest exponent; above 20, edges cost evaluations and show no more")
+      ->check(exponents)
+      ->capture_default_str();
+  app.add_option("--delta", options.limits.delta, "fixes the exponent delta")->check(exponents);
+  app.add_option("--epsilon", options.limits.epsilon, "fixes the exponent epsilon")->check(exponents);
+  app.add_flag("--round", options.limits.has_round_section, "bodies of revolution about z: a = b, delta = 2");
   app.add_option("--out", options.out, "folder for the results")->capture_default_str();
   app.add_option("--threads", options.threads, "for the last descent; the same result to rounding")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   app.add_flag("--vertices", options.uses_vertices, "fit the vertices of a mesh and not random points of its triangles");
   app.add_flag("--quick", options.is_quick, "fit only: no comparison of volumes and surfaces, nothing written");
+  app.footer("Exit codes: 0: done; 1: failed; 2: bad input; 3: the fit is bad, as the warnings say, and written nevertheless.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -181,8 +245,8 @@ int run_program(int argc, char** argv) {
     std::fprintf(stderr, "fit: --name \"%s\"; allowed: letters, digits and _, no digit first\n", options.name.c_str());
     return BadInput;
   }
-  run(options);
-  return Done;
+  require_consistent(options);
+  return run(options);
 }
 
 }  // namespace

@@ -105,7 +105,10 @@ TEST_CASE("unusable files are refused with a reason") {
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   CHECK(complaint(pipe) == pipe + ": a pipe or a socket, and no file");
   const std::string text = folder.write("points.txt", "1 2 3\n");
-  CHECK(complaint(text) == text + ": unknown extension \".txt\"; allowed: .stl, .obj, .ply (meshes or points), .xyz (points)");
+  CHECK(
+      complaint(text) ==
+      text +
+          ": unknown extension \".txt\"; allowed: .stl, .off, .glb, .gltf (meshes), .obj, .ply (meshes or points), .xyz (points)");
   const std::string empty = folder.write("empty.xyz", "# nothing\n\n");
   CHECK(complaint(empty) == empty + ": no points");
   const std::string directory = (folder.path() / "folder.ply").string();

@@ -184,7 +184,7 @@ TEST_CASE("useless data are refused") {
                        std::invalid_argument);
   Cloud tiny = whole;
   for (Vector3& x : tiny.points) x *= 1e-300;
-  CHECK_THROWS_WITH_AS(fit_body(tiny), doctest::Contains("allowed: 1e-25 to 1e+25. Is the unit right (--scale)?"),
+  CHECK_THROWS_WITH_AS(fit_body(tiny), doctest::Contains("allowed: 1e-25 to 1e+25. Is the unit right (--unit)?"),
                        std::invalid_argument);
   CHECK_THROWS_WITH_AS(fit_union(whole, 17), "at most 17 bodies; allowed: 1 to 16", std::invalid_argument);
 }

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -23,7 +24,7 @@
 namespace fit {
 namespace {
 
-constexpr const char* kExtensions = ".stl, .obj, .ply (meshes or points), .xyz (points)";
+constexpr const char* kExtensions = ".stl, .off, .glb, .gltf (meshes), .obj, .ply (meshes or points), .xyz (points)";
 
 std::string lower_extension(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
@@ -111,12 +112,12 @@ Data read_text(const std::string& path) {
 
 Eigen::Vector3d vector_of(const aiVector3D& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
 
-void append(const aiMesh& mesh, Data& data) {
+void append(const aiMesh& mesh, const aiMatrix4x4& place, Data& data) {
   const auto first = static_cast<std::uint32_t>(data.vertices.points.size());
   // Assimp does not report whether vertex normals of triangles come from the file. The triangles have exact normals of their own.
   const bool has_triangles = (mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) != 0;
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-    data.vertices.points.push_back(vector_of(mesh.mVertices[i]));
+    data.vertices.points.push_back(vector_of(place * mesh.mVertices[i]));
     if (mesh.HasNormals() && !has_triangles) data.vertices.normals.push_back(vector_of(mesh.mNormals[i]));
   }
   for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
@@ -126,14 +127,36 @@ void append(const aiMesh& mesh, Data& data) {
   }
 }
 
-Data read_by_assimp(const std::string& path) {
+/// Appends the meshes of a node and of its children that belong to the group, and collects the names of all groups.
+void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, const std::string& group, bool is_chosen,
+            Data& data, std::set<std::string>& names) {
+  const aiMatrix4x4 place = parent * node.mTransformation;
+  const auto matches = [&](const aiString& name) {
+    if (name.length > 0) names.insert(name.C_Str());
+    return group == name.C_Str();
+  };
+  is_chosen = (&node != scene.mRootNode && matches(node.mName)) || is_chosen;
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
+    if (matches(mesh.mName) || is_chosen) append(mesh, place, data);
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) append(scene, *node.mChildren[i], place, group, is_chosen, data, names);
+}
+
+Data read_by_assimp(const std::string& path, const std::string& group) {
   Assimp::Importer importer;
-  // These formats have no transformations, so the nodes of the scene can be ignored.
   const aiScene* const scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr) throw InputError(path + ": cannot be read: " + importer.GetErrorString());
   Data data;
   data.is_single = true;  // Assimp stores single precision
-  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], data);
+  std::set<std::string> names;
+  append(*scene, *scene->mRootNode, {}, group, group.empty(), data, names);
+  if (data.vertices.points.empty() && !group.empty()) {
+    std::string allowed;
+    for (const std::string& name : names) allowed += (allowed.empty() ? "" : ", ") + name;
+    throw InputError(path + ": no group \"" + group +
+                     "\"; allowed: " + (allowed.empty() ? "none, the file has no groups" : allowed));
+  }
   if (data.vertices.normals.size() != data.vertices.points.size()) data.vertices.normals.clear();
   return data;
 }
@@ -163,25 +186,6 @@ std::string note_of(const Oriented& done, std::size_t triangles, std::size_t str
   }
   if (stray > 0) add(std::to_string(stray) + " vertices that no triangle has are left out");
   return note;
-}
-
-/// Removes vertices without a triangle: they are not on the surface. Returns how many.
-std::size_t remove_stray_vertices(Data& data) {
-  constexpr auto kStray = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> number(data.vertices.points.size(), kStray);
-  std::vector<Eigen::Vector3d> points;
-  for (Triangle& triangle : data.triangles) {
-    for (std::uint32_t& corner : triangle) {
-      if (number[corner] == kStray) {
-        number[corner] = static_cast<std::uint32_t>(points.size());
-        points.push_back(data.vertices.points[corner]);
-      }
-      corner = number[corner];
-    }
-  }
-  const std::size_t stray = data.vertices.points.size() - points.size();
-  data.vertices.points = std::move(points);
-  return stray;
 }
 
 /// Merges coincident vertices: an .stl file repeats them for every triangle.
@@ -218,9 +222,28 @@ void check(const std::string& path, Data& data) {
 
 }  // namespace
 
-Data read_data(const std::string& path, double scale) {
+// They are not on the surface.
+std::size_t remove_stray_vertices(Data& data) {
+  constexpr auto kStray = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number(data.vertices.points.size(), kStray);
+  std::vector<Eigen::Vector3d> points;
+  for (Triangle& triangle : data.triangles) {
+    for (std::uint32_t& corner : triangle) {
+      if (number[corner] == kStray) {
+        number[corner] = static_cast<std::uint32_t>(points.size());
+        points.push_back(data.vertices.points[corner]);
+      }
+      corner = number[corner];
+    }
+  }
+  const std::size_t stray = data.vertices.points.size() - points.size();
+  data.vertices.points = std::move(points);
+  return stray;
+}
+
+Data read_data(const std::string& path, double scale, const std::string& group) {
   const std::string extension = lower_extension(path);
-  constexpr std::array kMeshes = {".stl", ".obj", ".ply"};
+  constexpr std::array kMeshes = {".stl", ".obj", ".off", ".glb", ".gltf", ".ply"};
   const bool is_text = extension == ".xyz";
   if (!is_text && std::ranges::find(kMeshes, extension) == kMeshes.end()) {
     throw InputError(path + ": unknown extension \"" + extension + "\"; allowed: " + kExtensions);
@@ -229,7 +252,9 @@ Data read_data(const std::string& path, double scale) {
     throw InputError(path + ": " + other + ", and no file");
   }
   if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": no such file");
-  Data data = is_text ? read_text(path) : extension == ".ply" ? read_ply(path) : read_by_assimp(path);
+  const bool has_groups = !is_text && extension != ".ply";
+  if (!has_groups && !group.empty()) throw InputError(path + ": group \"" + group + "\"; a " + extension + " has no groups");
+  Data data = is_text ? read_text(path) : extension == ".ply" ? read_ply(path) : read_by_assimp(path, group);
   check(path, data);
   if (data.is_single) require_precision(path, data.vertices.points);
   if (!data.triangles.empty()) {

@@ -23,11 +23,15 @@ struct Data {
   bool is_single = false;           ///< whether coordinates were rounded to single precision
 };
 
-/// Reads a mesh (.stl, .obj, .ply) or points (.ply, .obj, .xyz). A line of an .xyz is x y z, or x y z nx ny nz; # starts a comment.
-/// Multiplies lengths by `scale`. Removes mesh vertices without a triangle.
+/// Removes mesh vertices without a triangle. Returns how many.
+std::size_t remove_stray_vertices(Data& data);
+
+/// Reads a mesh (.stl, .obj, .off, .glb, .gltf, .ply) or points (.ply, .obj, .xyz). `group` names one of several objects of the
+/// file (a group of an .obj, a node or mesh of a .glb); "": all of them. A line of an .xyz is x y z, or x y z nx ny nz; # starts a
+/// comment. Multiplies lengths by `scale`. Removes mesh vertices without a triangle.
 ///
-/// Throws InputError for a missing or empty file, an unknown extension, a number that is not finite, decimal commas, invalid
-/// normals, or coordinates that lose too many digits in single precision.
-Data read_data(const std::string& path, double scale);
+/// Throws InputError for a missing or empty file, an unknown extension or group, a number that is not finite, decimal commas,
+/// invalid normals, or coordinates that lose too many digits in single precision.
+Data read_data(const std::string& path, double scale, const std::string& group = "");
 
 }  // namespace fit

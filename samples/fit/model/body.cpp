@@ -99,6 +99,14 @@ Gradient support_gradient(const Body& body, const Vector3& n, const Vector3& r) 
   return gradient;
 }
 
+std::array<bool, kParameters> fixed_parameters(const ShapeLimits& limits) {
+  std::array<bool, kParameters> is_fixed{};
+  is_fixed[kLogAxes + 1] = limits.has_round_section;
+  is_fixed[kLogDelta] = limits.has_round_section || limits.delta;
+  is_fixed[kLogEpsilon] = limits.epsilon.has_value();
+  return is_fixed;
+}
+
 double taper_limit(double epsilon) {
   // Slightly below the limit, because of rounding.
   return (1 - 1e-9) * supernormal::Superovoid::max_taper(epsilon);

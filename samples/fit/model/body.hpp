@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <memory>
+#include <optional>
 #include <supernormal/proximity/pose.hpp>
 #include <supernormal/shapes/shape.hpp>
 
@@ -70,6 +72,16 @@ using Gradient = Eigen::Matrix<double, kParameters, 1>;
 /// p and the weights v, 1 - v of its two terms. So d(ln t)/dp = -S(v)/p^2 with the entropy S(v) = -v ln v - (1-v) ln(1-v). The
 /// meridian is analogous.
 Gradient support_gradient(const Body& body, const Vector3& n, const Vector3& r);
+
+/// What a fit may not change.
+struct ShapeLimits {
+  double max_exponent = 1000;            ///< in (1, 1000]; without unit
+  std::optional<double> delta, epsilon;  ///< fixed exponents, in [1.001, 1000]
+  bool has_round_section = false;        ///< a = b and delta = 2: a body of revolution about z
+};
+
+/// The parameters that these limits fix, in the order of kPosition to kTaper. A round section fixes b, which follows a.
+std::array<bool, kParameters> fixed_parameters(const ShapeLimits& limits);
 
 /// The limit of |taper| for a convex body, Superovoid::max_taper(epsilon), and its derivative by ln(epsilon - 1).
 double taper_limit(double epsilon);

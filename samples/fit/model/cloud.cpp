@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <random>
+
+#include "point_tree.hpp"
 
 namespace fit {
 
@@ -48,6 +51,38 @@ std::vector<std::size_t> cut_off(std::span<const Eigen::Vector3d> points, std::s
     if (radius_at(i) > *first) beyond.push_back(i);
   }
   return beyond;
+}
+
+std::vector<std::size_t> isolated(std::span<const Eigen::Vector3d> points) {
+  constexpr std::size_t kNeighbours = 8;
+  constexpr double kFarther = 3;  // than the median
+  const bool is_finite = std::ranges::all_of(points, [](const Eigen::Vector3d& x) { return x.allFinite(); });
+  if (!is_finite || points.size() <= kNeighbours) return {};
+  const PointTree tree({points.begin(), points.end()});
+  std::vector<double> distances;
+  for (const Eigen::Vector3d& x : points) {
+    double sum = 0;
+    for (const std::uint32_t i : tree.nearest(x, kNeighbours + 1)) sum += (points[i] - x).norm();
+    distances.push_back(sum / static_cast<double>(kNeighbours));
+  }
+  std::vector<double> sorted = distances;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::ranges::nth_element(sorted, middle);
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (distances[i] > kFarther * *middle) found.push_back(i);
+  }
+  return !(*middle > 0) || 4 * found.size() > points.size() ? std::vector<std::size_t>() : found;
+}
+
+std::vector<Eigen::Vector3d> spread_directions(int count) {
+  std::vector<Eigen::Vector3d> directions;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - (2 * i + 1.0) / count, angle = 2 * std::numbers::pi * i / std::numbers::phi;
+    const double radius = std::sqrt(1 - z * z);
+    directions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+  }
+  return directions;
 }
 
 Cloud normalized(const Cloud& cloud, const Extent& extent) {

@@ -29,12 +29,20 @@ double radius_of(std::span<const Eigen::Vector3d> points);
 /// cut off. If there are more than `most`, they are part of the data and none is cut off. None, too, if a coordinate is not finite.
 std::vector<std::size_t> cut_off(std::span<const Eigen::Vector3d> points, std::size_t most);
 
+/// The points far from all others, as ascending indices: their mean distance from eight neighbours is more than three times the
+/// median of these distances. None if they are more than a quarter of the points, or if a coordinate is not finite: then the
+/// density varies.
+std::vector<std::size_t> isolated(std::span<const Eigen::Vector3d> points);
+
 /// The cloud translated and scaled to extent 1 about the origin.
 Cloud normalized(const Cloud& cloud, const Extent& extent);
 
 /// A random choice of `count` points, or all if there are fewer. The choice is always the same, so that results depend on the data
 /// only.
 Cloud thinned(const Cloud& cloud, std::size_t count);
+
+/// Uniformly spread unit vectors, always the same (Gonzalez, Mathematical Geosciences 42, 2010).
+std::vector<Eigen::Vector3d> spread_directions(int count);
 
 /// The points with these indices.
 Cloud selected(const Cloud& cloud, std::span<const std::size_t> indices);

@@ -10,7 +10,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "least_squares.hpp"
 #include "noise_offset.hpp"
 #include "starts.hpp"
 
@@ -196,6 +195,9 @@ Descent descend_on_all(const Candidate& start, const Cloud& cloud, const FitSett
   least_squares.tolerance = 1e-2 / static_cast<double>(cloud.points.size());
   least_squares.threads = settings.threads;
   least_squares.max_iterations = steps;
+  least_squares.empty = settings.empty;
+  least_squares.volume = settings.volume;
+  least_squares.limits = settings.limits;
   if (is_other_shape(start.mean_square, settings)) least_squares.distance_tolerance = kRoughTolerance;
   for (int round = 0; round < rounds; ++round) {
     const bool has_changed = update(descent, cloud, settings, round == 0 ? kUnsettled : 0);
@@ -215,20 +217,24 @@ FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& clo
     if (!is_inlier[i]) fitted.outliers.push_back(i);
   }
   fitted.inliers = descent.inliers.size();
-  fitted.uncertainty = find_uncertainty(descent.body, inlier_witnesses(descent), residuals_of(descent));
+  fitted.uncertainty = find_uncertainty(descent.body, inlier_witnesses(descent), residuals_of(descent), settings.limits);
   const double sharpest = make_shape(descent.body)->min_curvature_radius_estimate();
   fitted.is_edge_below_noise =
       settings.noise == Noise::Isotropic && fitted.uncertainty.sigma > kRounding && sharpest < 2 * fitted.uncertainty.sigma;
   fitted.uncertainty.sigma *= extent.size;
   fitted.uncertainty.standard_error.segment<3>(kPosition) *= extent.size;
+  fitted.uncertainty.covariance.middleRows<3>(kPosition) *= extent.size;
+  fitted.uncertainty.covariance.middleCols<3>(kPosition) *= extent.size;
   fitted.uncertainty.standard_error.segment<3>(kLogAxes) *= extent.size;
   fitted.is_at_largest_size = descent.body.half_axes.maxCoeff() > 0.999 * settings.largest_over_radius * radius_of(cloud.points);
+  fitted.is_bounded_by_data = !settings.empty.centres.empty();
   fitted.body = moved(descent.body, extent.size, extent.centre);
   return fitted;
 }
 
 /// A descent on many points with a loss function as narrow as the noise. The mean square excludes points far beyond the noise.
 void polish(Candidate& candidate, const Cloud& some, const Cloud& many, LeastSquaresSettings settings, const FitSettings& search) {
+  settings.empty = search.empty;
   const bool rejects_outliers = search.rejects_outliers;
   if (rejects_outliers) {
     settings.loss_width = kHuber * std::max(kUnsettled, robust_sigma(measure(candidate.body, many.points).distances));
@@ -243,7 +249,7 @@ void polish(Candidate& candidate, const Cloud& some, const Cloud& many, LeastSqu
       rejects_outliers ? kOutlier * std::max(kUnsettled, robust_sigma(distances)) : std::numeric_limits<double>::infinity();
   double square = 0;
   for (const double distance : distances) square += std::min(distance * distance, limit * limit);
-  candidate.mean_square = square / static_cast<double>(distances.size());
+  candidate.mean_square = square / static_cast<double>(distances.size()) + penalty_of(candidate.body, search.empty);
 }
 
 /// Descends from the starts on more and more points, with fewer and fewer bodies.
@@ -256,6 +262,9 @@ Candidate best_descent(const std::vector<Body>& starts, const Cloud& cloud, cons
   settings.tolerance = 1e-3;
   settings.loss_width = 0.1;
   if (search.is_whole) settings.distance_tolerance = kRoughTolerance;
+  settings.empty = thinned(search.empty, 4);
+  settings.volume = search.volume;
+  settings.limits = search.limits;
   std::vector<Candidate> candidates(starts.size());
   std::ranges::transform(starts, candidates.begin(), [](const Body& start) { return Candidate{start}; });
   candidates = descend(candidates, few, settings, 10);
@@ -295,6 +304,7 @@ Candidate best_family(const Cloud& cloud, const FitSettings& settings) {
   std::vector<Candidate> candidates;
   for (const Family family : {Family::Ellipsoid, Family::Superellipsoid, Family::Superovoid}) {
     if (cloud.points.size() < least_points(family)) continue;
+    if (family == Family::Ellipsoid && (settings.limits.delta || settings.limits.epsilon)) continue;
     if (settings.progress) settings.progress(std::string("looking for the best ") + name_of(family));
     // The taper is a small change: start near the body without it.
     const bool is_near = family == Family::Superovoid && !candidates.empty();
@@ -344,7 +354,7 @@ void require_points(const Cloud& cloud, std::size_t least) {
   if (!(range >= kLeast && range <= kLargest)) {
     std::ostringstream text;
     text << "the points extend over " << range << " m; allowed: " << kLeast << " to " << kLargest
-         << ". Is the unit right (--scale)?";
+         << ". Is the unit right (--unit)?";
     throw std::invalid_argument(text.str());
   }
   const Extent extent = extent_of(cloud.points);
@@ -357,7 +367,13 @@ std::vector<std::size_t> gross_outliers(const Cloud& cloud, const FitSettings& s
   // body.
   const std::size_t most = cloud.points.size() / 5;
   const std::size_t fewest_of_body = least_points(settings.family.value_or(Family::Ellipsoid));
-  return cut_off(cloud.points, is_union ? std::min(most, fewest_of_body - 1) : most);
+  std::vector<std::size_t> outliers = cut_off(cloud.points, is_union ? std::min(most, fewest_of_body - 1) : most);
+  const std::vector<std::size_t> single = isolated(cloud.points);
+  outliers.insert(outliers.end(), single.begin(), single.end());
+  std::ranges::sort(outliers);
+  const auto repeated = std::ranges::unique(outliers);
+  outliers.erase(repeated.begin(), repeated.end());
+  return outliers;
 }
 
 Cloud without(const Cloud& cloud, std::span<const std::size_t> indices) {
@@ -389,25 +405,30 @@ Candidate search_body(const Cloud& cloud, Family family, const FitSettings& sett
   return best_descent(make_starts(thinned(cloud, 800), family, settings.is_whole), cloud, settings);
 }
 
+FitSettings moved(const FitSettings& settings, double scale, const Vector3& offset) {
+  FitSettings result = settings;
+  result.empty = moved(settings.empty, scale, offset);
+  if (settings.volume) result.volume = {settings.volume->volume * std::pow(scale, 3), settings.volume->area * scale * scale};
+  return result;
+}
+
 FittedBody refine_body(const Body& start, const Cloud& cloud, const FitSettings& settings) {
   require_points(cloud, least_points(start.family));
   const Extent extent = extent_of(cloud.points);
   const Cloud data = normalized(cloud, extent);
-  const Body body = moved(start, 1 / extent.size, -extent.centre / extent.size);
-  return finish(descend_on_all({body, 0}, data, settings, 4), extent, data, settings);
+  const Vector3 offset = -extent.centre / extent.size;
+  const Body body = moved(start, 1 / extent.size, offset);
+  return finish(descend_on_all({body, 0}, data, moved(settings, 1 / extent.size, offset), 4), extent, data, settings);
 }
 
 namespace {
 
-FittedBody fit_kept(const Cloud& cloud, FitSettings settings) {
-  require_points(cloud, least_points(settings.family.value_or(Family::Ellipsoid)));
+FittedBody fit_normalized(const Cloud& data, const Extent& extent, FitSettings settings) {
   if (settings.is_whole) settings.largest_over_radius = kLargestOverRadiusOfWhole;
-  const Extent extent = extent_of(cloud.points);
-  const Cloud data = normalized(cloud, extent);
   const Candidate best = best_family(thinned(data, 3000), settings);
   if (!std::isfinite(best.mean_square)) {
     throw std::runtime_error(
-        cloud.normals.empty()
+        data.normals.empty()
             ? "no body fits: every descent failed"
             : "no body fits: every descent failed or ended with its normals against those of the data, which must point outwards");
   }
@@ -417,6 +438,23 @@ FittedBody fit_kept(const Cloud& cloud, FitSettings settings) {
   // all points is as good as the minimum (Le Cam's one-step estimator; van der Vaart, Asymptotic Statistics, section 5.7).
   const Body near = descend_on_all(best, thinned(data, kLarge), settings, 4).body;
   return finish(descend_on_all({in_customary_order(near), best.mean_square}, data, settings, 2, 2), extent, data, settings);
+}
+
+FittedBody fit_kept(const Cloud& cloud, const FitSettings& settings) {
+  require_points(cloud, least_points(settings.family.value_or(Family::Ellipsoid)));
+  const Extent extent = extent_of(cloud.points);
+  const Cloud data = normalized(cloud, extent);
+  FitSettings of_data = moved(settings, 1 / extent.size, -extent.centre / extent.size);
+  const bool is_all = settings.sides == Sides::All || (settings.sides == Sides::Auto && settings.is_whole);
+  if (!is_all) {
+    // Half of a body's surface determines the rest, but only if it is a body of the families.
+    const FittedBody fitted = fit_normalized(data, extent, of_data);
+    if (settings.sides == Sides::Some || !fitted.uncertainty.is_significant) return fitted;
+    if (settings.progress) settings.progress("no body fits within the noise: searching for one that ends with the data");
+  }
+  of_data.is_whole = true;
+  of_data.empty = find_empty_space(data);
+  return fit_normalized(data, extent, of_data);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "body.hpp"
 #include "cloud.hpp"
+#include "least_squares.hpp"
 #include "uncertainty.hpp"
 
 namespace fit {
@@ -19,6 +20,13 @@ enum class Noise {
   AlongNormal,  ///< along the normal of the surface only
 };
 
+/// Where the body may extend beyond the data.
+enum class Sides {
+  Auto,  ///< nowhere, if the data are a closed mesh or no body of the families fits them within the noise
+  All,   ///< nowhere: the data show all sides
+  Some,  ///< where nothing was scanned
+};
+
 struct FitSettings {
   std::optional<Family> family;  ///< empty: chosen by the data
   Noise noise = Noise::Isotropic;
@@ -27,6 +35,12 @@ struct FitSettings {
   double largest_over_radius = 3;
   /// Whether the data cover the whole surface (a closed mesh). Then bodies that protrude from the data are not considered.
   bool is_whole = false;
+  Sides sides = Sides::Auto;
+  /// Of a closed mesh; one more residual of the fit of a body.
+  std::optional<VolumeTarget> volume = {};
+  ShapeLimits limits = {};
+  /// Where no body shall be. fit_body() and fit_union() find it.
+  EmptySpace empty = {};
   int threads = 1;
   std::function<void(const std::string& step)> progress = {};  ///< called before each step that may take seconds
 };
@@ -47,6 +61,7 @@ struct FittedBody {
   bool is_edge_below_noise = false;
   /// Whether a half-axis ended at its limit, several times the extent of the data.
   bool is_at_largest_size = false;
+  bool is_bounded_by_data = false;  ///< whether the body was kept from extending beyond the data (Sides)
 };
 
 /// The smallest number of points for a family: one more than its parameters, for error bars.
@@ -59,8 +74,8 @@ void require_points(const Cloud& cloud, std::size_t least);
 /// Fits the points and computes error measures. Throws like require_points().
 FittedBody fit_body(const Cloud& cloud, const FitSettings& settings = {});
 
-/// The points that fit_body() and fit_union() ignore before the search: cut_off() with at most a fifth of the points. For a union
-/// the limit is also below the number of points that bounds a body.
+/// The points that fit_body() and fit_union() ignore before the search: isolated(), and cut_off() with at most a fifth of the
+/// points. For a union the limit is also below the number of points that bounds a body.
 std::vector<std::size_t> gross_outliers(const Cloud& cloud, const FitSettings& settings, bool is_union);
 
 /// without(): the cloud without these points. add_gross_outliers(): adds the gross outliers to the outliers of a fit to the rest,
@@ -70,6 +85,9 @@ void add_gross_outliers(std::vector<FittedBody>& fitted, std::span<const std::si
 
 /// Only descends from `start` on all points. Use it for a start near the solution.
 FittedBody refine_body(const Body& start, const Cloud& cloud, const FitSettings& settings = {});
+
+/// The settings of a fit to the image of the data under x -> scale x + offset.
+FitSettings moved(const FitSettings& settings, double scale, const Vector3& offset);
 
 /// Finds the best body for data of extent 1, or a part of them, without error bars. The cost is infinite if there is none.
 struct Candidate {

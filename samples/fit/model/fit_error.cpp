@@ -1,33 +1,25 @@
 #include "fit_error.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <nanoflann.hpp>
 #include <random>
 #include <stdexcept>
 #include <supernormal/shapes/polytope.hpp>
 #include <utility>
 
+#include "empty_space.hpp"
+#include "point_tree.hpp"
+
 namespace fit {
 namespace {
 
 constexpr std::size_t kSamples = 20000;         // points on a surface
+constexpr std::size_t kBoundarySamples = 4000;  // of an integral over a surface
 constexpr std::size_t kVolumeSamples = 400000;  // points in a volume
-
-/// The interface that nanoflann expects of points.
-struct Adaptor {
-  const std::vector<Eigen::Vector3d>* points;
-  std::size_t kdtree_get_point_count() const { return points->size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t k) const { return (*points)[i][static_cast<Eigen::Index>(k)]; }
-  template <typename Box>
-  bool kdtree_get_bbox(Box& /*box*/) const {
-    return false;
-  }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Adaptor>, Adaptor, 3>;
 
 Solid about_centroid(double volume, const Vector3& centroid, const Matrix3& second_moment) {
   const Matrix3 moment = second_moment - volume * centroid * centroid.transpose();
@@ -140,29 +132,25 @@ Landmarks make_landmarks(const Data& data) {
 /// The distance of points from the surface of the data. For a mesh: from the triangles of the nearest landmarks.
 class DataDistance {
  public:
-  explicit DataDistance(const Data& data)
-      : data_(data), landmarks_(make_landmarks(data)), adaptor_{&landmarks_.points}, tree_(3, adaptor_) {}
+  explicit DataDistance(const Data& data) : DataDistance(data, make_landmarks(data)) {}
 
   double operator()(const Vector3& x) const {
     constexpr std::size_t kNeighbours = 16;
-    const bool is_mesh = !data_.triangles.empty();
-    std::array<std::uint32_t, kNeighbours> indices{};
-    std::array<double, kNeighbours> squares{};
-    const std::size_t wanted = std::min(is_mesh ? kNeighbours : std::size_t{1}, landmarks_.points.size());
-    const std::size_t found = tree_.knnSearch(x.data(), wanted, indices.data(), squares.data());
+    if (data_.triangles.empty()) return tree_.distance(x);
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < found; ++k) {
-      nearest = std::min(nearest, is_mesh ? triangle_distance(data_, data_.triangles[landmarks_.triangle_of[indices[k]]], x)
-                                          : std::sqrt(squares[k]));
+    for (const std::uint32_t i : tree_.nearest(x, kNeighbours)) {
+      nearest = std::min(nearest, triangle_distance(data_, data_.triangles[triangle_of_[i]], x));
     }
     return nearest;
   }
 
  private:
+  DataDistance(const Data& data, Landmarks landmarks)
+      : data_(data), triangle_of_(std::move(landmarks.triangle_of)), tree_(std::move(landmarks.points)) {}
+
   const Data& data_;
-  Landmarks landmarks_;
-  Adaptor adaptor_;
-  Tree tree_;
+  std::vector<std::size_t> triangle_of_;  // per landmark
+  PointTree tree_;
 };
 
 }  // namespace
@@ -173,6 +161,15 @@ bool is_closed(const Data& data) {
   std::vector<Triangle> solid = data.triangles;
   std::erase_if(solid, [&](const Triangle& t) { return is_flat(data, t); });
   return solid.size() < data.triangles.size() && is_closed(std::span<const Triangle>(solid));
+}
+
+VolumeTarget volume_target(const Data& data) {
+  VolumeTarget target{solid_of_mesh(data).volume, 0};
+  for (const auto& [a, b, c] : data.triangles) {
+    const std::vector<Eigen::Vector3d>& x = data.vertices.points;
+    target.area += (x[b] - x[a]).cross(x[c] - x[a]).norm() / 2;
+  }
+  return target;
 }
 
 std::vector<Vector3> free_surface(std::span<const DistanceFunction> functions, std::size_t count) {
@@ -223,6 +220,59 @@ VolumeIntegral integrate_union(std::span<const Body> bodies) {
   return result;
 }
 
+namespace {
+
+/// The distances of the bodies' surface from the data.
+void measure_surface(std::span<const DistanceFunction> functions, const Data& data, FitError& error) {
+  const DataDistance to_data(data);
+  const Surface surface =
+      make_surface(data.triangles.empty() ? data.vertices : sample_triangles(data.vertices.points, data.triangles, kSamples, 2));
+  for (const Vector3& x : free_surface(functions, kSamples)) {
+    const double distance = to_data(x);
+    error.to_data = std::max(error.to_data, distance);
+    if (distance > error.reach && winding_number(surface, x) < 0.5) error.reach = distance;
+  }
+}
+
+}  // namespace
+
+void add_uncertainty(FitError& error, std::span<const FittedBody> fitted) {
+  std::vector<DistanceFunction> functions;
+  for (const FittedBody& each : fitted) functions.emplace_back(each.body);
+  const Eigen::SelfAdjointEigenSolver<Matrix3> principal(error.body.inertia);
+  Eigen::Vector4d square = Eigen::Vector4d::Zero();  // of the volume and the three moments
+  double area = 0;
+  for (std::size_t k = 0; k < fitted.size(); ++k) {
+    const Cloud samples = sample_boundary(functions[k].shape(), kBoundarySamples, 1);
+    double sum = 0;
+    for (std::size_t i = 0; i < samples.points.size(); ++i) sum += samples.normals[i].dot(samples.points[i]);
+    const double each = 3 * functions[k].shape().mass_properties().volume / sum;  // the volume is a third of the integral of h
+    Eigen::Matrix<double, 4, kParameters> slopes = Eigen::Matrix<double, 4, kParameters>::Zero();
+    for (std::size_t i = 0; i < samples.points.size(); ++i) {
+      const Matrix3 R = fitted[k].body.rotation();
+      const Vector3 x = fitted[k].body.position + R * samples.points[i];
+      const auto covers = [&](const DistanceFunction& other) { return &other != &functions[k] && other.contains(x); };
+      if (std::ranges::any_of(functions, covers)) continue;
+      const Vector3 arm = principal.eigenvectors().transpose() * (x - error.body.centroid);
+      const Eigen::Vector4d f(1, arm.tail<2>().squaredNorm(), arm.squaredNorm() - arm.y() * arm.y(), arm.head<2>().squaredNorm());
+      slopes -= each * f * functions[k].gradient({0, R * samples.normals[i], x}).transpose();
+      area += each;
+    }
+    square += (slopes * fitted[k].uncertainty.covariance * slopes.transpose()).diagonal();
+  }
+  const double volume = error.body.volume, missing = error.is_hull ? area * error.mean : error.data.volume - volume;
+  square[0] += missing * missing + error.body_error * error.body_error;
+  for (int i = 0; i < 3; ++i) {
+    const double moment = principal.eigenvalues()[i];
+    // A layer of constant thickness changes the moments by 5/3 of the relative change of the volume.
+    const Eigen::SelfAdjointEigenSolver<Matrix3> of_data(error.data.inertia, Eigen::EigenvaluesOnly);
+    const double misfit = error.is_hull ? 5.0 / 3 * missing / volume * moment : of_data.eigenvalues()[i] - moment;
+    square[1 + i] += misfit * misfit + std::pow(5.0 / 3 * error.body_error / volume * moment, 2);
+  }
+  error.volume_error = std::sqrt(square[0]);
+  error.moment_errors = square.tail<3>().cwiseSqrt();
+}
+
 FitError find_error(std::span<const Body> bodies, const Data& data) {
   FitError error;
   const std::vector<DistanceFunction> functions(bodies.begin(), bodies.end());
@@ -231,15 +281,18 @@ FitError find_error(std::span<const Body> bodies, const Data& data) {
     const Cloud more = sample_triangles(data.vertices.points, data.triangles, kSamples, 2);
     points.insert(points.end(), more.points.begin(), more.points.end());
   }
-  double square = 0;
-  for (const Vector3& x : points) {
-    const double least = least_distance(functions, x);
+  double square = 0, sum = 0;
+  const std::size_t uniform = data.triangles.empty() ? 0 : data.vertices.points.size();  // the first of the uniformly spread points
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double least = least_distance(functions, points[i]);
+    if (i >= uniform) sum += least;
     error.to_body = std::max(error.to_body, std::abs(least));
     square += least * least;
   }
   error.rms = std::sqrt(square / static_cast<double>(points.size()));
-  const DataDistance to_data(data);
-  for (const Vector3& x : free_surface(functions, kSamples)) error.to_data = std::max(error.to_data, to_data(x));
+  error.mean = sum / static_cast<double>(points.size() - uniform);
+  error.radius = radius_of(points);
+  measure_surface(functions, data, error);
   error.is_hull = !is_closed(data);
   error.data = error.is_hull ? solid_of_hull(data) : solid_of_mesh(data);
   if (bodies.size() == 1) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <supernormal/shapes/superellipsoid.hpp>
 
+#include "fit_error.hpp"
 #include "kmeans.hpp"
 #include "least_squares.hpp"
 
@@ -26,10 +27,13 @@ constexpr double kLeastGain = 0.05;
 // The other bodies hide some of a body's surface. But a protrusion from the data is not part of the union.
 constexpr double kLargestOverRadius = kLargestOverRadiusOfWhole;
 
-FitSettings search_settings() {
+/// Of the search for a body of a part of the data.
+FitSettings search_settings(const FitSettings& search, const Extent& part) {
   FitSettings settings;
   settings.largest_over_radius = kLargestOverRadius;
-  return settings;
+  settings.empty = search.empty;
+  settings.limits = search.limits;
+  return moved(settings, 1 / part.size, -part.centre / part.size);
 }
 
 enum class Distance {
@@ -99,8 +103,10 @@ bool has_enough(const Assignment& assignment, Family family) {
 }
 
 /// Alternates until no point changes its owner. A model that loses a body gets an infinite mean square.
-Model alternate(std::vector<Body> bodies, const Cloud& cloud, Distance distance, int rounds) {
+Model alternate(std::vector<Body> bodies, const Cloud& cloud, const FitSettings& search, Distance distance, int rounds) {
   LeastSquaresSettings settings;
+  settings.empty = search.empty;
+  settings.limits = search.limits;
   settings.loss_width = kLoss;
   settings.max_iterations = 8;
   settings.tolerance = 1e-5;
@@ -117,11 +123,17 @@ Model alternate(std::vector<Body> bodies, const Cloud& cloud, Distance distance,
     if (assignment.owner == before) break;
   }
   if (distance == Distance::Surface) assignment = assign(bodies, cloud, Distance::Union);
-  return {bodies, mean_loss(assignment.distances)};
+  double penalty = 0;
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    // In the cost of a body, the penalty counts as often as the body has points.
+    penalty +=
+        penalty_of(bodies[k], search.empty) * static_cast<double>(assignment.counts[k]) / static_cast<double>(cloud.points.size());
+  }
+  return {bodies, mean_loss(assignment.distances) + penalty};
 }
 
 /// Ellipsoids from k-means clusters.
-Model start_from_clusters(const Cloud& cloud, int count, std::uint64_t seed) {
+Model start_from_clusters(const Cloud& cloud, const FitSettings& search, int count, std::uint64_t seed) {
   const std::vector<int> cluster = find_clusters(cloud.points, count, seed);
   std::vector<Body> bodies;
   for (int k = 0; k < count; ++k) {
@@ -129,17 +141,19 @@ Model start_from_clusters(const Cloud& cloud, int count, std::uint64_t seed) {
     if (part.points.size() < 2 * least_points(Family::Ellipsoid)) return {};
     // Normalize by the extent of the part: the search expects data of size 1.
     const Extent extent = extent_of(part.points);
-    const Candidate found = search_body(normalized(part, extent), Family::Ellipsoid, search_settings());
+    const Candidate found = search_body(normalized(part, extent), Family::Ellipsoid, search_settings(search, extent));
     if (!std::isfinite(found.mean_square)) return {};
     bodies.push_back(moved(found.body, extent.size, extent.centre));
   }
-  const Model model = alternate(bodies, cloud, Distance::Surface, 8);
-  return std::isfinite(model.mean_square) ? alternate(model.bodies, cloud, Distance::Union, 8) : model;
+  const Model model = alternate(bodies, cloud, search, Distance::Surface, 8);
+  return std::isfinite(model.mean_square) ? alternate(model.bodies, cloud, search, Distance::Union, 8) : model;
 }
 
 /// Converts an ellipsoid to another family, on its own points, with the best of its three axes as z.
-Body promoted(const Body& ellipsoid, const Cloud& points, Family family) {
+Body promoted(const Body& ellipsoid, const Cloud& points, const FitSettings& search, Family family) {
   LeastSquaresSettings settings;
+  settings.empty = search.empty;
+  settings.limits = search.limits;
   settings.loss_width = kLoss;
   settings.largest_half_axis = kLargestOverRadius * radius_of(points.points);
   settings.max_iterations = 15;
@@ -158,15 +172,15 @@ Body promoted(const Body& ellipsoid, const Cloud& points, Family family) {
 }
 
 /// Converts all bodies of a model and repeats the alternation.
-Model with_family(const Model& model, const Cloud& cloud, Family family) {
+Model with_family(const Model& model, const Cloud& cloud, const FitSettings& search, Family family) {
   if (family == Family::Ellipsoid || !std::isfinite(model.mean_square)) return model;
   const Assignment assignment = assign(model.bodies, cloud, Distance::Union);
   if (!has_enough(assignment, family)) return {};
   std::vector<Body> bodies;
   for (std::size_t k = 0; k < model.bodies.size(); ++k) {
-    bodies.push_back(promoted(model.bodies[k], owned(cloud, assignment.owner, k), family));
+    bodies.push_back(promoted(model.bodies[k], owned(cloud, assignment.owner, k), search, family));
   }
-  return alternate(bodies, cloud, Distance::Union, 20);
+  return alternate(bodies, cloud, search, Distance::Union, 20);
 }
 
 /// Whether the distances of a body's points look like noise.
@@ -185,16 +199,16 @@ bool is_well_fitted(const Body& body, const Cloud& part) {
 
 /// Searches again for each body that does not fit its own points. Keeps the results that improve the model. The descent from an
 /// ellipsoid may have ended in a local minimum.
-Model searched_again(Model model, const Cloud& cloud, Family family) {
+Model searched_again(Model model, const Cloud& cloud, const FitSettings& search, Family family) {
   for (std::size_t k = 0; k < model.bodies.size(); ++k) {
     const Cloud part = owned(cloud, assign(model.bodies, cloud, Distance::Union).owner, k);
     if (part.points.size() < 2 * least_points(family) || is_well_fitted(model.bodies[k], part)) continue;
     const Extent extent = extent_of(part.points);
-    const Candidate found = search_body(normalized(part, extent), family, search_settings());
+    const Candidate found = search_body(normalized(part, extent), family, search_settings(search, extent));
     if (!std::isfinite(found.mean_square)) continue;
     std::vector<Body> bodies = model.bodies;
     bodies[k] = moved(found.body, extent.size, extent.centre);
-    const Model other = alternate(bodies, cloud, Distance::Union, 20);
+    const Model other = alternate(bodies, cloud, search, Distance::Union, 20);
     if (other.mean_square < model.mean_square) model = other;
   }
   return model;
@@ -220,39 +234,47 @@ bool is_better(const Model& more, const Model& fewer, std::size_t points) {
 /// One body from all starts of a single fit. So a second body is never taken because of a poor first one.
 Model best_of_one(const Cloud& cloud, Family family, const FitSettings& settings) {
   const Extent extent = extent_of(cloud.points);
-  const Candidate found = search_body(normalized(cloud, extent), family, settings);
+  const Candidate found =
+      search_body(normalized(cloud, extent), family, moved(settings, 1 / extent.size, -extent.centre / extent.size));
   if (!std::isfinite(found.mean_square)) return {};
   const std::vector<Body> bodies = {moved(found.body, extent.size, extent.centre)};
-  return {bodies, mean_loss(assign(bodies, cloud, Distance::Union).distances)};
+  return {bodies, mean_loss(assign(bodies, cloud, Distance::Union).distances) + penalty_of(bodies.front(), settings.empty)};
 }
 
 /// The best model from several clusterings. Clusterings with the same ellipsoids are used once.
-Model best_of_clusterings(const Cloud& cloud, int count, Family family) {
+Model best_of_clusterings(const Cloud& cloud, const FitSettings& search, int count, Family family) {
   constexpr int kSeeds = 6;
   constexpr double kAlike = 0.01;
   Model best;
   std::vector<double> known;
   for (int seed = 1; seed <= kSeeds; ++seed) {
-    const Model start = start_from_clusters(cloud, count, static_cast<std::uint64_t>(seed));
+    const Model start = start_from_clusters(cloud, search, count, static_cast<std::uint64_t>(seed));
     const auto is_known = [&](double other) { return std::abs(start.mean_square / other - 1) < kAlike; };
     if (!std::isfinite(start.mean_square) || std::ranges::any_of(known, is_known)) continue;
     known.push_back(start.mean_square);
-    const Model model = with_family(start, cloud, family);
+    const Model model = with_family(start, cloud, search, family);
     if (model.mean_square < best.mean_square) best = model;
   }
   return best;
 }
 
 /// The final descents, on all points and with error bars.
-std::vector<FittedBody> finish(std::vector<Body> bodies, const Cloud& cloud, const FitSettings& settings) {
+std::vector<FittedBody> finish(std::vector<Body> bodies, const Cloud& cloud, FitSettings settings) {
+  const std::optional<VolumeTarget> whole = settings.volume;
   constexpr int kRounds = 4;
   std::vector<FittedBody> fitted(bodies.size());
   std::vector<int> before;
   for (int round = 0; round < kRounds; ++round) {
     const Assignment assignment = assign(bodies, cloud, Distance::Union);
     if (assignment.owner == before) break;
+    const double missing = whole ? whole->volume - integrate_union(bodies).solid.volume : 0;
     for (std::size_t k = 0; k < bodies.size(); ++k) {
       const std::vector<std::size_t> indices = indices_of(assignment.owner, k);
+      if (whole) {
+        // A body grows by its share of the missing volume on its share of the surface.
+        const double share = static_cast<double>(indices.size()) / static_cast<double>(cloud.points.size());
+        settings.volume = {make_shape(bodies[k])->mass_properties().volume + share * missing, share * whole->area};
+      }
       fitted[k] = refine_body(bodies[k], selected(cloud, indices), settings);
       for (std::size_t& outlier : fitted[k].outliers) outlier = indices[outlier];
       bodies[k] = fitted[k].body;
@@ -268,19 +290,23 @@ std::vector<FittedBody> unite(const Cloud& cloud, int largest_count, const FitSe
   const Extent extent = extent_of(cloud.points);
   const Cloud data = normalized(cloud, extent), few = thinned(data, 1000);
   const Family family = settings.family.value_or(Family::Superellipsoid);
+  FitSettings of_data = moved(settings, 1 / extent.size, -extent.centre / extent.size);
+  if (settings.sides != Sides::Some) of_data.empty = find_empty_space(data);
+  FitSettings of_search = of_data;
+  of_search.empty = thinned(of_data.empty, 4);  // all balls for all clusterings would take most of the time
 
   Model best;
   for (int count = 1; count <= largest_count; ++count) {
     if (progress) progress(count, largest_count);
-    const Model of_count = count == 1 ? best_of_one(few, family, settings) : best_of_clusterings(few, count, family);
+    const Model of_count = count == 1 ? best_of_one(few, family, of_search) : best_of_clusterings(few, of_search, count, family);
     if (is_better(of_count, best, few.points.size())) best = of_count;
   }
   if (best.bodies.size() <= 1) return {fit_body(cloud, settings)};
   if (settings.progress) settings.progress("descending with " + std::to_string(best.bodies.size()) + " bodies on all points");
-  FitSettings of_part = settings;
+  FitSettings of_part = moved(of_data, extent.size, extent.centre);
   of_part.is_whole = false;  // the others hide some of it
   of_part.largest_over_radius = kLargestOverRadius;
-  best = searched_again(best, thinned(data, 3000), family);
+  best = searched_again(best, thinned(data, 3000), of_data, family);
   for (Body& body : best.bodies) body = moved(body, extent.size, extent.centre);
   return finish(best.bodies, cloud, of_part);
 }

@@ -18,7 +18,6 @@ namespace {
 // The unknowns of Ceres for exponents and taper: ln(delta - 1), ln(epsilon - 1), and artanh(taper / limit). Every value gives a
 // convex body.
 const double kLeastLogExponent = std::log(supernormal::Superellipsoid::kMinExponent - 1);
-const double kLargestLogExponent = std::log(supernormal::Superellipsoid::kMaxExponent - 1);
 constexpr double kLargestArtanh = 5;
 constexpr double kLeastHalfAxis = 1e-4;
 
@@ -33,14 +32,18 @@ struct Unknowns {
   std::array<double, 2> log_exponents;
   std::array<double, 1> artanh_taper;
 
-  explicit Unknowns(const Body& body) {
+  Unknowns(const Body& body, const ShapeLimits& limits) {
     for (int i = 0; i < 3; ++i) {
       position[static_cast<std::size_t>(i)] = body.position[i];
       log_axes[static_cast<std::size_t>(i)] = std::log(std::max(body.half_axes[i], kLeastHalfAxis));
     }
     Eigen::Map<Eigen::Vector4d>(orientation.data()) = body.orientation.coeffs();
-    log_exponents = {std::clamp(std::log(body.delta - 1), kLeastLogExponent, kLargestLogExponent),
-                     std::clamp(std::log(body.epsilon - 1), kLeastLogExponent, kLargestLogExponent)};
+    if (limits.has_round_section) log_axes[0] = log_axes[1] = (log_axes[0] + log_axes[1]) / 2;
+    const auto log_of = [&](double exponent) {
+      return std::clamp(std::log(exponent - 1), kLeastLogExponent, std::log(limits.max_exponent - 1));
+    };
+    log_exponents = {log_of(limits.has_round_section ? 2 : limits.delta.value_or(body.delta)),
+                     log_of(limits.epsilon.value_or(body.epsilon))};
     artanh_taper = {std::clamp(std::atanh(body.taper / taper_limit(body.epsilon)), -kLargestArtanh, kLargestArtanh)};
   }
 
@@ -49,16 +52,16 @@ struct Unknowns {
   }
 };
 
-Body body_of(Family family, const double* const* blocks) {
+Body body_of(Family family, const ShapeLimits& limits, const double* const* blocks) {
   Body body;
   body.family = family;
   body.position = Eigen::Map<const Vector3>(blocks[kPositionBlock]);
   body.orientation = Eigen::Map<const Eigen::Quaterniond>(blocks[kOrientationBlock]).normalized();
   body.half_axes = Eigen::Map<const Vector3>(blocks[kAxesBlock]).array().exp();
+  if (limits.has_round_section) body.half_axes.y() = body.half_axes.x();
   if (family == Family::Ellipsoid) return body;
   const auto exponent = [&](int i) {
-    return std::clamp(1 + std::exp(blocks[kExponentsBlock][i]), supernormal::Superellipsoid::kMinExponent,
-                      supernormal::Superellipsoid::kMaxExponent);
+    return std::clamp(1 + std::exp(blocks[kExponentsBlock][i]), supernormal::Superellipsoid::kMinExponent, limits.max_exponent);
   };
   body.delta = exponent(0);
   body.epsilon = exponent(1);
@@ -66,22 +69,38 @@ Body body_of(Family family, const double* const* blocks) {
   return body;
 }
 
-/// The residuals of some points, with Huber's loss: a distance d beyond the width w becomes sqrt(2 w d - w^2).
+/// How the distances of points become residuals.
+struct Measure {
+  double loss_width = std::numeric_limits<double>::infinity();  ///< Huber: a distance d beyond it becomes sqrt(2 w d - w^2)
+  double weight = 1;
+  bool counts_above = true;  ///< whether distances above their targets count
+};
+
+/// The residuals of some points.
 class Distances final : public ceres::CostFunction {
  public:
-  Distances(Family family, std::span<const Vector3> points, std::span<const double> offsets, const LeastSquaresSettings& settings)
-      : family_(family), points_(points), offsets_(offsets), width_(settings.loss_width), tolerance_(settings.distance_tolerance) {
+  Distances(Family family, std::span<const Vector3> points, std::span<const double> offsets, const Measure& measure,
+            const LeastSquaresSettings& settings)
+      : family_(family),
+        points_(points),
+        offsets_(offsets),
+        measure_(measure),
+        limits_(settings.limits),
+        tolerance_(settings.distance_tolerance) {
     set_num_residuals(static_cast<int>(points.size()));
     mutable_parameter_block_sizes()->assign(kBlockSizes.begin(), kBlockSizes.end());
   }
 
   bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
-    const DistanceFunction function(body_of(family_, blocks), tolerance_);
+    const DistanceFunction function(body_of(family_, limits_, blocks), tolerance_);
     if (!update_witnesses(function, blocks)) return false;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const double excess = witnesses_[i].distance - (offsets_.empty() ? 0 : offsets_[i]);
       double slope = 1;
       residuals[i] = with_loss(excess, slope);
+      if (excess > 0 && !measure_.counts_above) residuals[i] = slope = 0;
+      residuals[i] *= measure_.weight;
+      slope *= measure_.weight;
       if (jacobians != nullptr) write_row(i, function, slope * function.gradient(witnesses_[i]), blocks, jacobians);
     }
     return true;
@@ -96,8 +115,12 @@ class Distances final : public ceres::CostFunction {
     if (place == place_) return true;
     place_.clear();
     witnesses_.clear();
-    for (const Vector3& x : points_) {
-      const std::optional<Witness> witness = function.find(x);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (!measure_.counts_above && function.is_farther(points_[i], offsets_[i])) {
+        witnesses_.push_back({std::numeric_limits<double>::infinity()});
+        continue;
+      }
+      const std::optional<Witness> witness = function.find(points_[i]);
       if (!witness) return false;
       witnesses_.push_back(*witness);
     }
@@ -107,15 +130,16 @@ class Distances final : public ceres::CostFunction {
 
   double with_loss(double excess, double& slope) const {
     const double size = std::abs(excess);
-    if (!(size > width_)) return excess;
-    const double root = std::sqrt(width_ * (2 * size - width_));
-    slope = width_ / root;
+    const double width = measure_.loss_width;
+    if (!(size > width)) return excess;
+    const double root = std::sqrt(width * (2 * size - width));
+    slope = width / root;
     return std::copysign(root, excess);
   }
 
   /// Row i of the Jacobian in the unknowns of Ceres, from the gradient in ours.
-  static void write_row(std::size_t i, const DistanceFunction& function, const Gradient& gradient, const double* const* blocks,
-                        double** jacobians) {
+  void write_row(std::size_t i, const DistanceFunction& function, const Gradient& gradient, const double* const* blocks,
+                 double** jacobians) const {
     const Body& body = function.body();
     const auto row = [&](int block) {
       return jacobians[block] + i * static_cast<std::size_t>(kBlockSizes[static_cast<std::size_t>(block)]);
@@ -130,13 +154,21 @@ class Distances final : public ceres::CostFunction {
       out.head<3>() = q.w() * step - q.vec().cross(step);
       out[3] = -q.vec().dot(step);
     }
-    if (jacobians[kAxesBlock] != nullptr) Eigen::Map<Vector3>(row(kAxesBlock)) = gradient.segment<3>(kLogAxes);
+    if (jacobians[kAxesBlock] != nullptr) {
+      Eigen::Map<Vector3> out(row(kAxesBlock));
+      out = gradient.segment<3>(kLogAxes);
+      if (limits_.has_round_section) out = Vector3(out.x() + out.y(), 0, out.z());
+    }
     const double artanh = blocks[kTaperBlock][0];
     if (jacobians[kExponentsBlock] != nullptr) {
       double* const out = row(kExponentsBlock);
       out[0] = gradient[kLogDelta];
       // The limit of the taper depends on epsilon.
       out[1] = gradient[kLogEpsilon] + gradient[kTaper] * taper_limit_slope(body.epsilon) * std::tanh(artanh);
+      const std::array<bool, kParameters> is_fixed = fixed_parameters(limits_);
+      for (std::size_t k = 0; k < 2; ++k) {
+        if (is_fixed[kLogDelta + k]) out[k] = 0;
+      }
     }
     if (jacobians[kTaperBlock] != nullptr) {
       const double cosh = std::cosh(artanh);
@@ -147,9 +179,66 @@ class Distances final : public ceres::CostFunction {
   Family family_;
   std::span<const Vector3> points_;
   std::span<const double> offsets_;
-  double width_, tolerance_;
+  Measure measure_;
+  ShapeLimits limits_;
+  double tolerance_;
   mutable std::vector<double> place_;       // the unknowns of the cached witnesses
   mutable std::vector<Witness> witnesses_;  // one for each point
+};
+
+/// The difference of the volume from its target, as a mean distance of the surfaces.
+class VolumeDifference final : public ceres::CostFunction {
+ public:
+  VolumeDifference(Family family, const ShapeLimits& limits, const VolumeTarget& target, double weight)
+      : family_(family), limits_(limits), target_(target), weight_(weight) {
+    set_num_residuals(1);
+    mutable_parameter_block_sizes()->assign(kBlockSizes.begin(), kBlockSizes.end());
+  }
+
+  bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
+    const double scale = weight_ / target_.area;
+    const double volume = volume_of(body_of(family_, limits_, blocks));
+    residuals[0] = scale * (volume - target_.volume);
+    if (jacobians == nullptr) return true;
+    for (const int block : {kPositionBlock, kOrientationBlock, kAxesBlock}) {
+      const double slope = block == kAxesBlock ? scale * volume : 0;
+      if (jacobians[block] != nullptr) std::fill_n(jacobians[block], kBlockSizes[static_cast<std::size_t>(block)], slope);
+    }
+    if (jacobians[kAxesBlock] != nullptr && limits_.has_round_section) {
+      jacobians[kAxesBlock][0] *= 2;
+      jacobians[kAxesBlock][1] = 0;
+    }
+    for (const int block : {kExponentsBlock, kTaperBlock}) {
+      if (jacobians[block] == nullptr) continue;
+      for (int i = 0; i < kBlockSizes[static_cast<std::size_t>(block)]; ++i) {
+        const bool is_fixed = block == kExponentsBlock && fixed_parameters(limits_)[static_cast<std::size_t>(kLogDelta + i)];
+        jacobians[block][i] = is_fixed ? 0 : scale * slope_of(blocks, block, i);
+      }
+    }
+    return true;
+  }
+
+ private:
+  static double volume_of(const Body& body) { return make_shape(body)->mass_properties().volume; }
+
+  /// The derivative of the volume by one unknown, from a central difference.
+  double slope_of(const double* const* blocks, int block, int i) const {
+    constexpr double kStep = 1e-4;
+    std::array<const double*, kBlocks> varied{};
+    std::copy_n(blocks, kBlocks, varied.begin());
+    std::array<double, 4> values{};
+    std::copy_n(blocks[block], kBlockSizes[static_cast<std::size_t>(block)], values.begin());
+    varied[static_cast<std::size_t>(block)] = values.data();
+    values[static_cast<std::size_t>(i)] += kStep;
+    const double above = volume_of(body_of(family_, limits_, varied.data()));
+    values[static_cast<std::size_t>(i)] -= 2 * kStep;
+    return (above - volume_of(body_of(family_, limits_, varied.data()))) / (2 * kStep);
+  }
+
+  Family family_;
+  ShapeLimits limits_;
+  VolumeTarget target_;
+  double weight_;
 };
 
 void set_bounds(ceres::Problem& problem, Unknowns& unknowns, const LeastSquaresSettings& settings) {
@@ -163,7 +252,7 @@ void set_bounds(ceres::Problem& problem, Unknowns& unknowns, const LeastSquaresS
   }
   for (int i = 0; i < 2; ++i) {
     problem.SetParameterLowerBound(unknowns.log_exponents.data(), i, kLeastLogExponent);
-    problem.SetParameterUpperBound(unknowns.log_exponents.data(), i, kLargestLogExponent);
+    problem.SetParameterUpperBound(unknowns.log_exponents.data(), i, std::log(settings.limits.max_exponent - 1));
   }
   problem.SetParameterLowerBound(unknowns.artanh_taper.data(), 0, -kLargestArtanh);
   problem.SetParameterUpperBound(unknowns.artanh_taper.data(), 0, kLargestArtanh);
@@ -188,7 +277,7 @@ ceres::Solver::Options options_of(const LeastSquaresSettings& settings) {
 LeastSquaresResult minimize_distances(const Body& start, std::span<const Vector3> points, std::span<const double> offsets,
                                       const LeastSquaresSettings& settings) {
   constexpr std::size_t kChunk = 256;  // points of a residual block, which one thread evaluates with one shape
-  Unknowns unknowns(start);
+  Unknowns unknowns(start, settings.limits);
   ceres::Problem problem;
   const auto blocks = unknowns.blocks();
   for (int i = 0; i < kBlocks; ++i)
@@ -197,18 +286,29 @@ LeastSquaresResult minimize_distances(const Body& start, std::span<const Vector3
   set_bounds(problem, unknowns, settings);
   if (start.family == Family::Ellipsoid) problem.SetParameterBlockConstant(unknowns.log_exponents.data());
   if (start.family != Family::Superovoid) problem.SetParameterBlockConstant(unknowns.artanh_taper.data());
-  for (std::size_t first = 0; first < points.size(); first += kChunk) {
-    const std::size_t count = std::min(kChunk, points.size() - first);
-    const std::span<const double> their_offsets = offsets.empty() ? offsets : offsets.subspan(first, count);
-    problem.AddResidualBlock(new Distances(start.family, points.subspan(first, count), their_offsets, settings), nullptr,
-                             std::vector<double*>(blocks.begin(), blocks.end()));
+  const auto add = [&](std::span<const Vector3> places, std::span<const double> targets, const Measure& measure) {
+    for (std::size_t first = 0; first < places.size(); first += kChunk) {
+      const std::size_t count = std::min(kChunk, places.size() - first);
+      const std::span<const double> their_targets = targets.empty() ? targets : targets.subspan(first, count);
+      problem.AddResidualBlock(new Distances(start.family, places.subspan(first, count), their_targets, measure, settings), nullptr,
+                               std::vector<double*>(blocks.begin(), blocks.end()));
+    }
+  };
+  add(points, offsets, {.loss_width = settings.loss_width});
+  const auto count = static_cast<double>(points.size());
+  const double depth_weight = std::sqrt(kEmptyWeight * count / std::max(1.0, static_cast<double>(settings.empty.centres.size())));
+  add(settings.empty.centres, settings.empty.radii, {.weight = depth_weight, .counts_above = false});
+  if (settings.volume) {
+    problem.AddResidualBlock(
+        new VolumeDifference(start.family, settings.limits, *settings.volume, std::sqrt(kVolumeWeight * count)), nullptr,
+        std::vector<double*>(blocks.begin(), blocks.end()));
   }
   // Ceres rejects a step that it cannot evaluate. The user needs no warning of this.
   FLAGS_minloglevel = google::GLOG_FATAL;
   ceres::Solver::Summary summary;
   ceres::Solve(options_of(settings), &problem, &summary);
   LeastSquaresResult result;
-  result.body = body_of(start.family, blocks.data());
+  result.body = body_of(start.family, settings.limits, blocks.data());
   if (summary.IsSolutionUsable()) result.cost = summary.final_cost;
   return result;
 }

@@ -2,13 +2,25 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "body.hpp"
 #include "distance.hpp"
+#include "empty_space.hpp"
 
 namespace fit {
+
+/// The volume of the data as one more residual: the mean distance of two surfaces of this area that enclose these volumes.
+struct VolumeTarget {
+  double volume = 0;
+  double area = 1;
+};
+
+/// The weight of the volume, without unit: a mean distance counts as much as distances ten times as large. See README.md for
+/// others.
+constexpr double kVolumeWeight = 100;
 
 struct LeastSquaresSettings {
   /// Distances beyond this width count linearly (Huber).
@@ -20,6 +32,9 @@ struct LeastSquaresSettings {
   double tolerance = 1e-12;
   double distance_tolerance = kFineTolerance;  ///< passed to DistanceFunction
   int threads = 1;
+  EmptySpace empty;                    ///< adds penalty_of()
+  std::optional<VolumeTarget> volume;  ///< adds the square of the mean distance, times kVolumeWeight
+  ShapeLimits limits;
 };
 
 struct LeastSquaresResult {

@@ -6,22 +6,13 @@
 #include <numbers>
 #include <numeric>
 
+#include "cloud.hpp"
+
 namespace fit {
 namespace {
 
 // Relative to the size of the body: the accuracy of distances, and the level below which residuals are patterned rounding errors.
 constexpr double kExact = 1e-12, kRounding = 1e-9;
-
-/// Uniformly spread directions (Gonzalez, Mathematical Geosciences 42, 2010).
-std::vector<Vector3> fibonacci_directions(int count) {
-  std::vector<Vector3> directions;
-  for (int i = 0; i < count; ++i) {
-    const double z = 1 - (2 * i + 1.0) / count, angle = 2 * std::numbers::pi * i / std::numbers::phi;
-    const double radius = std::sqrt(1 - z * z);
-    directions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
-  }
-  return directions;
-}
 
 /// The F statistic of the test for lack of fit: the mean square of the patch means over the mean square within the patches (Draper
 /// and Smith, Applied Regression Analysis, section 2.1). A patch is the surface around one of 100 directions from the centre.
@@ -29,7 +20,7 @@ void test_lack_of_fit(const Body& body, std::span<const Witness> witnesses, std:
                       Uncertainty& result) {
   const auto points = static_cast<double>(residuals.size());
   const int parameters = parameter_count(body.family);
-  const std::vector<Vector3> directions = fibonacci_directions(std::min(100, static_cast<int>(points / 8)));
+  const std::vector<Vector3> directions = spread_directions(std::min(100, static_cast<int>(points / 8)));
   if (directions.size() < 2 * static_cast<std::size_t>(parameters)) return;
   const Matrix3 to_body = body.half_axes.cwiseInverse().asDiagonal() * body.rotation().transpose();
   std::vector<double> sums(directions.size()), counts(directions.size());
@@ -79,12 +70,23 @@ SquareMatrix normal_matrix(const DistanceFunction& function, std::span<const Wit
   return sum;
 }
 
-Uncertainty find_uncertainty(const Body& body, std::span<const Witness> witnesses, std::span<const double> residuals) {
+Uncertainty find_uncertainty(const Body& body, std::span<const Witness> witnesses, std::span<const double> residuals,
+                             const ShapeLimits& limits) {
   Uncertainty result;
+  result.is_fixed = fixed_parameters(limits);
   const double size = body.half_axes.maxCoeff();
   SquareMatrix all = normal_matrix(DistanceFunction(body), witnesses);
   all.middleRows<3>(kPosition) *= size;  // as lengths, so that eigenvalues are comparable
   all.middleCols<3>(kPosition) *= size;
+  if (limits.has_round_section) {  // b follows a
+    all.row(kLogAxes) += all.row(kLogAxes + 1).eval();
+    all.col(kLogAxes) += all.col(kLogAxes + 1).eval();
+  }
+  for (int i = 0; i < kParameters; ++i) {
+    if (!result.is_fixed[static_cast<std::size_t>(i)]) continue;
+    all.row(i).setZero();
+    all.col(i).setZero();
+  }
   const double square = std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
   const int parameters = parameter_count(body.family);
   const double freedom = std::max(1.0, static_cast<double>(residuals.size()) - parameters);
@@ -96,19 +98,25 @@ Uncertainty find_uncertainty(const Body& body, std::span<const Witness> witnesse
   constexpr double kNoWeight = 1e-9;  // relative to the largest eigenvalue; the derivatives are accurate to about 1e-6
   constexpr double kShare = 1e-2;
   const double threshold = kNoWeight * eigen.eigenvalues().maxCoeff();
-  Gradient variance = Gradient::Zero();
+  SquareMatrix covariance = SquareMatrix::Zero();
   result.is_determined.fill(true);
   for (int k = 0; k < parameters; ++k) {
     const Eigen::VectorXd direction = eigen.eigenvectors().col(k);
     const bool has_weight = eigen.eigenvalues()[k] > threshold;
+    if (has_weight) covariance.topLeftCorner(parameters, parameters) += direction * direction.transpose() / eigen.eigenvalues()[k];
     for (int i = 0; i < parameters; ++i) {
-      if (has_weight) variance[i] += direction[i] * direction[i] / eigen.eigenvalues()[k];
       if (!has_weight && std::abs(direction[i]) > kShare) result.is_determined[static_cast<std::size_t>(i)] = false;
     }
   }
-  variance.segment<3>(kPosition) *= size * size;
+  if (limits.has_round_section) {
+    covariance.row(kLogAxes + 1) = covariance.row(kLogAxes).eval();
+    covariance.col(kLogAxes + 1) = covariance.col(kLogAxes).eval();
+  }
+  covariance.middleRows<3>(kPosition) *= size;
+  covariance.middleCols<3>(kPosition) *= size;
   const double scale = result.sigma * (result.is_significant ? std::sqrt(result.lack_of_fit) : 1);
-  result.standard_error = scale * variance.cwiseSqrt();
+  result.covariance = scale * scale * covariance;
+  result.standard_error = result.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   const Gradient largest = largest_errors(body);
   for (int i = 0; i < parameters; ++i) {
     if (result.standard_error[i] > largest[i]) result.is_determined[static_cast<std::size_t>(i)] = false;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/toml_string.hpp"
+#include "json.hpp"
 
 namespace fit {
 namespace {
@@ -105,13 +106,9 @@ std::string identifier(const std::string& text) {
 
 std::string toml_lines(std::span<const FittedBody> bodies, const std::string& name, double density, const std::string& source) {
   // The frame of a compound may have any origin. Take it near the bodies, so that no position is out of the catalogue's range.
-  Vector3 middle = Vector3::Zero();
-  bool is_large = false;
-  for (const FittedBody& each : bodies) {
-    middle += each.body.position / static_cast<double>(bodies.size());
-    is_large = is_large || each.body.half_axes.maxCoeff() > 1;
-  }
-  std::string text = is_large ? "# falling_particles takes half-axes up to 1 m: is the unit right (fit --scale)?\n" : "";
+  const Vector3 middle = grain_origin(bodies);
+  const bool is_large = std::ranges::any_of(bodies, [](const FittedBody& each) { return each.body.half_axes.maxCoeff() > 1; });
+  std::string text = is_large ? "# falling_particles takes half-axes up to 1 m: is the unit right (fit --unit)?\n" : "";
   text += "[" + name + "]\n";
   if (bodies.size() == 1) {
     text += shape_keys(bodies.front().body, "\n") + "\n";

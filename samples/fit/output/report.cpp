@@ -29,6 +29,7 @@ std::string row(const char* name, double value, const FittedBody& fitted, int pa
   const Uncertainty& uncertainty = fitted.uncertainty;
   const bool is_place = parameter < kRotation;
   const int digits = is_place ? digits_of(value, fitted.body.half_axes.minCoeff(), 7) : 7;
+  if (uncertainty.is_fixed[static_cast<std::size_t>(parameter)]) return format("  %-22s %14.*g   fixed\n", name, digits, value);
   if (!uncertainty.is_determined[static_cast<std::size_t>(parameter)]) {
     return format("  %-22s %14.*g   not determined by the data\n", name, digits, value);
   }
@@ -67,10 +68,15 @@ std::string remarks(const FittedBody& fitted) {
   return text;
 }
 
-std::string inertia_row(const Solid& solid) {
+std::string inertia_row(const Solid& solid, const Vector3& errors = Vector3::Zero()) {
   const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(solid.inertia, Eigen::EigenvaluesOnly);
   const Vector3& moments = eigen.eigenvalues();
-  return format("%.6g %.6g %.6g", moments[0], moments[1], moments[2]);
+  std::string text;
+  for (int i = 0; i < 3; ++i) {
+    text += format(i == 0 ? "%.6g" : " %.6g", moments[i]);
+    if (errors[i] > 0) text += format(" ± %.2g", errors[i]);
+  }
+  return text;
 }
 
 }  // namespace
@@ -114,16 +120,44 @@ std::string describe_outliers(std::span<const FittedBody> fitted, const Cloud& c
   return text;
 }
 
+std::vector<std::string> doubts_about(std::span<const FittedBody> fitted, const FitError& error) {
+  constexpr double kMostDistance = 0.05, kMostReach = 0.05, kMostVolume = 0.1, kMostOutliers = 0.2;
+  std::vector<std::string> doubts;
+  const auto add = [&](const std::string& what, double value, double most, const std::string& of, const char* advice) {
+    if (value > most)
+      doubts.push_back(what + format(" %.3g %% of ", 100 * value) + of + format(" (at most %g %%); ", 100 * most) + advice);
+  };
+  constexpr const char* kMoreBodies = "try more --bodies";
+  add("the root mean square distance of the data from the surface is", error.rms / error.radius, kMostDistance, "their radius",
+      kMoreBodies);
+  add("the surface extends beyond the data by", error.reach / error.radius, kMostReach, "their radius", kMoreBodies);
+  if (!error.is_hull)
+    add("the volume differs by", std::abs(error.body.volume / error.data.volume - 1), kMostVolume, "the closed mesh's",
+        kMoreBodies);
+  std::size_t outliers = 0, points = 0;
+  for (std::size_t k = 0; k < fitted.size(); ++k) {
+    outliers += fitted[k].outliers.size();
+    points += fitted[k].outliers.size() + fitted[k].inliers;
+    if (fitted[k].is_at_largest_size)
+      doubts.push_back(format("body %zu: the data do not bound a half-axis, which ended at its limit; scan more sides", k + 1));
+  }
+  add("the outliers are", static_cast<double>(outliers) / static_cast<double>(points), kMostOutliers, "the points",
+      "remove what is not the object, or --outliers keep");
+  return doubts;
+}
+
 std::string describe(const FitError& error) {
   std::string text =
       format("distance of the data from the surface: root mean square %.4g, largest %.4g\n", error.rms, error.to_body);
   text += format("distance of the surface from the data: largest %.4g\n", error.to_data);
+  text += format("reach of the surface beyond the data: %.4g, %.2g %% of their radius %.4g\n", error.reach,
+                 100 * error.reach / error.radius, error.radius);
   const char* const whose = error.is_hull ? "convex hull of the data" : "closed mesh";
   text += format("volume %.6g", error.body.volume);
-  if (error.body_error > 0) text += format(" ± %.2g", error.body_error);
+  if (error.volume_error > 0) text += format(" ± %.2g", error.volume_error);
   text += format("; %s %.6g (%+.2f %%)\n", whose, error.data.volume, 100 * (error.body.volume / error.data.volume - 1));
-  text +=
-      "principal moments of inertia, density 1: " + inertia_row(error.body) + "; " + whose + " " + inertia_row(error.data) + "\n";
+  text += "principal moments of inertia, density 1: " + inertia_row(error.body, error.moment_errors) + "; " + whose + " " +
+          inertia_row(error.data) + "\n";
   text += format("centroids are %.4g apart\n", (error.body.centroid - error.data.centroid).norm());
   return text;
 }
