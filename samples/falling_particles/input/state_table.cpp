@@ -192,10 +192,10 @@ void StateTable::require(const std::vector<std::string>& columns, const std::str
 }
 
 void StateTable::refuse_others(const std::vector<std::string>& columns) const {
-  for (const std::string& column : columns_) {
-    if (std::ranges::find(columns, column) != columns.end()) continue;
-    fail(head_, "unknown column " + in_quotes(column) + did_you_mean(column, columns) + "; allowed: " + join(columns));
-  }
+  const auto is_known = [&columns](const std::string& column) { return std::ranges::find(columns, column) != columns.end(); };
+  const auto other = std::ranges::find_if_not(columns_, is_known);
+  if (other == columns_.end()) return;
+  fail(head_, "unknown column " + in_quotes(*other) + did_you_mean(*other, columns) + "; allowed: " + join(columns));
 }
 
 std::string_view StateTable::word(const Row& row, std::string_view column) const { return row.fields[index_of(column)]; }
