@@ -51,14 +51,12 @@ Source Source::of(std::string path, std::optional<std::string> text, std::vector
 }
 
 OpenWorld::OpenWorld(Source source, Options options) : source_(std::move(source)), options_(std::move(options)) {
-  thread_.run([this] {
-    try {
-      open();
-    } catch (...) {
-      release();
-      throw;
-    }
-  });
+  try {
+    thread_.run([this] { open(); });
+  } catch (...) {  // also a signal, after the world was made
+    thread_.run_last([this] { release(); });
+    throw;
+  }
 }
 
 OpenWorld::~OpenWorld() {
@@ -164,8 +162,8 @@ void OpenWorld::change(const std::vector<std::string>& values) {
     change_values(*parts_->run, parts_->scene, values, [&] { return source_.load(values); });
     const std::string since = " from " + shortest(parts_->run->time()) + " s";
     for (const std::string& value : values) parts_->scene.overrides.push_back(value + since);  // for the summary
+    source_.values.insert(source_.values.end(), values.begin(), values.end());
   });
-  source_.values.insert(source_.values.end(), values.begin(), values.end());
 }
 
 void OpenWorld::set_pushes(std::vector<Push> pushes) {

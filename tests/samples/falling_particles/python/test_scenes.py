@@ -423,6 +423,21 @@ def test_an_error_of_a_run_closes_the_world():
             world.step()
 
 
+def test_grains_that_forces_make_too_fast_end_the_world():
+    scene = free_scene()
+    with scene.start() as world:
+        with pytest.raises(ValueError, match=r"torques\[0, 1\] is 1e\+300; allowed: from -"):
+            world.set_forces(np.zeros((1, 3)), [[0, 1e300, 0]])
+        forces = 0.99e30 * world.grains().mass[:, None] / scene.time_step * [[1, 0, 0]]
+        world.set_forces(forces)
+        world.step()
+        assert world.grains().velocity[0, 0] == pytest.approx(0.99e30)
+        with pytest.raises(RuntimeError, match=r"grain 0 has the speed 1.98e\+30 m/s .* allowed: up to 1e\+30"):
+            world.step(3)
+        assert world.is_closed
+    scenes.Scene(SCENES / "short.toml").start().close()
+
+
 def test_a_scene_with_query_runs_alone():
     plain = scenes.Scene(SCENES / "short.toml")
     query = scenes.Scene(SCENES / "short.toml", {"query": {"solver": "newton"}})
