@@ -60,11 +60,7 @@ OpenWorld::OpenWorld(Source source, Options options) : source_(std::move(source)
 }
 
 OpenWorld::~OpenWorld() {
-  if (is_closed()) return;
-  if (thread_.is_in_other_process() || WorldThread::ode_has_failed()) {
-    [[maybe_unused]] Parts* const left = parts_.release();
-    return;
-  }
+  if (is_closed() || abandon()) return;
   thread_.run_last([this] { release(); });
 }
 
@@ -86,9 +82,14 @@ void OpenWorld::open() {
   parts_->run.emplace(scene, options_.threads, files);
 }
 
+bool OpenWorld::abandon() {
+  if (!thread_.is_in_other_process() && !WorldThread::ode_has_failed()) return false;
+  [[maybe_unused]] Parts* const left = parts_.release();
+  return true;
+}
+
 void OpenWorld::release() {
-  Parts* const parts = parts_.release();
-  if (!WorldThread::ode_has_failed()) delete parts;
+  if (!abandon()) parts_.reset();
 }
 
 void OpenWorld::require_open(const char* method) const {
@@ -188,6 +189,7 @@ std::string OpenWorld::finish(bool draws) {
 void OpenWorld::close() {
   if (is_closed()) return;
   require_open("close");
+  if (abandon()) return;
   occupy([this] { release(); });
 }
 
