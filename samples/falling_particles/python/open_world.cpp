@@ -1,7 +1,5 @@
 #include "open_world.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -187,9 +185,8 @@ std::string OpenWorld::finish(bool draws) {
 }
 
 void OpenWorld::close() {
-  if (is_closed()) return;
+  if (is_closed() || abandon()) return;
   require_open("close");
-  if (abandon()) return;
   occupy([this] { release(); });
 }
 
