@@ -1,7 +1,5 @@
 #include "open_world.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -51,22 +49,16 @@ Source Source::of(std::string path, std::optional<std::string> text, std::vector
 }
 
 OpenWorld::OpenWorld(Source source, Options options) : source_(std::move(source)), options_(std::move(options)) {
-  thread_.run([this] {
-    try {
-      open();
-    } catch (...) {
-      release();
-      throw;
-    }
-  });
+  try {
+    thread_.run([this] { open(); });
+  } catch (...) {  // also a signal, after the world was made
+    thread_.run_last([this] { release(); });
+    throw;
+  }
 }
 
 OpenWorld::~OpenWorld() {
-  if (is_closed()) return;
-  if (thread_.is_in_other_process() || WorldThread::ode_has_failed()) {
-    [[maybe_unused]] Parts* const left = parts_.release();
-    return;
-  }
+  if (is_closed() || abandon()) return;
   thread_.run_last([this] { release(); });
 }
 
@@ -88,9 +80,14 @@ void OpenWorld::open() {
   parts_->run.emplace(scene, options_.threads, files);
 }
 
+bool OpenWorld::abandon() {
+  if (!thread_.is_in_other_process() && !WorldThread::ode_has_failed()) return false;
+  [[maybe_unused]] Parts* const left = parts_.release();
+  return true;
+}
+
 void OpenWorld::release() {
-  Parts* const parts = parts_.release();
-  if (!WorldThread::ode_has_failed()) delete parts;
+  if (!abandon()) parts_.reset();
 }
 
 void OpenWorld::require_open(const char* method) const {
@@ -164,8 +161,8 @@ void OpenWorld::change(const std::vector<std::string>& values) {
     change_values(*parts_->run, parts_->scene, values, [&] { return source_.load(values); });
     const std::string since = " from " + shortest(parts_->run->time()) + " s";
     for (const std::string& value : values) parts_->scene.overrides.push_back(value + since);  // for the summary
+    source_.values.insert(source_.values.end(), values.begin(), values.end());
   });
-  source_.values.insert(source_.values.end(), values.begin(), values.end());
 }
 
 void OpenWorld::set_pushes(std::vector<Push> pushes) {
@@ -188,7 +185,7 @@ std::string OpenWorld::finish(bool draws) {
 }
 
 void OpenWorld::close() {
-  if (is_closed()) return;
+  if (is_closed() || abandon()) return;
   require_open("close");
   occupy([this] { release(); });
 }

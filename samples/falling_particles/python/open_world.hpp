@@ -90,6 +90,7 @@ class OpenWorld {
   void occupy(const std::function<void()>& job);
   void open();
   void release();
+  bool abandon();  // leaves what cannot be destroyed, and returns whether it did
 
   Source source_;
   Options options_;

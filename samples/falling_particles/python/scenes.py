@@ -11,7 +11,7 @@
 
 A scene is a file, a text or a dictionary with the sections and keys of a scene file. `falling_particles --list` prints them. A
 world is a run of a scene. The same scene leaves the same bytes as the program, whatever the steps are between which a program of
-Python looks at the world. Only times differ: the seconds of summary.toml and of view.html.
+Python looks at the world. Only times differ: the seconds of summary.toml.
 
 Lengths are in metres, masses in kilograms, times in seconds, forces in newtons. Frames are the world's. Quaternions are (w, x, y,
 z), from the frame of a body to the world's. Invalid input raises ValueError with the parameter, its value and the valid range.
@@ -29,7 +29,7 @@ import os
 import pathlib
 import warnings
 from types import TracebackType
-from typing import Any, Callable, List, Mapping, Optional, Tuple, Type, Union
+from typing import Any, List, Mapping, Optional, Tuple, Type, Union
 
 import numpy as np
 import numpy.typing as npt

@@ -4,6 +4,7 @@ import multiprocessing
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -421,6 +422,59 @@ def test_an_error_of_a_run_closes_the_world():
         assert world.is_closed
         with pytest.raises(RuntimeError, match="ended with an error .*feeder"):
             world.step()
+
+
+def test_grains_that_forces_make_too_fast_end_the_world():
+    scene = free_scene()
+    with scene.start() as world:
+        with pytest.raises(ValueError, match=r"torques\[0, 1\] is 1e\+300; allowed: from -"):
+            world.set_forces(np.zeros((1, 3)), [[0, 1e300, 0]])
+        forces = 0.99e30 * world.grains().mass[:, None] / scene.time_step * [[1, 0, 0]]
+        world.set_forces(forces)
+        world.step()
+        assert world.grains().velocity[0, 0] == pytest.approx(0.99e30)
+        with pytest.raises(RuntimeError, match=r"grain 0 has the speed 1.98e\+30 m/s .* allowed: up to 1e\+30"):
+            world.step(3)
+        assert world.is_closed
+    scenes.Scene(SCENES / "short.toml").start().close()
+
+
+FAILING_ODE = """
+#define _GNU_SOURCE
+#include <dlfcn.h>
+extern void dDebug(int, const char*, ...);
+int dWorldQuickStep(void* world, double step) {
+  static int calls;
+  if (++calls == 5) dDebug(1, "call %d", calls);
+  return ((int (*)(void*, double))dlsym(RTLD_NEXT, "dWorldQuickStep"))(world, step);
+}
+"""
+USING_IT = """
+import supernormal.scenes as scenes, sys
+scene = scenes.Scene(sys.argv[1])
+broken, other = scene.start(), scene.start()
+other.step(2)
+for call in (lambda: broken.step(9), broken.step, other.step, scene.start):
+    try:
+        call()
+    except RuntimeError as error:
+        print(error)
+assert broken.is_closed and len(other.grains()) == 60
+other.close()
+"""
+
+
+@pytest.mark.skipif(shutil.which("cc") is None or "LD_PRELOAD" in os.environ, reason="takes a C compiler, and to be loaded first")
+def test_an_error_of_ode_itself_does_not_end_the_program():
+    pathlib.Path("failing.c").write_text(FAILING_ODE)
+    flags = ["-shared", "-fPIC", "-fexceptions", "-o", "failing.so", "failing.c", "-Wl,--no-as-needed", "-lode", "-ldl"]
+    subprocess.run(["cc", *flags], check=True)
+    command = [sys.executable, "-c", USING_IT, str(SCENES / "short.toml")]
+    run = subprocess.run(command, env={**os.environ, "LD_PRELOAD": os.path.abspath("failing.so")}, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    lines = run.stdout.splitlines()
+    assert lines[0] == "ODE: call 5" and "ended with an error (ODE: call 5)" in lines[1]
+    assert lines[2:] == ["ODE has failed in this process; allowed: worlds in a new process"] * 2
 
 
 def test_a_scene_with_query_runs_alone():
