@@ -41,6 +41,22 @@ def check_restart(driver, bed):
         yield f"{kind}, {ranks} ranks: restarted run differs", 0 if same else 1, 0
 
 
+def check_particle_exponents(driver):
+    """Exponents of particles: as exponents of their types, and in restart files."""
+    reference = driver.dump(f"forces_{BED.split('.')[0]}_1_on.dump")
+    for ranks in (1, 2, 4):
+        dump = f"forces_exponents_{ranks}.dump"
+        driver.run("dense_forces", ranks, newton="on", bed=BED, steps=20, out=dump, exponents="same")
+        difference = max(largest_difference(rows, reference[step], (7, 8, 9)) for step, rows in driver.dump(dump).items())
+        yield f"exponents of particles, {ranks} ranks: forces, from those with exponents of types", difference, 1e-12
+    for ranks in (1, 2):
+        whole, again = f"whole_exponents_{ranks}", f"again_exponents_{ranks}"
+        driver.run("dense_restart", ranks, bed=BED, until=4400, every=100, out=whole, exponents="spread")
+        driver.run("dense_restart", ranks, bed=f"{whole}.4200.restart", until=4400, every=100, out=again, exponents="restored")
+        same = filecmp.cmp(driver.folder / f"{whole}.4400.restart", driver.folder / f"{again}.4400.restart", shallow=False)
+        yield f"exponents of particles, {ranks} ranks: restarted run differs", 0 if same else 1, 0
+
+
 def check(driver):
     """Yields the name, the value and the limit of each comparison."""
     driver.run("dense", out=BED)
@@ -50,3 +66,4 @@ def check(driver):
     for bed, *limits in ((BED, 1e-10, 1e-10, False), (BRICKS, 1e-12, 1e-6, True)):
         yield from check_forces(driver, bed, *limits)
         yield from check_restart(driver, bed)
+    yield from check_particle_exponents(driver)
