@@ -11,6 +11,8 @@ def check(driver, steps=10000, law="hooke 1e4", limit=1e-4):
     """Yields the name, the value and the limit of each figure."""
     yield from check_gas(driver, "gas", steps, law, limit)
     yield from check_gas(driver, "gas of bricks", steps, law, limit, **BOXY)
+    if law == "hooke 1e4":
+        yield from check_rigid(driver, steps, limit)
 
 
 def check_gas(driver, kind, steps, law, limit, **bodies):
@@ -24,4 +26,13 @@ def check_gas(driver, kind, steps, law, limit, **bodies):
     yield f"{name}: energy", drift, limit
     yield f"{name}: momentum", momentum, 1e-12
     if bodies:
-        yield f"{name}: share of contacts that are no faces", 1 - sum(row["c_pair[5]"] for row in table) / sum(row["c_pair[1]"] for row in table), 0.9
+        faces, contacts = (sum(row[f"c_pair[{k}]"] for row in table) for k in (5, 1))
+        yield f"{name}: faces meet in fewer than a tenth of the contacts", 0 if faces > 0.1 * contacts else 1, 0
+
+
+def check_rigid(driver, steps, limit):
+    """Crosses of two bodies, moved by LAMMPS' fix rigid/nve."""
+    for kind, exponents in (("ellipsoids", "2 2"), ("bricks", "12 20")):
+        (table,) = driver.run("rigid", 1, exponents=exponents, steps=steps, every=steps // 100)
+        drift = max(abs(row["v_energy"] / table[0]["v_energy"] - 1) for row in table)
+        yield f"gas of rigid crosses of {kind}, {steps} steps: energy", drift, limit

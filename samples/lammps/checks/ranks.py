@@ -11,19 +11,19 @@ def largest_difference(rows, reference, columns):
     return max(sum((row[c] - other[c]) ** 2 for c in columns) ** 0.5 for row, other in zip(rows, reference)) / longest
 
 
-def check_forces(driver, bed, limit, single_limit, newton_matters):
-    """Compares with one rank. After 20 steps the springs of friction and rolling have grown."""
+def check_forces(driver, bed, limit, single_limit, newtons):
+    """Compares with one rank and newton on. After 20 steps the springs of friction and rolling have grown."""
     kind = bed.split(".")[0]
-    references = {}
+    reference = None
     for ranks in (1, 2, 4):
-        for newton in ("on", "off"):
+        for newton in newtons:
             dump = f"forces_{kind}_{ranks}_{newton}.dump"
             (table,) = driver.run("dense_forces", ranks, newton=newton, bed=bed, steps=20, out=dump)
             pairs = max(abs(row["c_sums[1]"] / row["PotEng"] - 1) for row in table)
             yield f"{kind}, {ranks} ranks, newton {newton}: energies of single pairs", pairs, single_limit
             frames = driver.dump(dump)
-            reference = references.setdefault(newton if newton_matters else "any", frames)
-            if reference is frames:
+            if reference is None:
+                reference = frames
                 continue
             for step, rows in frames.items():
                 for quantity, columns in (("forces", (7, 8, 9)), ("torques", (10, 11, 12))):
@@ -41,12 +41,29 @@ def check_restart(driver, bed):
         yield f"{kind}, {ranks} ranks: restarted run differs", 0 if same else 1, 0
 
 
+def check_particle_exponents(driver):
+    """Exponents of particles: as exponents of their types, and in restart files."""
+    reference = driver.dump(f"forces_{BED.split('.')[0]}_1_on.dump")
+    for ranks in (1, 2, 4):
+        dump = f"forces_exponents_{ranks}.dump"
+        driver.run("dense_forces", ranks, newton="on", bed=BED, steps=20, out=dump, exponents="same")
+        difference = max(largest_difference(rows, reference[step], (7, 8, 9)) for step, rows in driver.dump(dump).items())
+        yield f"exponents of particles, {ranks} ranks: forces, from those with exponents of types", difference, 1e-12
+    for ranks in (1, 2):
+        whole, again = f"whole_exponents_{ranks}", f"again_exponents_{ranks}"
+        driver.run("dense_restart", ranks, bed=BED, until=4400, every=100, out=whole, exponents="spread")
+        driver.run("dense_restart", ranks, bed=f"{whole}.4200.restart", until=4400, every=100, out=again, exponents="restored")
+        same = filecmp.cmp(driver.folder / f"{whole}.4400.restart", driver.folder / f"{again}.4400.restart", shallow=False)
+        yield f"exponents of particles, {ranks} ranks: restarted run differs", 0 if same else 1, 0
+
+
 def check(driver):
     """Yields the name, the value and the limit of each comparison."""
     driver.run("dense", out=BED)
     driver.run("dense", out=BRICKS, exponents1="20 20", exponents2="8 12", scale=0.84)
     # With newton off, ghosts are solved from positions rounded differently, and single pairs from another normal. On nearly flat
     # faces both change an answer within the tolerance of the query, 1e-9.
-    for bed, *limits in ((BED, 1e-10, 1e-10, False), (BRICKS, 1e-12, 1e-6, True)):
-        yield from check_forces(driver, bed, *limits)
+    for bed, *options in ((BED, 1e-10, 1e-10, ("on", "off")), (BRICKS, 1e-12, 1e-6, ("on",))):
+        yield from check_forces(driver, bed, *options)
         yield from check_restart(driver, bed)
+    yield from check_particle_exponents(driver)

@@ -23,11 +23,30 @@ BodyTable::BodyTable(LAMMPS* lammps, int types)
 
 double* BodyTable::quaternion(int i) const { return ellipsoids_->bonus[lammps_->atom->ellipsoid[i]].quat; }
 
+void BodyTable::use_particle_exponents() {
+  const auto find = [&](const char* name) {
+    int is_double = 0, columns = 0;
+    const int index = lammps_->atom->find_custom(name, is_double, columns);
+    if (index < 0 || is_double == 0 || columns != 0) {
+      lammps_->error->all(FLERR,
+                          std::string("pair_style supernormal: exponents atom takes d_delta and d_epsilon of fix property/atom; "
+                                      "there is no d_") +
+                              name);
+    }
+    return index;
+  };
+  delta_ = find("delta");
+  epsilon_ = find("epsilon");
+}
+
+double& BodyTable::delta(int i) const { return lammps_->atom->dvector[delta_][i]; }
+double& BodyTable::epsilon(int i) const { return lammps_->atom->dvector[epsilon_][i]; }
+
 const ParticleShape& BodyTable::find_shape(int i) {
   const Atom& atom = *lammps_->atom;
   const std::string name = "supernormal: atom " + std::to_string(atom.tag[i]);
   if (atom.ellipsoid[i] < 0) lammps_->error->one(FLERR, name + " is a point: set its shape");
-  const Exponents& exponents = exponents_[static_cast<std::size_t>(atom.type[i])];
+  const Exponents exponents = delta_ < 0 ? exponents_[static_cast<std::size_t>(atom.type[i])] : Exponents{delta(i), epsilon(i)};
   try {
     return cache_.find(Vector3::Map(ellipsoids_->bonus[atom.ellipsoid[i]].shape), exponents.delta, exponents.epsilon);
   } catch (const std::invalid_argument& refusal) {

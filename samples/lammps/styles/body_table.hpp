@@ -14,7 +14,8 @@ class AtomVecEllipsoid;
 
 namespace granular {
 
-/// Reads the ellipsoid particles of LAMMPS. Exponents belong to types, half-axes to particles.
+/// Reads the ellipsoid particles of LAMMPS. Half-axes belong to particles; exponents belong to types, or to particles as d_delta
+/// and d_epsilon of fix property/atom.
 class BodyTable {
  public:
   /// For the atom types 1 to `types`. Their exponents are initially 2.
@@ -24,6 +25,13 @@ class BodyTable {
     double delta = 2, epsilon = 2;
   };
   Exponents& exponents(int type) { return exponents_[static_cast<std::size_t>(type)]; }
+
+  /// Takes the exponents from the particles. Call it when a run starts. Raises a LAMMPS error if they have none.
+  void use_particle_exponents();
+  /// The exponents of particle i in memory of LAMMPS. Only after use_particle_exponents(). Ghosts have them if the caller copies
+  /// them.
+  double& delta(int i) const;
+  double& epsilon(int i) const;
 
   /// The largest bounding radius (m) of each type, on all ranks; 0 if it has no particles. Call it when a run starts: larger
   /// particles are refused during the run.
@@ -50,6 +58,7 @@ class BodyTable {
   LAMMPS_NS::LAMMPS* lammps_;
   LAMMPS_NS::AtomVecEllipsoid* ellipsoids_;
   std::vector<Exponents> exponents_;  // per type
+  int delta_ = -1, epsilon_ = -1;     // indices of the properties of particles; -1 without
   std::vector<double> largest_radii_;
   ShapeCache cache_;
   std::vector<const ParticleShape*> shapes_;  // per particle

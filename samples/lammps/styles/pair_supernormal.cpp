@@ -79,13 +79,23 @@ void PairSupernormal::allocate() {
 }
 
 void PairSupernormal::settings(int count, char** words) {
-  if (count == 0) return;
-  if (count != 2 || std::string(words[0]) != "tolerance") {
-    error->all(FLERR, "pair_style supernormal takes nothing, or: tolerance VALUE");
+  Words rest({words, words + count}, lmp);
+  try {
+    while (!rest.is_empty()) {
+      const std::string keyword = rest.next("pair_style supernormal");
+      if (keyword == "tolerance") {
+        query_settings_.tolerance = rest.number(keyword);
+      } else if (keyword == "exponents" && rest.accept("atom")) {
+        has_particle_exponents_ = true;
+      } else {
+        throw std::invalid_argument(keyword + " is none of: tolerance VALUE, exponents atom");
+      }
+    }
+  } catch (const std::invalid_argument& refusal) {
+    error->all(FLERR, std::string("pair_style supernormal: ") + refusal.what());
   }
-  query_settings_.tolerance = utils::numeric(FLERR, words[1], false, lmp);
   if (!(query_settings_.tolerance >= 1e-15 && query_settings_.tolerance <= 1)) {
-    error->all(FLERR, std::string("pair_style supernormal: tolerance = ") + words[1] + " is outside [1e-15, 1]");
+    error->all(FLERR, fmt::format("pair_style supernormal: tolerance = {} is outside [1e-15, 1]", query_settings_.tolerance));
   }
 }
 
@@ -98,6 +108,8 @@ void PairSupernormal::coeff(int count, char** words) {
   try {
     const Coefficients found = read_coefficients(Words({words + 2, words + count}, lmp));
     if (found.has_exponents) {
+      if (has_particle_exponents_)
+        error->all(FLERR, "pair_coeff: exponents belong to the particles: pair_style has exponents atom");
       if (low != low2 || high != high2) error->all(FLERR, "pair_coeff: exponents belong to a type: name the same one twice");
       for (int type = low; type <= high; ++type) bodies_->exponents(type) = {found.delta, found.epsilon};
     }
@@ -118,6 +130,7 @@ void PairSupernormal::set_material(int low, int high, int low2, int high2, const
 
 void PairSupernormal::report_volumes() const {
   // `set density` of LAMMPS computes masses from the volumes of ellipsoids.
+  if (has_particle_exponents_) return;
   for (int type = 1; type <= atom->ntypes && comm->me == 0; ++type) {
     const BodyTable::Exponents& exponents = bodies_->exponents(type);
     const double share = ParticleShape(Vector3::Ones(), exponents.delta, exponents.epsilon).volume / (4.0 / 3 * std::numbers::pi);
@@ -140,6 +153,10 @@ void PairSupernormal::init_style() {
     history_->pair = this;
     report_volumes();
   }
+  if (has_particle_exponents_) {
+    bodies_->use_particle_exponents();
+    comm_forward = 2;
+  }
   largest_radii_ = bodies_->find_largest_radii();
 }
 
@@ -154,6 +171,7 @@ void PairSupernormal::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   sums_.fill(0);
   if (neighbor->ago == 0) {
+    if (has_particle_exponents_) comm->forward_comm_pair(this);
     bodies_->assign_shapes();
     forget_proofs();
   }
@@ -333,6 +351,21 @@ double PairSupernormal::single(int i, int j, int /*itype*/, int /*jtype*/, doubl
 
 void PairSupernormal::transfer_history(double* from, double* to) { std::copy_n(from, ContactHistory::kSize, to); }
 
+int PairSupernormal::pack_forward_comm(int count, int* indices, double* buffer, int /*pbc_flag*/, int* /*pbc*/) {
+  for (int k = 0; k < count; ++k) {
+    buffer[2 * k] = bodies_->delta(indices[k]);
+    buffer[2 * k + 1] = bodies_->epsilon(indices[k]);
+  }
+  return 2 * count;
+}
+
+void PairSupernormal::unpack_forward_comm(int count, int first, double* buffer) {
+  for (int k = 0; k < count; ++k) {
+    bodies_->delta(first + k) = buffer[2 * k];
+    bodies_->epsilon(first + k) = buffer[2 * k + 1];
+  }
+}
+
 double PairSupernormal::memory_usage() {
   return Pair::memory_usage() + bodies_->bytes() + static_cast<double>(proofs_.capacity() * sizeof(double));
 }
@@ -354,6 +387,9 @@ void PairSupernormal::exchange_coefficients(FILE* file, bool write) {
     }
   };
   exchange(query_settings_.tolerance);
+  double has_particle_exponents = has_particle_exponents_ ? 1 : 0;
+  exchange(has_particle_exponents);
+  has_particle_exponents_ = has_particle_exponents != 0;
   for (int i = 1; i <= atom->ntypes; ++i) {
     exchange(bodies_->exponents(i).delta);
     exchange(bodies_->exponents(i).epsilon);

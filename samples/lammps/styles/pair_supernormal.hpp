@@ -29,6 +29,9 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   void compute(int eflag, int vflag) override;
   double single(int i, int j, int itype, int jtype, double square, double coul, double lj, double& force_over_distance) override;
   void transfer_history(double* from, double* to) override;
+  /// Copies the exponents of particles to their ghosts.
+  int pack_forward_comm(int count, int* indices, double* buffer, int pbc_flag, int* pbc) override;
+  void unpack_forward_comm(int count, int first, double* buffer) override;
   double memory_usage() override;
 
   void write_restart(FILE* file) override;
@@ -72,6 +75,7 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   void exchange_coefficients(FILE* file, bool write);
   const double* find_history(int i, int j) const;
 
+  bool has_particle_exponents_ = false;
   std::unique_ptr<BodyTable> bodies_;
   std::vector<double> largest_radii_;       // m; per type
   std::vector<ContactMaterial> materials_;  // per pair of types
