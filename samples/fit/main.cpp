@@ -26,6 +26,8 @@ namespace {
 
 enum ExitCode { Done = 0, Failed = 1, BadInput = 2, BadFit = 3 };
 
+constexpr std::size_t kSurfacePoints = 50000;  // of a mesh: their spacing is about 1.5 % of its extent
+
 struct Options {
   std::string path;
   std::string shape = "auto";
@@ -73,6 +75,7 @@ fit::FitSettings settings_of(const Options& options, const fit::Data& data) {
   if (is_mesh && options.noise == "auto") settings.noise = fit::Noise::AlongNormal;
   settings.is_whole = fit::is_closed(data);
   if (settings.is_whole) settings.volume = fit::volume_target(data);
+  if (is_mesh) settings.surface = fit::sample_triangles(data.vertices.points, data.triangles, kSurfacePoints, 4);
   const std::map<std::string, fit::Sides> sides = {
       {"auto", fit::Sides::Auto}, {"all", fit::Sides::All}, {"some", fit::Sides::Some}};
   settings.sides = sides.at(options.sides);
@@ -218,7 +221,7 @@ int run_program(int argc, char** argv) {
   app.add_option(
          "--sides", options.sides,
          "where the data show the surface; all: no body shall extend beyond the data; some: it may where nothing was scanned; "
-         "auto: all, if the data are a closed mesh or no body fits them within the noise")
+         "auto: all, if no body fits the data within the noise")
       ->check(CLI::IsMember({"auto", "all", "some"}))
       ->capture_default_str();
   const CLI::Range exponents(supernormal::Superellipsoid::kMinExponent, supernormal::Superellipsoid::kMaxExponent);

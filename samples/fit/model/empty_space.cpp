@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "distance.hpp"
 #include "point_tree.hpp"
@@ -17,8 +18,7 @@ constexpr std::size_t kNeighbours = 12;       // of a plane through neighbours
 constexpr int kSightDirections = 60;
 constexpr int kHalfSpaces = 200;
 constexpr std::size_t kBalls = 800;  // that touch the surface
-constexpr double kFar = 1e3;         // radius of the balls that are half-spaces: they bulge by 1/2000
-constexpr double kMargin = 0.02;
+constexpr double kFar = 100;         // radius of the balls that are half-spaces: they bulge by 1/200 of the extent
 
 double median_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -95,7 +95,10 @@ double winding_number(const Surface& surface, const Vector3& x) {
 EmptySpace find_empty_space(const Cloud& data) {
   const PointTree all(data.points);
   const Surface surface = make_surface(data);
-  const double margin = kMargin + 2 * surface.noise;
+  const double area = std::accumulate(surface.areas.begin(), surface.areas.end(), 0.0);
+  // The vertices and edges of a body lie between the points, by up to twice their mean spacing.
+  const double spacing = std::sqrt(area / static_cast<double>(data.points.size()));
+  const double margin = 2 * (surface.noise + spacing);
   EmptySpace space;
   const auto add = [&](const Vector3& centre) {
     const double radius = all.distance(centre) - margin;

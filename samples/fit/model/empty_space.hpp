@@ -33,7 +33,7 @@ struct EmptySpace {
 /// The empty space around points of a surface, of extent 1. Two kinds of balls:
 /// - very large ones in 200 directions, which are half-spaces: a body may not extend beyond the convex hull;
 /// - balls that touch the surface from outside, which fill its concavities.
-/// The radii are smaller than the distance from the data by 2 % of the extent and by the noise of the points.
+/// The radii are smaller than the distance from the data by twice the noise and twice the mean spacing of the points.
 ///
 /// A point is outside if its winding number is below 1/2.
 EmptySpace find_empty_space(const Cloud& data);

@@ -445,15 +445,15 @@ FittedBody fit_kept(const Cloud& cloud, const FitSettings& settings) {
   const Extent extent = extent_of(cloud.points);
   const Cloud data = normalized(cloud, extent);
   FitSettings of_data = moved(settings, 1 / extent.size, -extent.centre / extent.size);
-  const bool is_all = settings.sides == Sides::All || (settings.sides == Sides::Auto && settings.is_whole);
-  if (!is_all) {
+  if (settings.sides != Sides::All) {
     // Half of a body's surface determines the rest, but only if it is a body of the families.
     const FittedBody fitted = fit_normalized(data, extent, of_data);
-    if (settings.sides == Sides::Some || !fitted.uncertainty.is_significant) return fitted;
+    const bool fits = !fitted.uncertainty.is_significant || fitted.uncertainty.sigma < kSharpestEdge * extent.size;
+    if (settings.sides == Sides::Some || fits) return fitted;
     if (settings.progress) settings.progress("no body fits within the noise: searching for one that ends with the data");
   }
   of_data.is_whole = true;
-  of_data.empty = find_empty_space(data);
+  of_data.empty = find_empty_space(settings.surface.points.empty() ? data : normalized(settings.surface, extent));
   return fit_normalized(data, extent, of_data);
 }
 

@@ -1,10 +1,12 @@
 // Fits one body to data.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <supernormal/shapes/superellipsoid.hpp>
 #include <vector>
 
 #include "body.hpp"
@@ -22,7 +24,7 @@ enum class Noise {
 
 /// Where the body may extend beyond the data.
 enum class Sides {
-  Auto,  ///< nowhere, if the data are a closed mesh or no body of the families fits them within the noise
+  Auto,  ///< nowhere, if no body of the families fits the data within the noise
   All,   ///< nowhere: the data show all sides
   Some,  ///< where nothing was scanned
 };
@@ -39,6 +41,9 @@ struct FitSettings {
   /// Of a closed mesh; one more residual of the fit of a body.
   std::optional<VolumeTarget> volume = {};
   ShapeLimits limits = {};
+  /// More points of the same surface with normals, such as of a mesh, from which the empty space is found. Empty: the points to
+  /// fit.
+  Cloud surface = {};
   /// Where no body shall be. fit_body() and fit_union() find it.
   EmptySpace empty = {};
   int threads = 1;
@@ -50,6 +55,10 @@ constexpr double kOutlier = 5;
 /// Limit of the half-axes, relative to the radius of the data, if the data cover the whole surface. Half of a segment in the data
 /// is at most their radius, except that radius_of() ignores the outermost points.
 constexpr double kLargestOverRadiusOfWhole = 1.5;
+
+/// The sharpest edge of the families, with the largest exponent, misses the edge of a box by this fraction of a half-axis. Smaller
+/// distances count as equal.
+const double kSharpestEdge = 1 - std::exp2(-1 / supernormal::Superellipsoid::kMaxExponent);
 
 struct FittedBody {
   Body body;

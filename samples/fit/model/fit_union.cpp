@@ -5,7 +5,6 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <supernormal/shapes/superellipsoid.hpp>
 
 #include "fit_error.hpp"
 #include "kmeans.hpp"
@@ -16,10 +15,6 @@ namespace {
 
 // The lengths below are for data of extent 1.
 constexpr double kLoss = 0.02;  // loss width while points still change owners
-
-// The sharpest edge of the families, with the largest exponent, misses the edge of a box by this fraction of a half-axis. Smaller
-// distances carry no information about the number of bodies.
-const double kSharpest = 1 - std::exp2(-1 / supernormal::Superellipsoid::kMaxExponent);
 
 // Required decrease of the root mean square by a further body. Descents from other clusters differ by some per cent.
 constexpr double kLeastGain = 0.05;
@@ -214,7 +209,7 @@ Model searched_again(Model model, const Cloud& cloud, const FitSettings& search,
   return model;
 }
 
-double resolved_square(const Model& model) { return model.mean_square + kSharpest * kSharpest; }
+double resolved_square(const Model& model) { return model.mean_square + kSharpestEdge * kSharpestEdge; }
 
 double criterion(const Model& model, std::size_t points) {
   const auto n = static_cast<double>(points);
@@ -291,7 +286,12 @@ std::vector<FittedBody> unite(const Cloud& cloud, int largest_count, const FitSe
   const Cloud data = normalized(cloud, extent), few = thinned(data, 1000);
   const Family family = settings.family.value_or(Family::Superellipsoid);
   FitSettings of_data = moved(settings, 1 / extent.size, -extent.centre / extent.size);
-  if (settings.sides != Sides::Some) of_data.empty = find_empty_space(data);
+  // What one body fits needs no bounds, as in fit_body().
+  const Model one = best_of_one(few, family, of_data);
+  const bool fits = std::isfinite(one.mean_square) &&
+                    (one.mean_square < kSharpestEdge * kSharpestEdge || is_well_fitted(one.bodies.front(), few));
+  if (settings.sides == Sides::All || (settings.sides == Sides::Auto && !fits))
+    of_data.empty = find_empty_space(settings.surface.points.empty() ? data : normalized(settings.surface, extent));
   FitSettings of_search = of_data;
   of_search.empty = thinned(of_data.empty, 4);  // all balls for all clusterings would take most of the time
 

@@ -86,7 +86,8 @@ class Distances final : public ceres::CostFunction {
         offsets_(offsets),
         measure_(measure),
         limits_(settings.limits),
-        tolerance_(settings.distance_tolerance) {
+        // Depths in empty space need few digits.
+        tolerance_(measure.counts_above ? settings.distance_tolerance : kRoughTolerance) {
     set_num_residuals(static_cast<int>(points.size()));
     mutable_parameter_block_sizes()->assign(kBlockSizes.begin(), kBlockSizes.end());
   }

@@ -138,7 +138,7 @@ std::vector<std::string> doubts_about(std::span<const FittedBody> fitted, const 
   for (std::size_t k = 0; k < fitted.size(); ++k) {
     outliers += fitted[k].outliers.size();
     points += fitted[k].outliers.size() + fitted[k].inliers;
-    if (fitted[k].is_at_largest_size)
+    if (fitted[k].is_at_largest_size && !fitted[k].is_bounded_by_data)
       doubts.push_back(format("body %zu: the data do not bound a half-axis, which ended at its limit; scan more sides", k + 1));
   }
   add("the outliers are", static_cast<double>(outliers) / static_cast<double>(points), kMostOutliers, "the points",
