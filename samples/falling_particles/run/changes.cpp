@@ -126,6 +126,7 @@ void require_like(const Wall& wall, const Wall& changed, WallChange change) {
 void change_values(StepwiseRun& run, Scene& scene, const std::vector<std::string>& assignments,
                    const std::function<Scene()>& load) {
   std::vector<Change> changes;
+  changes.reserve(assignments.size());
   for (const std::string& assignment : assignments) changes.push_back(change_of(assignment, scene));
   const Scene changed = load();
   const auto is_of = [](const Change& change, const Wall& wall) {

@@ -57,7 +57,7 @@ TEST_CASE("tables: a run has those that are on by default, with a sample in each
   CHECK(lines_of(tables.at("trajectory.csv")) == 1 + 3 * 8);  // eight grains
   CHECK(lines_of(tables.at("energies.csv")) == 1 + 3);
   CHECK(lines_of(tables.at("state.csv")) == 1 + 3);
-  CHECK(lines_of(tables.at("final_state.csv")) == 1 + 8);  // of the end alone
+  CHECK(lines_of(tables.at("final_state.csv")) == 1 + 8);           // of the end alone
   CHECK(lines_of(tables.at("measurements/fabric.csv")) == 1 + 40);  // none at the start
   REQUIRE(costs.size() == 1);
   CHECK(costs[0].state.samples == 40);
