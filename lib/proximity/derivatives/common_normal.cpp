@@ -22,6 +22,9 @@ constexpr double kLargestStep = 1e-7;
 // 1e-6.
 constexpr int kMaxEvaluations = 32;
 
+// Of a step that led down.
+constexpr double kShorter = 0.25;
+
 // The weight of a vertex in a witness point, and the distance of a point from the border of its face, relative to the face: less is
 // rounding.
 constexpr double kNoWeight = 1e-9;
@@ -96,10 +99,17 @@ CommonNormal::CommonNormal(GapFunction& gap, const Vector3& start)
   std::size_t best = 0;
   if (!look_at(start, places[best])) return;
   const double least_gap = places[best].jet.s - kTieUnits * gap_.rounding();
+  double part = 1;
   while (places[best].step.norm() > kSmallStep && gap_.evaluations() < kMaxEvaluations) {
-    if (!look_at(moved(places[best]), places[1 - best])) break;
-    // The pieces of a model may change, and the step with them. Smooth bodies converge.
-    if (!has_nonsmooth_points_ && !(places[1 - best].rest < places[best].rest)) break;
+    if (!look_at(moved(places[best], part), places[1 - best])) break;
+    // Smooth bodies converge. The pieces of a model may change, and then a step that leads down was too long.
+    if (!has_nonsmooth_points_) {
+      if (!(places[1 - best].rest < places[best].rest)) break;
+    } else if (places[1 - best].jet.s < places[best].jet.s - gap_.rounding()) {
+      part *= kShorter;
+      continue;
+    }
+    part = 1;
     best = 1 - best;
   }
   finish(places[best]);
@@ -151,8 +161,8 @@ void CommonNormal::find_active_set(Place& place) const {
     }
   }
   const double size = gap_.shape1().half_extents().norm() + gap_.shape2().half_extents().norm();
-  const double flattest = limits::kFlattest * gap_.length_unit();
-  Symmetric2 A = (bounded(place.body1, flattest) + bounded(place.body2, flattest)).plus_identity(jet.s);
+  const double infinite = size / std::numeric_limits<double>::epsilon();  // the normal of a flat side does not move
+  Symmetric2 A = (bounded(place.body1, infinite) + bounded(place.body2, infinite)).plus_identity(jet.s);
   const double low = Eigen2(A).low, least = kLeastCurvature * size;
   if (low < least && low <= 0) A = A.plus_identity(least - low);
   place.peak = PiecewiseModel{{pieces.data(), count}, A}.maximize();
@@ -197,7 +207,9 @@ void CommonNormal::find_active_set(Place& place) const {
     const Vector2 first = edge1(pair), second = edge2(pair);
     const bool is_active = std::find(active.begin(), active.begin() + active_count, pair) != active.begin() + active_count;
     const double below = pieces[pair].at(place.peak.u) - height;
-    place.is_near_border = place.is_near_border || (!is_active && below <= kNearby * (first.norm() + second.norm()) + nothing);
+    // On a flat side there is no step, and this normal counts.
+    const double nearest = std::min(below, pieces[pair].value);
+    place.is_near_border = place.is_near_border || (!is_active && nearest <= kNearby * (first.norm() + second.norm()) + nothing);
     if (below > nothing) continue;
     if (first.norm() > nothing) all1.flatten(first);
     if (second.norm() > nothing) all2.flatten(second);
@@ -210,10 +222,10 @@ void CommonNormal::find_active_set(Place& place) const {
   }
 }
 
-/// The normal of the next evaluation. On a flat face the normal is a smooth function of the boundary point, and not the other way
-/// round, so the flatter body's point moves.
-Vector3 CommonNormal::moved(const Place& place) const {
-  const Vector3 dn = place.plane.lift(place.step);
+/// The normal of the next evaluation, after this part of the step. On a flat face the normal is a smooth function of the boundary
+/// point, and not the other way round, so the flatter body's point moves.
+Vector3 CommonNormal::moved(const Place& place, double part) const {
+  const Vector3 dn = place.plane.lift(part * place.step);
   const GapJet& jet = place.jet;
   const Matrix3& R = gap_.rotation();
   Vector3 next = jet.n + dn;

@@ -44,7 +44,7 @@ class CommonNormal {
 
   bool look_at(const Vector3& n, Place& place);
   void find_active_set(Place& place) const;
-  Vector3 moved(const Place& place) const;
+  Vector3 moved(const Place& place, double part) const;
   void finish(const Place& place);
   void choose_points(const Place& place);
 

@@ -416,7 +416,10 @@ Vector3 DerivativePairs::witness(const Shape& shape, const Vector3& n) {
 DerivativePair DerivativePairs::draw_flat() {
   scale_ = log_uniform(2e-3, 7);
   const int kind1 = count_ % kKinds, kind2 = std::uniform_int_distribution<int>(0, kKinds - 1)(engine_);
-  DerivativePair pair{std::string(kKindNames[kind1]) + " and " + kKindNames[kind2], any(kind1), any(kind2), {}, {}};
+  DerivativePair pair{std::string(kKindNames[kind1]) + " and " + kKindNames[kind2], any(kind1), {}, {}, {}};
+  const bool is_small = uniform(0, 1) < 0.5;  // a body anywhere on the side of a larger one
+  if (is_small) scale_ *= log_uniform(1e-3, 1);
+  pair.body2 = any(kind2);
   const Vector3 n1 = normal_of_face_or_edge(kind1, *pair.body1.shape), n2 = normal_of_face_or_edge(kind2, *pair.body2.shape);
   pair.pose1.rotation = Eigen::AngleAxisd(uniform(0, 3.14), direction()).toRotationMatrix();
   const Vector3 n = pair.pose1.rotation * n1;
@@ -430,7 +433,9 @@ DerivativePair DerivativePairs::draw_flat() {
   const double gap = smallest * (place == 0 ? uniform(0, 1) : place == 1 ? 0 : -uniform(0, 0.2));
   const Vector3 point1 = pair.pose1.rotation * witness(*pair.body1.shape, n1);
   const Vector3 point2 = pair.pose2.rotation * witness(*pair.body2.shape, -(pair.pose2.rotation.transpose() * n));
-  pair.pose2.position = point1 + gap * n - point2;
+  const Vector3 aside =
+      is_small ? Vector3(uniform(0, 0.4) * pair.body1.shape->half_extents().minCoeff() * n.cross(direction())) : Vector3(0, 0, 0);
+  pair.pose2.position = point1 + gap * n - point2 + aside;
   ++count_;
   scale_ = 1;
   return pair;
