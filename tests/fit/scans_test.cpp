@@ -236,7 +236,7 @@ TEST_CASE("the aligned data lie in the frame of the grain, and the JSON has the 
   const FitError error = find_error(std::vector<Body>{fitted.body}, data);
   const std::string text = json_text(std::vector{fitted}, error, {"a doubt"}, "stone", "a scan");
   for (const char* part : {R"("name": "stone")", R"("family": "superellipsoid")", R"("delta": 2.5)", R"("delta_error": null)",
-                           R"("epsilon_error": 0.0)", "\"warnings\": [\n    \"a doubt\"\n  ]"}) {
+                           R"("epsilon_error": 0.0)", R"("a doubt")"}) {
     CAPTURE(part);
     CHECK(text.find(part) != std::string::npos);
   }

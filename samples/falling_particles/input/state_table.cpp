@@ -187,7 +187,10 @@ std::size_t StateTable::index_of(std::string_view column) const {
 
 void StateTable::require(const std::vector<std::string>& columns, const std::string& why) const {
   for (const std::string& column : columns) {
-    if (!has(column)) fail(head_, "column " + column + " is missing" + why + "; the columns are " + join(columns_));
+    if (has(column)) continue;
+    std::string message = "column ";
+    message.append(column).append(" is missing").append(why).append("; the columns are ").append(join(columns_));
+    fail(head_, message);
   }
 }
 

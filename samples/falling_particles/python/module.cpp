@@ -123,7 +123,7 @@ void bind_world(py::module_& m) {
 
 PYBIND11_MODULE(_scenes, m) {
   m.doc() = "Runs of falling_particles. Import `supernormal.scenes` instead; it has classes.";
-  py::register_local_exception_translator([](std::exception_ptr error) {
+  py::register_local_exception_translator([](const std::exception_ptr& error) {
     try {
       if (error) std::rethrow_exception(error);
     } catch (const falling_particles::InputError& input) {

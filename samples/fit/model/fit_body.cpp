@@ -168,7 +168,7 @@ bool update(Descent& descent, const Cloud& cloud, const FitSettings& settings, d
   return standard_errors_moved(descent, changes, sigma) > kSettled;
 }
 
-void solve(Descent& descent, const Cloud& cloud, LeastSquaresSettings settings) {
+void solve(Descent& descent, const Cloud& cloud, const LeastSquaresSettings& settings) {
   const Cloud chosen = selected(cloud, descent.inliers);
   std::vector<double> offsets;
   for (const std::size_t i : descent.inliers) offsets.push_back(descent.offsets[i]);
@@ -371,8 +371,7 @@ std::vector<std::size_t> gross_outliers(const Cloud& cloud, const FitSettings& s
   const std::vector<std::size_t> single = isolated(cloud.points);
   outliers.insert(outliers.end(), single.begin(), single.end());
   std::ranges::sort(outliers);
-  const auto repeated = std::ranges::unique(outliers);
-  outliers.erase(repeated.begin(), repeated.end());
+  outliers.erase(std::unique(outliers.begin(), outliers.end()), outliers.end());
   return outliers;
 }
 

@@ -83,9 +83,9 @@ double find_tilt(const supernormal::Superellipsoid& body, const Face& face, cons
 /// The least tilt, about the vertices and the sides of a quadrant.
 double find_tilt(const supernormal::Superellipsoid& body, const Face& face) {
   double least = kLargestTilt;
-  for (int k = 0; 4 * k <= face.count; ++k) {
-    const Vector2& vertex = face.vertices.at(static_cast<std::size_t>(k));
-    const Vector2 side = face.vertices.at(static_cast<std::size_t>(k + 1)) - vertex;
+  for (std::size_t k = 0; 4 * k <= static_cast<std::size_t>(face.count); ++k) {
+    const Vector2& vertex = face.vertices.at(k);
+    const Vector2 side = face.vertices.at(k + 1) - vertex;
     least = std::min(
         {least, find_tilt(body, face, vertex.normalized()), find_tilt(body, face, Vector2(side.y(), -side.x()).normalized())});
   }
