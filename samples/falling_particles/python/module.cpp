@@ -123,9 +123,9 @@ void bind_world(py::module_& m) {
 
 PYBIND11_MODULE(_scenes, m) {
   m.doc() = "Runs of falling_particles. Import `supernormal.scenes` instead; it has classes.";
-  py::register_local_exception_translator([](const std::exception_ptr& error) {
+  py::register_local_exception_translator([](std::exception_ptr error) {
     try {
-      if (error) std::rethrow_exception(error);
+      if (error) std::rethrow_exception(std::move(error));
     } catch (const falling_particles::InputError& input) {
       std::string text = input.what();
       if (text.starts_with("--set ")) text.replace(0, 6, "values: ");
