@@ -104,7 +104,8 @@ TEST_CASE("lammps: bodies have faces where they are flat along two axes") {
       for (int k = 0; k < face.count; ++k) {
         const Vector2& vertex = face.vertices.at(static_cast<std::size_t>(k));
         double farthest = 0;
-        for (double tilt = 1e-6; tilt < 0.7; tilt *= 1.1) {
+        for (int step = 0; step < 142; ++step) {
+          const double tilt = 1e-6 * std::pow(1.1, step);  // up to 0.7 rad
           Vector3 normal;
           normal[face.axis] = std::cos(tilt);
           normal[(face.axis + 1) % 3] = std::sin(tilt) * vertex.normalized().x();

@@ -123,7 +123,7 @@ TEST_CASE("start: an angular momentum in a dump becomes an angular velocity abou
 
 TEST_CASE("start: sizes must be in the range of the kind") {
   const std::string grain = "grain,scale,x_m,y_m,z_m,qw,qx,qy,qz\npea,1.5,0.02,0.03,0.01,1,0,0,0\n";
-  const std::string size = "grain[pea].size={distribution = \"uniform\", unit = \"catalogue\", smallest = 0.5, largest = 2}";
+  const std::string size = R"(grain[pea].size={distribution = "uniform", unit = "catalogue", smallest = 0.5, largest = 2})";
   const Loaded loaded(grain, {size});
   CHECK(grains_of(loaded)[0].scale == 1.5);
   CHECK(loaded.scene.kinds[0].scales == std::vector<double>{1.5});
@@ -148,9 +148,9 @@ TEST_CASE("start: mistakes in a CSV file are refused with line and column") {
       {"vz_m_per_s,", "scale,", {"state:1: column vz_m_per_s is missing"}},
       {"grain,x_m", "body,x_m", {"state:1: column grain is missing"}},
   };
-  for (const auto& [from, to, says] : mistakes) {
-    CAPTURE(to);
-    check_says(Loaded(replaced(kOneGrain, from, to)).text, says);
+  for (const Mistake& mistake : mistakes) {
+    CAPTURE(mistake.to);
+    check_says(Loaded(replaced(kOneGrain, mistake.from, mistake.to)).text, mistake.says);
   }
   const std::string head = "body,grain,x_m,y_m,z_m,qw,qx,qy,qz\n4,pea,0.01,0.01,0.01,1,0,0,0\n";
   check_says(Loaded(head + "4,pea,0.02,0.02,0.02,1,0,0,0\n").text, {"state:3: body is 4, which another line has"});
@@ -168,9 +168,9 @@ TEST_CASE("start: mistakes in a dump are refused") {
       {"c_shape[7] fx", "stress fx", {"state:19: column qw is missing"}},
       {"c_shape[7] fx", "c_shape[7] vx", {"state:19: column vy_m_per_s is missing"}},
   };
-  for (const auto& [from, to, says] : mistakes) {
-    CAPTURE(to);
-    check_says(Loaded(replaced(kDump, from, to)).text, says);
+  for (const Mistake& mistake : mistakes) {
+    CAPTURE(mistake.to);
+    check_says(Loaded(replaced(kDump, mistake.from, mistake.to)).text, mistake.says);
   }
   check_says(Loaded("ITEM: UNITS\nlj\n" + std::string(kDump)).text, {"state:2: the units of the dump are \"lj\"; allowed: si"});
 }
