@@ -84,7 +84,8 @@ struct ProximityDerivatives {
 /// origin costs no digits.
 ///
 /// The relative error is about 1e-7 or less, as long as the radii of curvature of the Minkowski difference differ by less than 1e9.
-/// Beyond, the status is SingularCurvature. A radius of curvature above 1e8 times the smallest half-extent counts as infinite.
+/// A radius of curvature above 1e8 times the smallest half-extent counts as infinite. Beside a radius of 1e13 half-extents, a
+/// LinearImage or a Superovoid gives the other radius to a few per cent only, and with it the normal's Jacobian and the Hessian.
 SUPERNORMAL_API ProximityDerivatives find_proximity_derivatives(const Shape& shape1, const Pose& pose1, const Shape& shape2,
                                                                 const Pose& pose2, const Proximity& proximity,
                                                                 const DerivativeSettings& settings = {});
