@@ -136,7 +136,7 @@ TEST_CASE("start: grains beyond a wall are refused by its name") {
   check_says(refusal_of(pea_at(0.02, 0.03, 0.01) + pea_at(0.02, 0.03, 2e-3)),
              {"state.csv:3: the pea is 0.001 m deep in wall \"floor\""});
   check_says(refusal_of(pea_at(0.06, 0.03, 0.01)), {"state.csv:2: the pea is 0.013 m deep in wall \"x_high\""});
-  const std::string part = "part=[{name = \"block\", shape = \"box\", size = [0.01, 0.01, 0.01], position = [0.02, 0.03, 0.01]}]";
+  const std::string part = R"(part=[{name = "block", shape = "box", size = [0.01, 0.01, 0.01], position = [0.02, 0.03, 0.01]}])";
   check_says(refusal_of(pea_at(0.02, 0.03, 0.016), {part}), {"the pea is 0.002 m deep in part \"block\""});
   CHECK(refusal_of(pea_at(0.02, 0.03, 0.0179), {part}).empty());
 }
@@ -145,7 +145,7 @@ TEST_CASE("start: a grain outside a container without walls there is refused") {
   const std::string open =
       "container={kind = \"none\", start = {corner = [0, 0, 0], size = [0.1, 0.1, 0.1]}, bounds = {corner = [0, 0, 0], size = [1, "
       "1, 1]}}";
-  const std::string part = "part=[{name = \"block\", shape = \"box\", size = [0.01, 0.01, 0.01], position = [0.02, 0.03, 0.01]}]";
+  const std::string part = R"(part=[{name = "block", shape = "box", size = [0.01, 0.01, 0.01], position = [0.02, 0.03, 0.01]}])";
   check_says(refusal_of(pea_at(0.5, 0.5, 0.5) + pea_at(0.5, 0.5, 1.5), {open, part}),
              {"state.csv:3: the pea is at [0.5, 0.5, 1.5] m, outside the container, a none; allowed: inside"});
 }
