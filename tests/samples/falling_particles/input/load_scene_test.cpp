@@ -169,7 +169,9 @@ TEST_CASE("a scene names its pictures") {
                     R"(pictures = ["povray", "vtk"])"
                     "\n") == std::vector<std::string>{"povray", "vtk"});
   for (const char* wrong : {R"("glb")", R"(["gltf"])", "[1]", R"(["vtk", "vtk"])"}) {
-    const std::string text = complaint(std::string(kSceneText) + "[output]\npictures = " + wrong + "\n");
+    std::string scene(kSceneText);
+    scene.append("[output]\npictures = ").append(wrong).append("\n");
+    const std::string text = complaint(scene);
     CHECK(text.find("pictures") != std::string::npos);
     CHECK(text.find("allowed: an array of different words of: page, glb, lammps, vtk, povray") != std::string::npos);
   }
