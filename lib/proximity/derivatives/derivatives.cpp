@@ -19,17 +19,17 @@ namespace {
 constexpr int kV1 = 0, kW1 = 3, kV2 = 6, kW2 = 9;
 
 // How far a witness point may move, beyond what its derivative says, as a body rotates by kNearby: this part of what it says, or so
-// many sizes of the smaller body. Of 12 000 flat pairs (`derivatives 6000 5 --flat`, and 6) no gradient is wrong, as with 0.01.
-// With 1, 547 are wrong.
+// many sizes of the smaller body. Of 12 000 flat pairs (`derivatives 6000 5 --flat`, and 6) 3 gradients are wrong, as with 0.01.
+// With 1, 438 are wrong.
 constexpr double kBend = 0.1;
-constexpr double kLeastBend = 1e-5;  // with 1e-6, 6 % fewer of these pairs have Jacobians; with 1e-4, 2 % more
+constexpr double kLeastBend = 1e-5;  // with 1e-6, 3 % fewer of these pairs have Jacobians; with 1e-4, 1 % more
 
-// In sizes of the smaller body: a point that so moves by more jumps. By as much the gradient may be off. With 1e-2, 4 % more pairs
-// have one.
+// In sizes of the smaller body: a point that so moves by more jumps. By as much the gradient may be off. With 1e-2, 3 % more of
+// these pairs have one.
 constexpr double kJump = 1e-3;
 
-// Of the smallest half-extent: the tolerance of a gap whose change over kNearby tells a slope to kLeastBend. With 1e-14, queries of
-// sharp bodies end without an answer, and 35 instead of 3 pairs are refused without need.
+// Of the smallest half-extent: the tolerance of a gap whose change over kNearby tells a slope to kLeastBend. With 1e-14, some
+// queries of sharp bodies end without an answer, and one more pair is refused without need.
 constexpr double kSlopeTolerance = 1e-12;
 
 /// A common normal in the axes of the world. Points are relative to the origins of their bodies' frames.
