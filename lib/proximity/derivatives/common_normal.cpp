@@ -29,11 +29,6 @@ constexpr double kShorter = 0.25;
 // rounding.
 constexpr double kNoWeight = 1e-9;
 
-// In sizes of the smaller body: a point that moves by less as the body rotates by kNearby is on no flat side. With 1e-12 no
-// gradient of these pairs changes, and they take 6.9 instead of 4.7 evaluations. Without flat sides 411 gradients are wrong instead
-// of 3.
-constexpr double kFlat = 1e-5;
-
 // rad: a normal that rotates by less as a body rotates by kNearby is not between two sharp points. Without this look 7 gradients
 // are wrong instead of 3.
 constexpr double kSharp = 1e-3;
@@ -98,7 +93,7 @@ CommonNormal::CommonNormal(GapFunction& gap, const Vector3& start)
   std::array<Place, 2> places;
   std::size_t best = 0;
   if (!look_at(start, places[best])) return;
-  const double least_gap = places[best].jet.s - kTieUnits * gap_.rounding();
+  const double least_gap = places[best].jet.s - kMaxEvaluations * gap_.rounding();
   double part = 1;
   while (places[best].step.norm() > kSmallStep && gap_.evaluations() < kMaxEvaluations) {
     if (!look_at(moved(places[best], part), places[1 - best])) break;
@@ -276,11 +271,8 @@ void CommonNormal::finish(const Place& place) {
   if (place.response.kind == TangentResponse::Kind::Free) choose_points(place);
   is_converged_ = place.step.norm() <= kLargestStep && all_finite(point1_) && all_finite(lever2_);
   const double size = std::min(gap_.shape1().half_extents().norm(), gap_.shape2().half_extents().norm());
-  const auto may_be_flat = [&](const BodyCurvature& body) {
-    return body.flat_count > 0 || kNearby * body.A.trace() > kFlat * size;
-  };
   const bool is_sharp = kNearby * size * place.response.G.norm() > kSharp;
-  may_change_nearby_ = is_sharp || place.is_near_border || (may_be_flat(place.body1) && may_be_flat(place.body2));
+  may_change_nearby_ = is_sharp || place.is_near_border || (place.body1.may_be_flat(size) && place.body2.may_be_flat(size));
 }
 
 }  // namespace supernormal

@@ -215,12 +215,15 @@ Departure look_nearby(const GapFunction& gap, const CommonNormal& common, int& e
   return worst;
 }
 
-/// The same for a body on a plane, whose boundary point r moves by A times the tilt. Four evaluations.
-Departure look_nearby(const Shape& shape, const TangentPlane& tangent, const Vector3& r, const Symmetric2& A) {
+/// The same for a body on a plane, whose boundary point r moves by its radii of curvature times the tilt. Four evaluations, but
+/// none unless the body may be flat.
+Departure look_nearby(const Shape& shape, const TangentPlane& tangent, const Vector3& r, const BodyCurvature& body) {
+  const double size = shape.half_extents().norm();
   Departure worst = Departure::None;
+  if (!shape.traits().has_nonsmooth_points && !body.may_be_flat(size)) return worst;
   for (const Vector2& tilt : {Vector2(kNearby, 0), Vector2(-kNearby, 0), Vector2(0, kNearby), Vector2(0, -kNearby)}) {
     const Vector3 moved = shape.point((tangent.n + tangent.lift(tilt)).normalized()) - r;
-    worst = std::max(worst, departure_of(moved, tangent.lift(A * tilt), shape.half_extents().norm()));
+    worst = std::max(worst, departure_of(moved, tangent.lift(body.A * tilt), size));
   }
   return worst;
 }
@@ -299,7 +302,7 @@ ProximityDerivatives find_plane_derivatives(const Shape& shape, const Pose& pose
     const TangentPlane tangent = TangentPlane::along_flattest(own, jet.H);
     body.A = Symmetric2::project(tangent, jet.H);
     out.status = body.A.trace() > limits::kFlattest * unit ? DerivativeStatus::Degenerate : DerivativeStatus::Smooth;
-    set_status(look_nearby(shape, tangent, jet.r, body.A), out);
+    set_status(look_nearby(shape, tangent, jet.r, body), out);
     if (!out.has_normal) return out;
     plane.flatten(Vector2::UnitX());
     plane.flatten(Vector2::UnitY());

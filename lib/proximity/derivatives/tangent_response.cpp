@@ -10,6 +10,11 @@ using Kind = TangentResponse::Kind;
 // Sine: edges closer than this to parallel are parallel. Where they cross is not known to 1e-7 of their length.
 constexpr double kParallel = 1e-7;
 
+// In sizes of the smaller body: a point that moves by less as the body rotates by kNearby is on no flat side. With 1e-12 no
+// gradient of `derivatives 6000 5 --flat`, and 6, changes, and they take 6.9 instead of 4.7 evaluations. Without flat sides 411
+// gradients are wrong instead of 3.
+constexpr double kFlat = 1e-5;
+
 // Relative to the trace: a smaller eigenvalue is not known to 1e-7.
 constexpr double kSingular = 1e-9;
 
@@ -89,6 +94,8 @@ void BodyCurvature::flatten(const Vector2& direction) {
 bool BodyCurvature::is_flat_along(const Vector2& direction) const {
   return flat_count == 2 || (flat_count == 1 && std::abs(cross(flat[0], direction)) <= kParallel);
 }
+
+bool BodyCurvature::may_be_flat(double size) const { return flat_count > 0 || kNearby * A.trace() > kFlat * size; }
 
 TangentResponse TangentResponse::of(const BodyCurvature& body1, const BodyCurvature& body2, double s, double length_unit) {
   const int flat_count = body1.flat_count + body2.flat_count;

@@ -28,6 +28,10 @@ struct BodyCurvature {
 
   /// Whether the radius is infinite along `direction`, a unit vector.
   bool is_flat_along(const Vector2& direction) const;
+
+  /// Whether the boundary point moves as far as on a flat side when the body rotates by kNearby. `size` (m) is that of the smaller
+  /// body.
+  bool may_be_flat(double size) const;
 };
 
 /// With M = A1 + A2 + s I: G = M^-1, B1 = G A1, B2 = G A2 and W = A1 G A2, in the limit of infinite radii. Every derivative
