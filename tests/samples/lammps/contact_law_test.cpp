@@ -91,21 +91,11 @@ TEST_CASE("lammps: elastic forces and torques are the derivatives of the energy"
   for (int i = 0; i < 50; ++i) {
     TwoBodies pair = overlapping(random, {.stiffness = 1e5});
     const PairContact contact = pair.find(0);
-    const Vector3 position = pair.second.body.pose.position;
-    const Eigen::Quaterniond attitude = pair.second.attitude;
     for (int axis = 0; axis < 3; ++axis) {
-      const Vector3 e = Vector3::Unit(axis);
-      const auto shifted = [&](double h) {
-        pair.second.place(position + h * e, attitude);
-        return pair.find(0).force.energy;
-      };
-      const auto turned = [&](double h) {
-        pair.second.place(position, Eigen::Quaterniond(Eigen::AngleAxisd(h, e)) * attitude);
-        return pair.find(0).force.energy;
-      };
       // `contact` belongs to body 1.
-      CHECK((shifted(1e-8) - shifted(-1e-8)) / 2e-8 == doctest::Approx(contact.force.force[axis]).epsilon(1e-3));
-      CHECK(std::abs((turned(1e-6) - turned(-1e-6)) / 2e-6 + contact.torque2()[axis]) < 1e-3 * contact.force.normal * 0.02);
+      const TwoBodies::EnergySlopes slopes = pair.energy_slopes(axis, 1e-8, 1e-6);
+      CHECK(slopes.along == doctest::Approx(contact.force.force[axis]).epsilon(1e-3));
+      CHECK(std::abs(slopes.about + contact.torque2()[axis]) < 1e-3 * contact.force.normal * 0.02);
     }
   }
 }

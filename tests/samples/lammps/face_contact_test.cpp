@@ -130,21 +130,11 @@ TEST_CASE("lammps: forces and torques of faces are the derivatives of the energy
     if (!faces) continue;
     ++meeting;
     fading += faces->share < 1 ? 1 : 0;
-    const Vector3 position = pair.second.body.pose.position;
-    const Eigen::Quaterniond attitude = pair.second.attitude;
     for (int axis = 0; axis < 3; ++axis) {
-      const Vector3 e = Vector3::Unit(axis);
-      const auto shifted = [&](double h) {
-        pair.second.place(position + h * e, attitude);
-        return pair.find(0).force.energy;
-      };
-      const auto turned = [&](double h) {
-        pair.second.place(position, Eigen::Quaterniond(Eigen::AngleAxisd(h, e)) * attitude);
-        return pair.find(0).force.energy;
-      };
       const double scale = contact.force.normal;
-      CHECK(std::abs((shifted(1e-9) - shifted(-1e-9)) / 2e-9 - contact.force.force[axis]) < 2e-3 * scale);
-      CHECK(std::abs((turned(1e-7) - turned(-1e-7)) / 2e-7 + contact.torque2()[axis]) < 2e-3 * scale * 0.02);
+      const TwoBodies::EnergySlopes slopes = pair.energy_slopes(axis, 1e-9, 1e-7);
+      CHECK(std::abs(slopes.along - contact.force.force[axis]) < 2e-3 * scale);
+      CHECK(std::abs(slopes.about + contact.torque2()[axis]) < 2e-3 * scale * 0.02);
     }
   }
   CHECK(meeting > 100);

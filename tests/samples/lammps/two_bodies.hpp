@@ -74,6 +74,24 @@ struct TwoBodies {
 
   PairContact find(double step) { return find_pair_contact(first.body, second.body, material, settings, step, history); }
 
+  /// How the energy of the contact changes as the second body moves along an axis (J/m) and rotates about it (J/rad).
+  struct EnergySlopes {
+    double along, about;
+  };
+  /// Central differences over `shift` (m) and `angle` (rad) either way.
+  EnergySlopes energy_slopes(int axis, double shift, double angle) {
+    const Vector3 position = second.body.pose.position, e = Vector3::Unit(axis);
+    const Eigen::Quaterniond attitude = second.attitude;
+    const auto energy_at = [&](double moved, double turned) {
+      second.place(position + moved * e, Eigen::Quaterniond(Eigen::AngleAxisd(turned, e)) * attitude);
+      return find(0).force.energy;
+    };
+    const EnergySlopes slopes{(energy_at(shift, 0) - energy_at(-shift, 0)) / (2 * shift),
+                              (energy_at(0, angle) - energy_at(0, -angle)) / (2 * angle)};
+    second.place(position, attitude);
+    return slopes;
+  }
+
   /// A step of velocity Verlet as in LAMMPS. `last` is the contact before and after it.
   void advance(double step, PairContact& last) {
     const auto kick = [&] {
