@@ -19,7 +19,7 @@ constexpr double kSizeError = 1e-5;
 // Typed components of a quaternion may have three digits; the norm of a wrong one is off by more. ODE scales quaternions to 1.
 constexpr double kUnitError = 1e-3;
 constexpr double kLargestSpin = 1e6;  // rad/s
-constexpr double kOverlap = 0.1;      // default of start.overlap; README.md has its reason
+constexpr double kOverlap = 0.1;      // default of start.overlap; start.md has its reason
 constexpr std::size_t kMostIndex = 1'000'000'000'000;
 
 const std::vector<std::string> kPosition = {"x_m", "y_m", "z_m"};
