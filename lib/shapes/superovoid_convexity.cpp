@@ -40,7 +40,11 @@ std::string both(double taper_x, double taper_y) { return "taper_x = " + to_text
 
 }  // namespace
 
-double largest_convex_taper(double epsilon) { return std::exp2(1 / epsilon) * ((epsilon - 1) / epsilon); }
+// Stored, because x87 returns more digits than a double has: the caller's double could then be beyond the limit.
+double largest_convex_taper(double epsilon) {
+  const volatile double limit = std::exp2(1 / epsilon) * ((epsilon - 1) / epsilon);
+  return limit;
+}
 
 TaperedConvexity least_convex(double delta, double epsilon, double taper_x, double taper_y) {
   const auto margin = [&](double s) { return margin_at(s, delta, epsilon, taper_x, taper_y); };

@@ -30,13 +30,13 @@ constexpr double kLargestFace = 1e3;
 constexpr double kCell = 16;
 
 // Hashes a point. -0 and 0 have the same hash because they are equal.
-std::uint64_t hash(const Vector3& v) {
+std::size_t hash(const Vector3& v) {
   std::uint64_t h = 0;
   for (int i = 0; i < 3; ++i) {
     h = (h ^ std::bit_cast<std::uint64_t>(v[i] + 0.0)) * 0x9e3779b97f4a7c15U;
     h ^= h >> 29U;
   }
-  return h;
+  return static_cast<std::size_t>(h);  // of 32 bits on some machines
 }
 
 // Whether the face rises out of the tangent plane by more than the contact tolerance and the seams.

@@ -33,6 +33,7 @@ Status Ascent::climb(const Vector3& start, double cutoff) {
 
 Status Ascent::climb(const GapJet& start) {
   here().jet = start;
+  here().cut = cut_of(start);
   return climb_on(-kInfinity);
 }
 
@@ -191,13 +192,14 @@ void Ascent::evaluate(const Vector3& normal, Point& point) {
   if (has_nonsmooth_points_) {
     point.exact_normal = vertices_.shared_normal(vertices_.project_witness(jet, point.active), jet.n).normalized();
   }
-  cuts_.add(jet.d + rolling_radius_ * jet.n);
+  point.cut = cut_of(jet);
+  cuts_.add(point.cut);
 }
 
-// Newer cuts may have replaced the cut of the present normal.
+// Newer cuts may have replaced the cut of the present normal. It is compared as stored: calculated again, it may have more digits
+// (x87).
 void Ascent::keep_own_cut() {
-  const Vector3 own = here().jet.d + rolling_radius_ * here().jet.n;
-  if (std::ranges::find(cuts_.points(), own) == cuts_.points().end()) cuts_.add(own);
+  if (std::ranges::find(cuts_.points(), here().cut) == cuts_.points().end()) cuts_.add(here().cut);
 }
 
 // The boundary point of a body with vertices jumps. Only the smooth body's point contains a radius of curvature.

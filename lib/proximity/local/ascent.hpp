@@ -63,6 +63,7 @@ class Ascent {
   /// An evaluated normal.
   struct Point {
     GapJet jet;
+    Vector3 cut;                 // m; its boundary point with the ball, as the cuts store it
     ActiveVertices active;       // of body 2
     Vector3 exact_normal;        // of the face or edge of body 2
     bool is_by_estimate = true;  // whether the step to it came with an estimate of what is left; a step of the bounds has none
@@ -112,6 +113,7 @@ class Ascent {
   void move_to_exact_normal();
   bool is_level_but_flatter(double actual_gain) const;
   void evaluate(const Vector3& normal, Point& point);
+  Vector3 cut_of(const GapJet& jet) const { return jet.d + rolling_radius_ * jet.n; }
   void keep_own_cut();
   void learn_hessian();
   void learn_radius(const Step& step, double actual_gain);

@@ -38,6 +38,12 @@ SUPERNORMAL_INLINE void log2_parts(Real<W> x, Real<W>& e, Real<W>& of_m) {
 // Adding 1.5 * 2^52 rounds to an integer, which then stands in the lowest bits.
 constexpr double kToInteger = 0x1.8p52;
 
+/// The integer nearest to a number within 2^51.
+template <int W>
+SUPERNORMAL_INLINE Real<W> nearest_integer(Real<W> a) {
+  return stored(a + kToInteger) - kToInteger;
+}
+
 // 2^n is limited to this n, and 0 below the negative n. With lengths in [1e-30, 1e30] m, products with the other numbers remain
 // normal.
 constexpr double kMostExponent = 900;
@@ -64,9 +70,9 @@ SUPERNORMAL_INLINE Real<W> power(Real<W> x, Real<W> p) {
   // The upper 41 bits of p times e, which has 11, are exact. So no digits are lost where p e is large.
   const Real<W> upper = from_bits(bits_of(p) & 0xfffffffffffff000ULL);
   const Real<W> product = upper * e;
-  const Real<W> n1 = (product + kToInteger) - kToInteger;
+  const Real<W> n1 = nearest_integer(product);
   const Real<W> rest = (product - n1) + ((p - upper) * e + p * of_m);
-  const Real<W> n2 = (rest + kToInteger) - kToInteger;
+  const Real<W> n2 = nearest_integer(rest);
   return exp2_parts(n1 + n2, rest - n2);
 }
 
@@ -76,7 +82,7 @@ SUPERNORMAL_INLINE Real<W> root(Real<W> sum, Real<W> p) {
   Real<W> e, of_m;
   log2_parts(sum, e, of_m);
   const Real<W> exponent = p * (e + of_m);
-  const Real<W> n = (exponent + kToInteger) - kToInteger;
+  const Real<W> n = nearest_integer(exponent);
   return exp2_parts(n, exponent - n);
 }
 

@@ -176,6 +176,15 @@ SUPERNORMAL_LANES Real<W> with_sign(Real<W> magnitude, Real<W> sign) {
   return from_bits(bits_of(magnitude) | (bits_of(sign) & kSignBit));
 }
 
+/// The number as a double holds it. x87 computes with more digits.
+SUPERNORMAL_LANES Real<W> stored(Real<W> a) {
+#if __FLT_EVAL_METHOD__ == 2
+  const volatile Real<W> in_memory = a;
+  __builtin_memcpy(&a.v, const_cast<const typename Real<W>::Raw*>(&in_memory.v), sizeof a.v);
+#endif
+  return a;
+}
+
 /// The numbers of all lanes, from a function of the lane. The registers are filled without a way through memory.
 template <int W, typename Number>
 SUPERNORMAL_INLINE Real<W> lanes_from(const Number& number) {
