@@ -34,15 +34,13 @@ double Patch::greatest_depth() const {
 double Patch::fraction_at(std::size_t k) const {
   if (contacts.size() == 1) return 1;
   const TangentPlane plane = TangentPlane::at(normal());
-  const Vector3 origin = ode::to_vector(contacts.front().geom.pos);
-  const auto place = [&](const dContact& contact) { return plane.project(ode::to_vector(contact.geom.pos) - origin); };
-  const Vector2 here = place(contacts[k]);
+  const Vector3 here = ode::to_vector(contacts[k].geom.pos);
   Vector2 first = Vector2::Zero();  // the direction to another contact, from which the other angles are measured
   double least = 0;
   double greatest = 0;
   int at_this_place = 0;
   for (const dContact& contact : contacts) {
-    const Vector2 to_other = place(contact) - here;
+    const Vector2 to_other = plane.project(ode::to_vector(contact.geom.pos) - here);  // 0 for itself, in registers of any width
     if (to_other.isZero(0)) {
       ++at_this_place;
     } else if (first.isZero(0)) {
