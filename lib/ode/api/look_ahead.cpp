@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "ode/geom/body.hpp"
+#include "ode/geom/moved.hpp"
 #include "ode/support/last_error.hpp"
 #include "ode/support/require.hpp"
 #include "supernormal/supernormal.h"
@@ -42,7 +43,7 @@ extern "C" int snGeomSetLookAhead(dGeomID geom, dReal time) {
   return guarded("snGeomSetLookAhead", 0, [&] {
     Body& body = require_body(geom);
     body.set_look_ahead(require_time(time));
-    dGeomMoved(geom);  // the bounding box changes
+    set_moved(geom);  // the bounding box changes
     return 1;
   });
 }

@@ -4,6 +4,7 @@
 
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
+#include "ode/geom/moved.hpp"
 #include "ode/support/last_error.hpp"
 #include "ode/support/require.hpp"
 #include "supernormal/supernormal.h"
@@ -47,7 +48,7 @@ extern "C" int snGeomSuperellipsoidSetParams(dGeomID geom, dReal a, dReal b, dRe
     Body& body = require_body(geom);
     require_superellipsoid(body);
     body.set_superellipsoid({{a, b, c}, delta, epsilon});
-    dGeomMoved(geom);
+    set_moved(geom);
     return 1;
   });
 }
@@ -65,7 +66,7 @@ extern "C" int snGeomSuperovoidSetParams(dGeomID geom, dReal a, dReal b, dReal c
     Body& body = require_body(geom);
     require_superovoid(body);
     body.set_superovoid({{{a, b, c}, delta, epsilon}, taper_x, taper_y});
-    dGeomMoved(geom);
+    set_moved(geom);
     return 1;
   });
 }
@@ -86,7 +87,7 @@ extern "C" int snGeomSuperovoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal
 extern "C" int snGeomSetRounding(dGeomID geom, dReal radius) {
   return guarded("snGeomSetRounding", 0, [&] {
     require_body(geom).set_rounding(radius);
-    dGeomMoved(geom);
+    set_moved(geom);
     return 1;
   });
 }

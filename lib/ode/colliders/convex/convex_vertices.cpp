@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "ode/geom/convert.hpp"
+#include "ode/geom/moved.hpp"
 #include "ode/runtime/warm_start.hpp"
 
 namespace supernormal::ode {
@@ -42,8 +43,8 @@ bool ConvexVertices::read(dGeomID convex) {
   const Pose geom_pose = pose_of(convex);
   if (!geom_pose.position.allFinite() || !geom_pose.rotation.allFinite()) return false;
   Bounds box = aabb_of(convex);
-  if (!list(convex, box) && dGeomGetSpace(convex) == nullptr) {  // not in a space, which may be locked: dGeomMoved would abort
-    dGeomMoved(convex);
+  if (!list(convex, box) && dGeomGetSpace(convex) == nullptr) {  // not in a space, which may be locked: ODE would abort
+    set_moved(convex);
     box = aabb_of(convex);
     list(convex, box);
   }

@@ -25,9 +25,12 @@ HeightfieldProbe& HeightfieldProbe::looking_at(dGeomID heightfield) {
   thread_local HeightfieldProbe probe;
   probe.data_ = dGeomHeightfieldGetHeightfieldData(heightfield);
   dGeomHeightfieldSetHeightfieldData(probe.heightfield_, probe.data_);
-  dGeomMoved(probe.heightfield_);
+  // The bounding box is a new geom's, because the samples may be others than last time, and only a placeable geom can be told that
+  // it has changed (geom/moved.hpp).
+  const dGeomID fresh = dCreateHeightfield(nullptr, probe.data_, 0);
   std::array<dReal, 6> aabb{};
-  dGeomGetAABB(probe.heightfield_, aabb.data());
+  dGeomGetAABB(fresh, aabb.data());
+  dGeomDestroy(fresh);
   probe.half_width_ = double{aabb[1]};
   probe.half_depth_ = double{aabb[5]};
   probe.max_height_ = double{aabb[3]};
