@@ -218,7 +218,7 @@ using Effect =
 
 /// Reports why and where a list was refused. The text contains the effect, the parameter, its value and range, or the two effects
 /// that exclude each other.
-class SUPERNORMAL_API BadEffect : public std::invalid_argument {
+class SUPERNORMAL_ODE_API BadEffect : public std::invalid_argument {
  public:
   /// `effect` and `parameter` are the results of the members below, `text` is what().
   BadEffect(std::string effect, std::string parameter, const std::string& text)
@@ -240,7 +240,7 @@ struct Description {
   const char* source;      ///< the source of the law
 };
 /// The descriptions of all effects.
-SUPERNORMAL_API std::span<const Description> descriptions();
+SUPERNORMAL_ODE_API std::span<const Description> descriptions();
 
 /// One of the two sides of a contact.
 struct Side {
@@ -259,7 +259,7 @@ struct Cost {
 };
 
 /// A compiled list of effects.
-class SUPERNORMAL_API Effects {
+class SUPERNORMAL_ODE_API Effects {
  public:
   /// Compiles the list for steps of `step` seconds. Throws BadEffect (a std::invalid_argument) with the effect, the parameter, its
   /// value and the range, or with the two effects that exclude each other.

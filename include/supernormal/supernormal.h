@@ -22,17 +22,17 @@ extern "C" {
 /** Takes a reference on ODE (dInitODE2) and registers the geometry class. Optional: every snCreate… does it, in any thread.
  * Returns 1 on success. Returns 0 if ODE cannot be initialised, has another precision than this library, or has none of its four
  * user classes free (see snLastError). Balanced dInitODE2 and dCloseODE calls of others do not affect the class. */
-SUPERNORMAL_API int snInit(void);
+SUPERNORMAL_ODE_API int snInit(void);
 
 /** Gives the reference back, however often snInit was called. Destroy the geoms first: while one of ours exists, it only sets
  * snLastError. A later snCreate… or snInit starts afresh. */
-SUPERNORMAL_API void snClose(void);
+SUPERNORMAL_ODE_API void snClose(void);
 
 /** The class number of all our geoms, as dGeomGetClass returns it; -1 before the first snInit or snCreate… */
-SUPERNORMAL_API int snGeomClass(void);
+SUPERNORMAL_ODE_API int snGeomClass(void);
 
 /** Why the last refused call of this thread was refused: the parameter, its value and the valid range. "" if there was none. */
-SUPERNORMAL_API const char* snLastError(void);
+SUPERNORMAL_ODE_API const char* snLastError(void);
 
 /* --- bodies ------------------------------------------------------------------------------------------------------------ */
 /* Every create call adds the geom to `space`, unless that is 0. It refuses bad parameters: it then returns 0 and sets
@@ -54,21 +54,21 @@ SUPERNORMAL_API const char* snLastError(void);
  *     ray, from inside too. A ray that is wholly inside, or has no length, hits nothing. */
 
 /** (x/a)^2 + (y/b)^2 + (z/c)^2 = 1 with half-axes a, b, c in [1e-30, 1e30]. */
-SUPERNORMAL_API dGeomID snCreateEllipsoid(dSpaceID space, dReal a, dReal b, dReal c);
+SUPERNORMAL_ODE_API dGeomID snCreateEllipsoid(dSpaceID space, dReal a, dReal b, dReal c);
 
 /** (|x/a|^delta + |y/b|^delta)^(epsilon/delta) + |z/c|^epsilon = 1 with half-axes in [1e-30, 1e30], exponents in [1.01, 1000]. */
-SUPERNORMAL_API dGeomID snCreateSuperellipsoid(dSpaceID space, dReal a, dReal b, dReal c, dReal delta, dReal epsilon);
+SUPERNORMAL_ODE_API dGeomID snCreateSuperellipsoid(dSpaceID space, dReal a, dReal b, dReal c, dReal delta, dReal epsilon);
 
 /** A superellipsoid whose section grows or shrinks linearly along z: the equation above with x/(1 + taper_x z/c) for x and y/(1 +
  * taper_y z/c) for y. It must be convex: |taper| <= 2^(1/epsilon) (epsilon - 1)/epsilon, which is 0.707 for epsilon = 2. For
  * epsilon > 2 the two tapers must be equal. For epsilon <= 2 different tapers are refused if both together are too large. Its
  * centre of mass is not its origin but (0, 0, z): see snMassSet. */
-SUPERNORMAL_API dGeomID snCreateSuperovoid(dSpaceID space, dReal a, dReal b, dReal c, dReal delta, dReal epsilon, dReal taper_x,
-                                           dReal taper_y);
+SUPERNORMAL_ODE_API dGeomID snCreateSuperovoid(dSpaceID space, dReal a, dReal b, dReal c, dReal delta, dReal epsilon, dReal taper_x,
+                                               dReal taper_y);
 
 /** The points within `radius` of a segment of `length` along z; both in m, in [1e-30, 1e30] and [0, 1e30]. The shape of
  * dCreateCapsule, as a body of ours. Its rounding is `radius` already: snGeomSetRounding adds to it. */
-SUPERNORMAL_API dGeomID snCreateCapsule(dSpaceID space, dReal radius, dReal length);
+SUPERNORMAL_ODE_API dGeomID snCreateCapsule(dSpaceID space, dReal radius, dReal length);
 
 /** A body that the program itself describes, by its support function and the boundary point of a normal. Directions are unit
  * vectors in the body's frame. The callbacks must be pure; any colliding thread may call them. */
@@ -86,24 +86,24 @@ typedef struct snShape {
  * Hessian is symmetric, has n in its kernel, and has no negative eigenvalue. Otherwise the call refuses: it returns 0, and
  * snLastError contains the direction. Flat faces and sharp edges are allowed, with any point of the face as boundary point.
  * Smooth bodies take fewer evaluations. `shape` itself is copied. samples/user_shape shows an egg and a lens. */
-SUPERNORMAL_API dGeomID snCreateConvex(dSpaceID space, const snShape* shape);
+SUPERNORMAL_ODE_API dGeomID snCreateConvex(dSpaceID space, const snShape* shape);
 
 /** Set and get refuse (return 0, set snLastError) if the geom is not an ellipsoid or superellipsoid. Set keeps the rounding. On a
  * refusal the geom stays unchanged. */
-SUPERNORMAL_API int snGeomSuperellipsoidSetParams(dGeomID geom, dReal a, dReal b, dReal c, dReal delta, dReal epsilon);
+SUPERNORMAL_ODE_API int snGeomSuperellipsoidSetParams(dGeomID geom, dReal a, dReal b, dReal c, dReal delta, dReal epsilon);
 /** Reads the half-axes and exponents; none of the pointers may be NULL. */
-SUPERNORMAL_API int snGeomSuperellipsoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon);
+SUPERNORMAL_ODE_API int snGeomSuperellipsoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon);
 
 /** The same for superovoids. */
-SUPERNORMAL_API int snGeomSuperovoidSetParams(dGeomID geom, dReal a, dReal b, dReal c, dReal delta, dReal epsilon, dReal taper_x,
-                                              dReal taper_y);
+SUPERNORMAL_ODE_API int snGeomSuperovoidSetParams(dGeomID geom, dReal a, dReal b, dReal c, dReal delta, dReal epsilon,
+                                                  dReal taper_x, dReal taper_y);
 /** Reads the parameters; none of the pointers may be NULL. */
-SUPERNORMAL_API int snGeomSuperovoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon,
-                                              dReal* taper_x, dReal* taper_y);
+SUPERNORMAL_ODE_API int snGeomSuperovoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon,
+                                                  dReal* taper_x, dReal* taper_y);
 
 /** Sweeps the body by a sphere of `radius` in [0, 1e30]: the body grows by it, and its edges become round. Replaces an earlier
  * rounding; 0 removes it. */
-SUPERNORMAL_API int snGeomSetRounding(dGeomID geom, dReal radius);
+SUPERNORMAL_ODE_API int snGeomSetRounding(dGeomID geom, dReal radius);
 
 /* --- bodies as text, and copies ---------------------------------------------------------------------------------------- */
 
@@ -111,29 +111,29 @@ SUPERNORMAL_API int snGeomSetRounding(dGeomID geom, dReal radius);
  * Rounded(core=Superellipsoid(half_axes=(0.02, 0.015, 0.008), delta=8, epsilon=8), radius=0.001). Like snprintf, it writes at most
  * `capacity` - 1 characters and a 0, and returns the length of the whole text; with a capacity of 0, `text` may be NULL. The digits
  * read back as the same numbers. Returns -1 (and snLastError) for a body of snCreateConvex, whose callbacks have no text. */
-SUPERNORMAL_API int snGeomDescribe(dGeomID geom, char* text, int capacity);
+SUPERNORMAL_ODE_API int snGeomDescribe(dGeomID geom, char* text, int capacity);
 
 /** Creates the body of a text of snGeomDescribe, or of any other shape of the C++ core or of the Python package: Sphere, Ellipsoid,
  * Superellipsoid, Superovoid, Box, Capsule, Cylinder, Polytope, Rounded, MinkowskiSum, LinearImage; see
  * include/supernormal/shapes/description.hpp. Rounding, half-axes, exponents and tapers can be read and set as if they were set by
  * the functions above. The body must have a width of 2e-30 m or more along each axis. Refuses any other text with the place of the
  * mistake. */
-SUPERNORMAL_API dGeomID snCreateFromDescription(dSpaceID space, const char* text);
+SUPERNORMAL_ODE_API dGeomID snCreateFromDescription(dSpaceID space, const char* text);
 
 /** Creates a copy of a body of ours, bodies of snCreateConvex included: shape, rounding, solver settings, look-ahead time, place
  * and orientation in the world, category and collide bits, and whether it is enabled. The copy has no dBodyID, no offset and no
  * data. Copies of a body of snCreateConvex share its callbacks; `release` is called when the last of them dies. */
-SUPERNORMAL_API dGeomID snGeomCopy(dSpaceID space, dGeomID geom);
+SUPERNORMAL_ODE_API dGeomID snGeomCopy(dSpaceID space, dGeomID geom);
 
 /* --- queries of one body ----------------------------------------------------------------------------------------------- */
 
 /** The distance of a point in world coordinates from the boundary, m, to the tolerance of the geom's solver settings: positive
  * inside, 0 on it, negative outside. NaN (and snLastError) if the point is not finite or the geom is not ours. */
-SUPERNORMAL_API dReal snGeomPointDepth(dGeomID geom, dReal x, dReal y, dReal z);
+SUPERNORMAL_ODE_API dReal snGeomPointDepth(dGeomID geom, dReal x, dReal y, dReal z);
 
 /** Finds the boundary point whose outward normal is `direction` (world frame, any length but 0); `point` is in world coordinates.
  */
-SUPERNORMAL_API int snGeomSupport(dGeomID geom, const dVector3 direction, dVector3 point);
+SUPERNORMAL_ODE_API int snGeomSupport(dGeomID geom, const dVector3 direction, dVector3 point);
 
 /** A closed mesh of a body, to draw it: vertices on its boundary with the outward normals there, in the geom's frame. */
 typedef struct snMesh {
@@ -148,18 +148,18 @@ typedef struct snMesh {
  * largest half-extent; at 2 % of the smallest half-axis no vertices are visible. Flat faces take few triangles. Give the mesh
  * back with snMeshRelease. Returns 0 (and snLastError) if chord_error is out of range or the geom is not ours; `mesh` is then
  * empty. */
-SUPERNORMAL_API int snGeomTessellate(dGeomID geom, dReal chord_error, snMesh* mesh);
+SUPERNORMAL_ODE_API int snGeomTessellate(dGeomID geom, dReal chord_error, snMesh* mesh);
 /** Frees the arrays and empties the mesh. Leaves an empty mesh, or NULL, unchanged. */
-SUPERNORMAL_API void snMeshRelease(snMesh* mesh);
+SUPERNORMAL_ODE_API void snMeshRelease(snMesh* mesh);
 
 /** Mass, centre of mass and inertia of the homogeneous body, in the geom's frame. Exact for ellipsoids, superellipsoids and
  * superovoids. With rounding, or for a smooth user-defined body, it is quadrature to 1e-9. Quadrature does not see the volume
  * behind faces and edges: a body is refused if this is more than 1 % of its volume. density (kg/m^3) and total_mass (kg) in (0,
  * inf). A body whose centre of mass is not its origin, such as a superovoid, needs dMassTranslate and a geom offset before
  * dBodySetMass, as always in ODE. */
-SUPERNORMAL_API int snMassSet(dMass* mass, dReal density, dGeomID geom);
+SUPERNORMAL_ODE_API int snMassSet(dMass* mass, dReal density, dGeomID geom);
 /** The same for a body of the given total mass. */
-SUPERNORMAL_API int snMassSetTotal(dMass* mass, dReal total_mass, dGeomID geom);
+SUPERNORMAL_ODE_API int snMassSetTotal(dMass* mass, dReal total_mass, dGeomID geom);
 
 /* --- solver settings --------------------------------------------------------------------------------------------------- */
 
@@ -180,14 +180,14 @@ typedef enum snSolver SN_ENUM_BASE {
 /** tolerance: the largest error of the gap, relative to the smallest half-extent of the two bodies, in [1e-15, 1]; default 1e-9.
  * max_evaluations: how often a query may evaluate the gap function, in [1, 1000000]; default 1000. A pair uses the tighter
  * tolerance and the larger limit of its two geoms. It uses the hybrid solver unless both geoms ask for the same other solver. */
-SUPERNORMAL_API int snGeomSetSolver(dGeomID geom, snSolver solver, dReal tolerance, int max_evaluations);
+SUPERNORMAL_ODE_API int snGeomSetSolver(dGeomID geom, snSolver solver, dReal tolerance, int max_evaluations);
 
 /** Sets the defaults for the geoms created from now on, in every thread. */
-SUPERNORMAL_API int snSetDefaultSolver(snSolver solver, dReal tolerance, int max_evaluations);
+SUPERNORMAL_ODE_API int snSetDefaultSolver(snSolver solver, dReal tolerance, int max_evaluations);
 
 /** Whether each pair starts from its last normal in this thread (default on). Off: results are a pure function of the two poses.
  * On: the same scene, built and run in the same order by one thread, gives the same digits in every run. */
-SUPERNORMAL_API void snSetWarmStart(int on);
+SUPERNORMAL_ODE_API void snSetWarmStart(int on);
 
 /* --- contacts before overlap ------------------------------------------------------------------------------------------- */
 
@@ -208,10 +208,10 @@ SUPERNORMAL_API void snSetWarmStart(int on);
  * covered. ODE computes a box after its geom has moved, and every step moves it. If you give a velocity to a body that has not
  * moved since the last dSpaceCollide, call dGeomMoved or this function again. Like dGeomMoved, do not call it in near callbacks.
  * Returns 1; 0 (and snLastError) if refused. */
-SUPERNORMAL_API int snGeomSetLookAhead(dGeomID geom, dReal time);
+SUPERNORMAL_ODE_API int snGeomSetLookAhead(dGeomID geom, dReal time);
 
 /** Sets the time for the geoms created from now on, in every thread. */
-SUPERNORMAL_API int snSetDefaultLookAhead(dReal time);
+SUPERNORMAL_ODE_API int snSetDefaultLookAhead(dReal time);
 
 /** Turns a contact with depth < 0 into a constraint of ODE that lets the gap close within `step`, and no more. `step` is in s, >
  * 0: the next dWorldStep's or dWorldQuickStep's. The contact's depth becomes 0, its surface gets dContactMotionN, and -gap/step
@@ -219,7 +219,7 @@ SUPERNORMAL_API int snSetDefaultLookAhead(dReal time);
  * dContactBounce does not suit a contact ahead, because ODE would throw the body back before it touches. Set dContactApprox1:
  * without it mu is a force, which acts before the bodies touch. With a step that is refused (snLastError), or NULL, nothing is
  * changed. */
-SUPERNORMAL_API void snContactLookAhead(dContact* contact, dReal step);
+SUPERNORMAL_ODE_API void snContactLookAhead(dContact* contact, dReal step);
 
 /* --- queries of two bodies --------------------------------------------------------------------------------------------- */
 
@@ -241,12 +241,12 @@ typedef struct snProximity {
  * contact, it returns the distance of the nearest triangle, from either side. Without a contact it is negative only for a body
  * that touches a sheet's border from behind. Returns 1; 0 (and snLastError) if the pair is not supported or a pose or length is
  * not finite. */
-SUPERNORMAL_API int snGeomProximity(dGeomID g1, dGeomID g2, snProximity* out);
+SUPERNORMAL_ODE_API int snGeomProximity(dGeomID g1, dGeomID g2, snProximity* out);
 
 /** The same, but for overlapping geoms it searches until the depth is proved the smallest, or until the limit of evaluations;
  * is_global distinguishes the two. Takes tens to hundreds of evaluations. For a dTriMesh or dHeightfield there is no such proof,
  * and it does the same as snGeomProximity. */
-SUPERNORMAL_API int snGeomProximityCertified(dGeomID g1, dGeomID g2, snProximity* out);
+SUPERNORMAL_ODE_API int snGeomProximityCertified(dGeomID g1, dGeomID g2, snProximity* out);
 
 /** When two geoms will meet. */
 typedef struct snImpact {
@@ -268,7 +268,7 @@ typedef struct snImpact {
  * snGeomProximity, in either order. Every triangle of a dTriMesh or dHeightfield counts, from both sides, and nothing is solid
  * behind it. A dRay is a segment. Returns 1; 0 (and snLastError) if the pair is not supported, the horizon is out of range, or a
  * pose, velocity or length is not finite. */
-SUPERNORMAL_API int snGeomTimeOfImpact(dGeomID g1, dGeomID g2, dReal horizon, snImpact* out);
+SUPERNORMAL_ODE_API int snGeomTimeOfImpact(dGeomID g1, dGeomID g2, dReal horizon, snImpact* out);
 
 /* --- how the answer changes -------------------------------------------------------------------------------------------- */
 
@@ -321,12 +321,12 @@ typedef struct snDerivatives {
  * snGeomProximity or snGeomProximityCertified for the same geoms in the same order and poses. The gradient is as exact as the
  * normal and the points of `at`. The geoms are the geoms of snGeomProximity. Returns 1; 0 (and snLastError) if an argument is
  * refused. */
-SUPERNORMAL_API int snGeomGapGradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal gradient[12]);
+SUPERNORMAL_ODE_API int snGeomGapGradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal gradient[12]);
 
 /** All derivatives at the answer `at`, in closed form: its normal is first brought to rounding, with about two evaluations. The
  * geoms are the geoms of snGeomProximity, without dTriMesh and dHeightfield. `at` as for snGeomGapGradient. Returns 1; 0 (and
  * snLastError) if the pair is not supported, or an argument, a pose or a length is not finite. */
-SUPERNORMAL_API int snGeomDerivatives(dGeomID g1, dGeomID g2, const snProximity* at, snDerivatives* out);
+SUPERNORMAL_ODE_API int snGeomDerivatives(dGeomID g1, dGeomID g2, const snProximity* at, snDerivatives* out);
 
 /* --- whether there is room --------------------------------------------------------------------------------------------- */
 
@@ -341,14 +341,14 @@ typedef struct snClearance {
  * `enough` (m; dInfinity: the best bound). Bounding spheres come first and take no evaluation. For a dPlane, dTriMesh or
  * dHeightfield the bound is the gap of snGeomProximity less its error, whatever max_evaluations is. Returns 1; 0 (and snLastError)
  * if refused. */
-SUPERNORMAL_API int snGeomClearance(dGeomID g1, dGeomID g2, dReal enough, int max_evaluations, snClearance* out);
+SUPERNORMAL_ODE_API int snGeomClearance(dGeomID g1, dGeomID g2, dReal enough, int max_evaluations, snClearance* out);
 
 /** Returns 1 if it is proved that the gap is larger than `distance` (m, finite; negative: that they overlap by less), with one
  * evaluation as a rule. Otherwise returns 0: if the gap is not larger, to a tolerance of 1e-9 of the smallest half-extent, and if
  * the call is refused (snLastError). So geoms that were not examined count as near. `normal`, if not NULL, is the first normal to
  * try (from g1 to g2, world frame), unless it is 0. It receives the best normal for the next call. The geoms are the geoms
  * of snGeomProximity. */
-SUPERNORMAL_API int snGeomIsFartherThan(dGeomID g1, dGeomID g2, dReal distance, dVector3 normal);
+SUPERNORMAL_ODE_API int snGeomIsFartherThan(dGeomID g1, dGeomID g2, dReal distance, dVector3 normal);
 
 /* --- many pairs at once ------------------------------------------------------------------------------------------------ */
 
@@ -357,16 +357,16 @@ typedef struct snBatch* snBatchID;
 
 /** Creates a batch with `threads` in [1, 256], including the calling thread, or one per core of the machine if 0. Returns 0 (and
  * snLastError) if refused. */
-SUPERNORMAL_API snBatchID snBatchCreate(int threads);
+SUPERNORMAL_ODE_API snBatchID snBatchCreate(int threads);
 
 /** Calls task(context, i) once for every i in [0, count), on any threads, and returns when all calls have returned. */
 typedef void snParallelFor(void* pool, int count, void (*task)(void* context, int i), void* context);
 
 /** Creates a batch that uses the threads of the program: `run` is called with `pool`, once in every snBatchCollide. */
-SUPERNORMAL_API snBatchID snBatchCreateOn(snParallelFor* run, void* pool);
+SUPERNORMAL_ODE_API snBatchID snBatchCreateOn(snParallelFor* run, void* pool);
 
 /** Ends its threads and frees its memory. Does nothing for 0. */
-SUPERNORMAL_API void snBatchDestroy(snBatchID batch);
+SUPERNORMAL_ODE_API void snBatchDestroy(snBatchID batch);
 
 /** Returns nonzero to collide these two geoms, 0 for pairs that need no contacts: of sleeping bodies, or of bodies connected by a
  * joint. */
@@ -385,8 +385,8 @@ typedef void snContactsCallback(void* data, dGeomID g1, dGeomID g2, const dConta
  * meanwhile. Callbacks of snCreateConvex are called on all threads. Statistics count on the calling thread. A
  * dSetColliderOverride for two geoms of our class is not called. No memory is allocated unless there are more pairs than ever
  * before. Returns the number of contacts; -1 (and snLastError) if an argument is refused or there is no more memory. */
-SUPERNORMAL_API int snBatchCollide(snBatchID batch, dSpaceID space, int max_contacts, void* data, snPairFilter* wanted,
-                                   snContactsCallback* contacts);
+SUPERNORMAL_ODE_API int snBatchCollide(snBatchID batch, dSpaceID space, int max_contacts, void* data, snPairFilter* wanted,
+                                       snContactsCallback* contacts);
 
 /* --- statistics --------------------------------------------------------------------------------------------------------- */
 
@@ -416,9 +416,9 @@ typedef struct snStatistics {
                                      separates the bodies along this normal */
 } snStatistics;
 /** Copies the counts of this thread to `out`. */
-SUPERNORMAL_API void snGetStatistics(snStatistics* out);
+SUPERNORMAL_ODE_API void snGetStatistics(snStatistics* out);
 /** Sets the counts of this thread to 0. */
-SUPERNORMAL_API void snResetStatistics(void);
+SUPERNORMAL_ODE_API void snResetStatistics(void);
 
 #ifdef __cplusplus
 }

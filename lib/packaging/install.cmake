@@ -43,6 +43,11 @@ function(supernormal_install_pkgconfig component)
   endforeach()
 endfunction()
 
+set(static_definition "")
+if(WIN32 AND NOT BUILD_SHARED_LIBS)
+  set(static_definition -DSUPERNORMAL_STATIC)
+endif()
+
 # The core, and the CMake package, whose part for the ODE layer may be missing.
 set_property(TARGET supernormal_core PROPERTY EXPORT_NAME core)
 supernormal_install_library(supernormal_core supernormal_core supernormalCoreTargets)
@@ -99,7 +104,7 @@ install(
   COMPONENT supernormal_development)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/supernormalOde.cmake.in ${PROJECT_BINARY_DIR}/supernormalOde.cmake @ONLY)
 install(
-  FILES ${PROJECT_BINARY_DIR}/supernormalOde.cmake
+  FILES ${PROJECT_BINARY_DIR}/supernormalOde.cmake ${PROJECT_SOURCE_DIR}/lib/packaging/supernormalFindOde.cmake
   DESTINATION ${package_dir}
   COMPONENT supernormal_development)
 

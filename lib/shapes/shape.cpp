@@ -1,5 +1,10 @@
 #include "supernormal/shapes/shape.hpp"
 
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
+#error \
+    "supernormal cannot be compiled with -ffast-math, -Ofast or -ffinite-math-only: infinities and NaN have meanings, and bounds count rounding errors."
+#endif
+
 #include <algorithm>
 #include <cmath>
 

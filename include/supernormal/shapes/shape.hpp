@@ -1,6 +1,10 @@
 // A convex body given by its support function and the boundary point of each outward normal.
 #pragma once
 
+#if (defined(_MSVC_LANG) ? _MSVC_LANG : __cplusplus) < 202002L
+#error "supernormal's C++ headers need C++20 (-std=c++20). The C interface, supernormal/supernormal.h, takes any C or C++."
+#endif
+
 #include <Eigen/Core>
 #include <array>
 #include <span>
