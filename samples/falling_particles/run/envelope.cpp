@@ -15,6 +15,10 @@ namespace {
 constexpr std::string_view kMagic = "SNCHKPT\n";
 constexpr std::uint32_t kFormat = 5;  // increase it with every change of the saved data
 
+constexpr std::uint32_t in_other_byte_order(std::uint32_t x) {
+  return x >> 24U | (x >> 8U & 0xff00U) | (x << 8U & 0xff0000U) | x << 24U;
+}
+
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
   throw InputError("checkpoint \"" + path.string() + "\" " + reason + kStartAnew);
 }
@@ -50,6 +54,9 @@ Checkpoint unseal(const std::string& bytes, const std::filesystem::path& path) {
   const std::size_t end = bytes.size() - sizeof(Hash);
   Reader body(bytes.substr(kMagic.size(), end - kMagic.size()));
   const auto format = body.read<std::uint32_t>();
+  if (format == in_other_byte_order(kFormat)) {
+    refuse(path, "is of a machine with the other byte order, on which it can go on");
+  }
   if (format != kFormat) {
     refuse(path, "has format " + std::to_string(format) + "; allowed: " + std::to_string(kFormat) + ", that of this program");
   }

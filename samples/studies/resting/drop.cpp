@@ -3,6 +3,7 @@
 #include <supernormal/supernormal.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "world.hpp"
@@ -96,7 +97,7 @@ Rest drop(const Row& row, const Orientations& orientations, int number) {
   dQuaternion on_its_side;
   dQuaternion orientation;
   dQFromAxisAndAngle(tilted, static_cast<dReal>(std::cos(direction)), static_cast<dReal>(std::sin(direction)), 0,
-                     static_cast<dReal>(tilt * M_PI / 180));
+                     static_cast<dReal>(tilt * std::numbers::pi / 180));
   dQFromAxisAndAngle(on_its_side, 0, 1, 0, lies_on_its_side(row.kind) ? static_cast<dReal>(M_PI_2) : 0);
   dQMultiply0(orientation, tilted, on_its_side);
   dBodySetQuaternion(body, orientation);

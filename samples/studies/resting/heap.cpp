@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -61,7 +62,7 @@ class Scene {
         add({uniform(row_.size), y, row_.size + pitch * (layer + 1), uniform(0.002), 0.2 * lean}, kSlenderness, row_.size);
       } else {
         const double reach = 0.5 * kSlenderness * row_.size;
-        add({uniform(reach), uniform(reach), pitch * (k + 2), uniform(M_PI), lean}, kSlenderness, row_.size);
+        add({uniform(reach), uniform(reach), pitch * (k + 2), uniform(std::numbers::pi), lean}, kSlenderness, row_.size);
       }
     }
   }
@@ -70,10 +71,10 @@ class Scene {
     const double c = row_.size;
     const double large = c * std::cbrt(kHeavy);
     for (int k = 0; k < 3; ++k) {
-      const double angle = 2 * M_PI * k / 3;
-      add({0.6 * large * std::cos(angle), 0.6 * large * std::sin(angle), 1.05 * c, uniform(M_PI), uniform(0.01)}, 1, c);
+      const double angle = 2 * std::numbers::pi * k / 3;
+      add({0.6 * large * std::cos(angle), 0.6 * large * std::sin(angle), 1.05 * c, uniform(std::numbers::pi), uniform(0.01)}, 1, c);
     }
-    add({0, 0, 2.2 * c + large, uniform(M_PI), uniform(0.01)}, 1, large);
+    add({0, 0, 2.2 * c + large, uniform(std::numbers::pi), uniform(0.01)}, 1, large);
   }
 
   void add(const Place& place, double slenderness, double size) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -144,7 +145,7 @@ TEST_CASE("a Möbius strip is refused") {
   MeshShape strip;
   constexpr unsigned int kPieces = 12;
   for (unsigned int i = 0; i < kPieces; ++i) {
-    const double around = 2 * M_PI * i / kPieces;
+    const double around = 2 * std::numbers::pi * i / kPieces;
     for (const double across : {-0.3, 0.3}) {
       const double r = 1 + across * std::cos(around / 2);
       strip.vertices.push_back({static_cast<float>(r * std::cos(around)), static_cast<float>(r * std::sin(around)),

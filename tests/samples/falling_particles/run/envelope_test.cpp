@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 
@@ -74,6 +75,11 @@ TEST_CASE("checkpoint: a byte that has changed is noticed, wherever it is") {
     changed[at] = static_cast<char>(changed[at] ^ 1);
     CHECK(complaint_about(changed) != "");
   }
+  std::string of_other_machine = whole;
+  std::reverse(of_other_machine.begin() + 8, of_other_machine.begin() + 12);
+  CHECK(complaint_about(of_other_machine) ==
+        std::string("checkpoint \"out/box/checkpoint\" is of a machine with the other byte order, on which it can go on") +
+            kStartAnew);
   std::string of_later_format = whole;
   of_later_format[8] = 6;
   CHECK(complaint_about(of_later_format) ==
