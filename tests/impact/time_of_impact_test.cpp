@@ -6,6 +6,7 @@
 #include <cfenv>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -214,7 +215,7 @@ TEST_CASE("a body that rolls or spins beside a wall takes a few evaluations") {
     CHECK(impact.status == ImpactStatus::Apart);
     return impact.evaluations;
   };
-  const Matrix3 lying = Eigen::AngleAxisd(M_PI / 2, Vector3::UnitX()).toRotationMatrix();
+  const Matrix3 lying = Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitX()).toRotationMatrix();
   const Matrix3 upright = Matrix3::Identity();
   CHECK(evaluations(Sphere(0.5), 0.5, {0, 1000, 0}, upright) <= 12);
   CHECK(evaluations(Cylinder(0.5, 1), 0.5, {0, 1000, 0}, lying) <= 20);

@@ -1,5 +1,6 @@
 // Tests that one body can be asked about any number of pairs at once, on any number of threads.
 #include <doctest/doctest.h>
+#include <pthread.h>
 
 #include <array>
 #include <atomic>
@@ -63,3 +64,37 @@ TEST_CASE("many pairs of one body at once give the digits that they give one aft
   for (std::thread& thread : threads) thread.join();
   CHECK(different == 0);
 }
+
+#ifndef __SANITIZE_ADDRESS__  // its frames are several times as large
+namespace {
+
+/// Runs a task on a thread with a stack of so many bytes. A query that needs more ends the program.
+template <typename Task>
+void run_on_stack(std::size_t bytes, Task task) {
+  pthread_attr_t attributes;
+  REQUIRE(pthread_attr_init(&attributes) == 0);
+  REQUIRE(pthread_attr_setstacksize(&attributes, bytes) == 0);
+  pthread_t thread{};
+  const auto begin = [](void* its_task) -> void* {
+    (*static_cast<Task*>(its_task))();
+    return nullptr;
+  };
+  REQUIRE(pthread_create(&thread, &attributes, begin, &task) == 0);
+  REQUIRE(pthread_join(thread, nullptr) == 0);
+  pthread_attr_destroy(&attributes);
+}
+
+}  // namespace
+
+TEST_CASE("queries run on a stack of 64 KiB") {
+  const PairsOfOneBody bodies;
+  int different = 0;
+  for (const RandomPair& pair : bodies.pairs()) {
+    const Numbers expected = ask(pair);
+    run_on_stack(64 * 1024, [&] {
+      if (!are_identical(ask(pair), expected)) ++different;
+    });
+  }
+  CHECK(different == 0);
+}
+#endif

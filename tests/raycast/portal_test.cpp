@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "support/relative.hpp"
@@ -23,20 +24,20 @@ Vector3 beside(double angle, double length) { return length * Vector3(std::cos(a
 
 TEST_CASE("portal: points on one side leave a sector of directions that may separate") {
   Portal portal(kDown, kRounding);
-  CHECK(portal.sector() == test::relative(2 * M_PI));
+  CHECK(portal.sector() == test::relative(2 * std::numbers::pi));
   portal.add(beside(0.3, 2));
-  CHECK(portal.sector() == test::relative(M_PI));
+  CHECK(portal.sector() == test::relative(std::numbers::pi));
   portal.add(beside(-0.4, 0.5));
   portal.add(beside(0.1, 7));  // between the two others, so it changes nothing
   CHECK_FALSE(portal.is_pierced());
   CHECK(std::isinf(portal.upper_bound()));
-  CHECK(portal.sector() == test::relative(M_PI - 0.7));
+  CHECK(portal.sector() == test::relative(std::numbers::pi - 0.7));
   CHECK(portal.bisector().normalized().dot(beside(-0.05, 1)) == test::relative(1));
   CHECK(std::abs(portal.edge_normal().dot(beside(0.3, 2) - beside(-0.4, 0.5))) < 1e-15);
   CHECK(portal.may_separate(portal.edge_normal()));
-  CHECK(portal.may_separate(beside(M_PI / 2 - 0.41, 1)));
-  CHECK_FALSE(portal.may_separate(beside(M_PI / 2 - 0.39, 1)));
-  CHECK_FALSE(portal.may_separate(beside(M_PI, 1)));
+  CHECK(portal.may_separate(beside(std::numbers::pi / 2 - 0.41, 1)));
+  CHECK_FALSE(portal.may_separate(beside(std::numbers::pi / 2 - 0.39, 1)));
+  CHECK_FALSE(portal.may_separate(beside(std::numbers::pi, 1)));
 }
 
 TEST_CASE("portal: three points around the line, or two on either side of it, are a portal") {
@@ -76,11 +77,11 @@ TEST_CASE("portal: the bound holds for steep portals of rounded points") {
   for (int k = 0; k < 3000; ++k) {
     CAPTURE(k);
     const double steepness = std::pow(10, 3 * uniform(engine));
-    const double turn = 2 * M_PI * uniform(engine);
+    const double turn = 2 * std::numbers::pi * uniform(engine);
     const Vector3 shift = k % 2 == 0 ? beside(turn, 1) : Vector3(Vector3::Zero());
     Portal portal(kDown, kCoarse);
     for (int i = 0; i < 3; ++i) {
-      const Vector3 p = beside(turn + M_PI + 2.1 * i, 1) + shift;
+      const Vector3 p = beside(turn + std::numbers::pi + 2.1 * i, 1) + shift;
       const Vector3 off{uniform(engine) - 0.5, uniform(engine) - 0.5, uniform(engine) - 0.5};
       portal.add(Vector3(p.x(), p.y(), steepness * p.x()) + kCoarse * off.normalized());
     }
