@@ -48,6 +48,7 @@ foreach(precision ${supernormal_precisions})
     set(SUPERNORMAL_ODE_PRECISION ${precision})
     break()
   endif()
+  unset(SUPERNORMAL_ODE_HEADERS_ARE_${precision} CACHE)  # another ODE may be found next time
 endforeach()
 unset(CMAKE_REQUIRED_LIBRARIES)
 if(NOT SUPERNORMAL_ODE_PRECISION)
