@@ -53,9 +53,21 @@ double normal_speed(const WallMotion& motion, const SurfacePoint& point, bool tu
   return 0;  // a conveyor stands
 }
 
-/// m, the displacement of a driven wall in its first step, from rest without resistance.
-double first_way_of(const Drive& drive, double step) {
-  return step * step * std::abs(drive.force) / (drive.mass + step * drive.damping);
+/// m, the displacement of a driven wall in its first step, from rest without resistance; of its farthest point if it turns.
+double first_way_of(const Wall& wall, double step) {
+  const Drive& drive = *wall.drive;
+  if (drive.servo) return step * std::min(drive.servo->largest_speed, drive.servo->gain * drive.servo->stress);
+  const double way = step * step * std::abs(push_of(drive, 0, step)) / (drive.mass + step * drive.damping);
+  const double radius = bounding_radius(wall.shape);
+  if (!drive.turns() || !std::isfinite(radius)) return way;
+  return way * (radius + drive.axis.cross(wall.start.position - *drive.point).norm());
+}
+
+/// What would make the first displacement of a driven wall smaller, by `factor`.
+std::string slower(const Drive& drive, double factor) {
+  if (drive.servo) return "part.drive.largest_speed up to " + rounded(drive.servo->largest_speed / factor) + " m/s would do";
+  return drive.turns() ? "part.drive.moment from " + rounded(drive.mass * factor) + " kg m^2 on would do"
+                       : "part.drive.mass from " + rounded(drive.mass * factor) + " kg on would do";
 }
 
 std::string in_half_axes(double way, const Scene& scene) {
@@ -161,10 +173,9 @@ void add_walls(const Scene& scene, std::vector<std::string>& doubts) {
                        rounded(scene.time.step * size / way) + " s would do");
     }
     if (!wall.drive) continue;
-    const double first = first_way_of(*wall.drive, scene.time.step);
+    const double first = first_way_of(wall, scene.time.step);
     if (first > size) {
-      doubts.push_back(moves_too_far("part \"" + wall.name + "\" is driven", first, scene) + "part.drive.mass from " +
-                       rounded(wall.drive->mass * first / size) + " kg on would do");
+      doubts.push_back(moves_too_far("part \"" + wall.name + "\" is driven", first, scene) + slower(*wall.drive, first / size));
     }
   }
 }

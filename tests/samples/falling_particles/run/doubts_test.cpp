@@ -93,6 +93,20 @@ TEST_CASE("doubts: a driven part that jumps over a half-axis in its first step i
              {"part.drive.mass is 1e-160; allowed: a number in [1e-12, 1e+06] kg"});
 }
 
+TEST_CASE("doubts: a part that a torque or a servo moves by more than a half-axis in a step is named") {
+  const std::string door =
+      "shape = \"box\"\nsize = [0.04, 0.04, 0.01]\nposition = [0.025, 0.03, 1]\n[part.drive]\naxis = [0, 0, 1]\n"
+      "torque = 10\npoint = [0.025, 0.03, 0]\n";
+  check_one_doubt(with_part(door + "moment = 1e-6\n"), {"part \"p\" is driven", "part.drive.moment from", "kg m^2 on"});
+  CHECK(doubts_about(with_part(door + "moment = 1\n")).empty());
+  const std::string servo =
+      "shape = \"box\"\nsize = [0.04, 0.04, 0.01]\nposition = [0.025, 0.03, 1]\n[part.drive]\naxis = [0, 0, -1]\nstress = 1000\n"
+      "gain = 1\n";
+  check_one_doubt(with_part(servo + "largest_speed = 10\n"),
+                  {"part \"p\" is driven 0.005 m in a step", "part.drive.largest_speed up to 6 m/s"});
+  CHECK(doubts_about(with_part(servo + "largest_speed = 1\n")).empty());
+}
+
 TEST_CASE("doubts: a grain may not start inside a part") {
   const std::string shapes[] = {"shape = \"box\"\nsize = [0.1, 0.1, 0.1]\n", "shape = \"cylinder\"\nradius = 0.1\nlength = 0.1\n",
                                 "shape = \"ellipsoid\"\nhalf_axes = [0.1, 0.1, 0.1]\n",
