@@ -61,7 +61,7 @@ void read_travel(const TomlTable& table, double largest, const char* unit, const
   drive.travel = {travel[0], travel[1]};
 }
 
-/// Keys besides those of a law.
+/// The keys of a law, with the keys that all laws have.
 std::vector<std::string> with_times(std::vector<std::string> keys) {
   for (const char* key : {"axis", "from", "until", "travel"}) keys.emplace_back(key);
   return keys;

@@ -15,7 +15,7 @@ namespace falling_particles {
 using FacingWalls = std::array<std::string, 2>;
 
 /// A target for the mean normal stress of the grains on a wall: their force along the axis over the area. The wall has the speed
-/// gain (target - stress), where the stress is that of the same step.
+/// gain (target - stress) with the stress of the same step.
 struct Servo {
   double stress;                          ///< Pa, target
   double gain;                            ///< m/(s Pa)
@@ -25,7 +25,7 @@ struct Servo {
 };
 
 /// What drives a wall. It slides along the axis or, if there is a point, turns about the axis through the point. All other motion
-/// is that of its motions. Each line has the unit of a wall that slides, and then that of a wall that turns.
+/// follows its motions. Of two units, the first belongs to a wall that slides, the second to a wall that turns.
 struct Drive {
   Vector3 axis;                                            ///< unit, at the start; it rotates with the wall
   double force;                                            ///< N or N m; with a power the limit of it
@@ -42,9 +42,9 @@ struct Drive {
   bool turns() const { return point.has_value(); }
 };
 
-/// N or N m, with which the drive pushes in a step (s) that starts with a speed (m/s or rad/s). With a power it is power / speed,
-/// at rest and against the push `force`: the power adds power times step to the energy of a wall without other forces, for any
-/// step.
+/// N or N m, the push of a drive in a step (s) that starts with a speed (m/s or rad/s). With a power, it is the power over the mean
+/// speed of the step, up to `force`. So a wall without other forces gains power times step, for any step. At rest, and while a load
+/// pushes the wall back, it is `force`.
 double push_of(const Drive& drive, double speed, double step);
 
 }  // namespace falling_particles

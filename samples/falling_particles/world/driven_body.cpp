@@ -114,7 +114,7 @@ double DrivenBody::weight_on(const WallPose& carrier) const {
   return drive_.hung_mass * axis.dot((pose_on(carrier).position - point_on(carrier)).cross(to_vector(gravity)));
 }
 
-// The speed stays below its limit if the load is that of the last step.
+// The speed stays below its limit if the load is the same as in the last step.
 double DrivenBody::push_of_servo(const Servo& servo, double area) const {
   const double at_limit = area / servo.gain * servo.largest_speed;
   return std::clamp(area * servo.stress, state_.load - at_limit, state_.load + at_limit);

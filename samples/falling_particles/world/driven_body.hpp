@@ -30,9 +30,9 @@ class DrivenBody {
   DrivenBody(const DrivenBody&) = delete;
   DrivenBody& operator=(const DrivenBody&) = delete;
 
-  /// Adds the forces of the step that starts at `now` (s). `carrier`: the pose of the carrier; `area` (m^2) is that of a servo.
+  /// Adds the forces of the step that starts at `now` (s). `carrier`: the pose of the carrier; `area`: m^2, of a servo.
   void push(const WallPose& carrier, double now, double area);
-  /// Reads the position and the speed after the step. `carrier` and `velocity`: those of the carrier in the step.
+  /// Reads the position and the speed after the step. `carrier` and `velocity` belong to the carrier in the step.
   void read(const WallPose& carrier, const WallVelocity& velocity);
   /// Sets the body to its pose on the carrier. So what the solver leaves across the joint is discarded.
   void put(const WallPose& carrier, const WallVelocity& velocity);
