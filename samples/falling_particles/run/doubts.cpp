@@ -158,6 +158,22 @@ double thinnest(const WallShape& shape) {
   return INFINITY;
 }
 
+/// Adds a doubt about a servo on springs. A spring is explicit: it is stable while stiffness x step^2 is below four masses. A servo
+/// has the mass step x area / gain, and a contact for each smallest grain that fits on its area.
+void add_gain(const Scene& scene, const Wall& wall, std::vector<std::string>& doubts) {
+  for (const supernormal::effects::Effect& effect : scene.effects) {
+    const auto* const spring = std::get_if<supernormal::effects::Compliance>(&effect);
+    if (spring == nullptr) continue;
+    const double diameter = 2 * scene.smallest_half_axis();
+    const double most = 4 * diameter * diameter / (spring->stiffness * scene.time.step);
+    if (wall.drive->servo->gain <= most) continue;
+    doubts.push_back("part \"" + wall.name + "\" is a servo with a gain of " + rounded(wall.drive->servo->gain) +
+                     " m/(s Pa), with which it may be unstable on the springs of compliance: part.drive.gain up to " +
+                     rounded(most) + " m/(s Pa), or a smaller time.step would do");
+    return;
+  }
+}
+
 void add_walls(const Scene& scene, std::vector<std::string>& doubts) {
   constexpr double kThin = 1e-6;  // of the smallest half-axis: thinner than the overlap of a contact at rest
   const double size = scene.smallest_half_axis();
@@ -173,6 +189,7 @@ void add_walls(const Scene& scene, std::vector<std::string>& doubts) {
                        rounded(scene.time.step * size / way) + " s would do");
     }
     if (!wall.drive) continue;
+    if (wall.drive->servo) add_gain(scene, wall, doubts);
     const double first = first_way_of(wall, scene.time.step);
     if (first > size) {
       doubts.push_back(moves_too_far("part \"" + wall.name + "\" is driven", first, scene) + slower(*wall.drive, first / size));

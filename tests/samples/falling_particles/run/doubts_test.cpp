@@ -105,6 +105,15 @@ TEST_CASE("doubts: a part that a torque or a servo moves by more than a half-axi
   check_one_doubt(with_part(servo + "largest_speed = 10\n"),
                   {"part \"p\" is driven 0.005 m in a step", "part.drive.largest_speed up to 6 m/s"});
   CHECK(doubts_about(with_part(servo + "largest_speed = 1\n")).empty());
+  // On springs the gain has a limit: 4 x (0.006 m)^2 / (1e4 N/m x 5e-4 s).
+  const auto on_springs = [&](const char* gain) {
+    const std::string text =
+        replaced(kSceneText, "[max_correcting_velocity]\nvelocity = 0.05\n", "[compliance]\nstiffness = 1e4\n");
+    return scene_of(text + "[[part]]\nname = \"p\"\n" + replaced(servo, "gain = 1\n", gain) + "largest_speed = 1\n");
+  };
+  check_one_doubt(on_springs("gain = 3e-5\n"),
+                  {"part \"p\" is a servo with a gain of 3e-05 m/(s Pa)", "part.drive.gain up to 2.88e-05 m/(s Pa)"});
+  CHECK(doubts_about(on_springs("gain = 2.8e-5\n")).empty());
 }
 
 TEST_CASE("doubts: a grain may not start inside a part") {
