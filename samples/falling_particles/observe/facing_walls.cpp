@@ -24,6 +24,7 @@ std::vector<FacingWalls> read_facing_walls(const TomlTable& table, const char* k
                                            const std::vector<Wall>& walls, const Vector3& across) {
   constexpr double kAcross = 1e-9;  // of a product of unit normals: rounding of orientations
   std::vector<std::string> all;
+  all.reserve(walls.size());
   for (const Wall& wall : walls) all.push_back(wall.name);
   const std::vector<std::string> names = table.choices(key, all);
   const std::string allowed = "; allowed: " + std::to_string(count) +
