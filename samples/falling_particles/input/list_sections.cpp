@@ -158,10 +158,17 @@ std::string list_walls() {
 [[part.motion]] kind = "conveyor"
   parameters  velocity: m/s, or axis, point, rpm: of the surface of a part that stands
 [part.drive]
-  parameters  axis: along which it pushes, and the only way it can go
-              force: N, in [-1e9, 1e9]; or pressure: Pa, and area: m^2, that of the part's shape without it
+  parameters  axis: along or about which it pushes, and the only way it can go; one of force, pressure, torque, power and stress
+              from, until: s; it is held before, and only its weight is left after; travel: least and most way, m, or degrees in [-170, 170]
+  slides      force: N, in [-1e9, 1e9]; or pressure: Pa, and area: m^2, that of the part's shape without it
+              or power: W, in (0, 1e9], and largest_force: N, in (0, 1e9], at rest; force is power / speed
               mass: kg, in [1e-12, 1e6]; damping: N s/m, in [0, 1e9], 0 without it
-              from, until: s; it is held before, and only its weight is left after; travel: m, least and most way along axis
+  turns       torque: N m, in [-1e9, 1e9], or power: W, and largest_torque: N m, in (0, 1e9], at rest
+              point: m, on axis; moment: kg m^2, in [1e-12, 1e6], about axis; mass: kg, in [0, 1e6], 0 without it: its weight
+              acts at position; damping: N m s, in [0, 1e9], 0 without it
+  servo       stress: Pa, in (0, 1e9], target of the grains' force over the area; gain: m/(s Pa), in (0, 1e9]; its speed is gain
+              times what is missing, up to largest_speed: m/s, in (0, 1000]; it is held after until
+              area: m^2, that of the part's shape without it; or between: four names of walls that face each other two by two
 )";
 }
 

@@ -10,6 +10,7 @@
 #include "base/read_file.hpp"
 #include "base/toml_input.hpp"
 #include "catalogue.hpp"
+#include "load_drive.hpp"
 #include "load_effects.hpp"
 #include "load_sections.hpp"
 #include "memory.hpp"
@@ -285,6 +286,7 @@ Scene load(const TomlFile& file, const std::string& path, const std::vector<std:
   read_grains(root, drop, path, scene);
   if (root.has("feeder") && !scene.start && scene.grains_at_start() > 0) root.table("drop");  // reports that it is missing
   load_periodic(root, scene);
+  load_servos(root, scene);
   scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
   add_wall_effects(scene.walls, scene.effects);

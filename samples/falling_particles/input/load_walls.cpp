@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "load_drive.hpp"
 #include "load_mesh.hpp"
 #include "load_motion.hpp"
 #include "load_sections.hpp"
@@ -148,65 +149,6 @@ std::string read_name(const TomlTable& table, const std::vector<Wall>& walls) {
     table.fail("name", table.full_name("name") + " is \"" + name + "\", which another part has; allowed: a name of its own");
   }
   return name;
-}
-
-/// m^2, the projected area of a wall along the axis of its drive. `axis` is in the wall's frame. 0 if the scene must give the area.
-double plan_area(const WallShape& shape, const Vector3& axis) {
-  if (const auto* box = std::get_if<BoxShape>(&shape)) {
-    const Vector3& s = box->size;
-    return Vector3(s.y() * s.z(), s.z() * s.x(), s.x() * s.y()).dot(axis.cwiseAbs());
-  }
-  if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) {
-    const double across = std::hypot(axis.x(), axis.y());
-    return std::numbers::pi * cylinder->radius * cylinder->radius * std::abs(axis.z()) +
-           2 * cylinder->radius * cylinder->length * across;
-  }
-  return 0;
-}
-
-void read_pressure(const TomlTable& table, const Wall& wall, Drive& drive) {
-  if (table.has("force") == table.has("pressure")) {
-    table.fail(table.has("force") ? "force" : "", table.full_name("force") + " and " + table.full_name("pressure") +
-                                                      (table.has("force") ? " are both given" : " are missing") +
-                                                      "; allowed: one of them");
-  }
-  if (table.has("force")) {
-    drive.force = table.number("force", Interval::closed(-1e9, 1e9, "N, along part.drive.axis"));
-    if (table.has("area")) table.fail("area", table.full_name("area") + " is given besides force; allowed: with pressure");
-    return;
-  }
-  double area = plan_area(wall.shape, wall.start.rotation.conjugate() * drive.axis);
-  if (area == 0 || table.has("area")) area = table.number("area", Interval::positive(1e6, "m^2, on which the pressure acts"));
-  drive.force = area * table.number("pressure", Interval::closed(-1e9, 1e9, "Pa, along part.drive.axis"));
-}
-
-std::optional<Drive> read_drive(const TomlTable& part_table, const Wall& wall) {
-  const auto table =
-      part_table.find_table("drive", {"axis", "force", "pressure", "area", "mass", "damping", "from", "until", "travel"});
-  if (!table) return std::nullopt;
-  for (const WallMotion& motion : wall.motions) {
-    if (std::holds_alternative<Conveyor>(motion.kind)) {
-      part_table.fail("drive", "part.drive besides a motion of kind \"conveyor\"; allowed: with the other kinds");
-    }
-  }
-  Drive drive{};
-  drive.axis = read_direction(*table, "axis");
-  read_pressure(*table, wall, drive);
-  // ODE squares the moment of inertia, a thousand times mass times radius squared. Far smaller masses give NaN.
-  drive.mass = table->number("mass", Interval::closed(1e-12, 1e6, "kg"));
-  if (table->has("damping")) drive.damping = table->number("damping", Interval::closed(0, 1e9, "N s/m"));
-  const auto [from, until] = read_times(*table);
-  drive.from = from;
-  drive.until = until;
-  if (table->has("travel")) {
-    const std::vector<double> travel = table->numbers("travel", 2, Interval::closed(-kLargestLength, kLargestLength, "m"));
-    if (travel[0] > 0 || travel[1] < 0 || travel[0] == travel[1]) {
-      table->fail("travel", table->full_name("travel") + " is [" + shortest(travel[0]) + ", " + shortest(travel[1]) +
-                                "]; allowed: from 0 or less to 0 or more, m along part.drive.axis");
-    }
-    drive.travel = {travel[0], travel[1]};
-  }
-  return drive;
 }
 
 Wall read_wall(const TomlTable& table, const std::vector<Wall>& walls, const Time& time, const std::string& scene_path) {

@@ -174,7 +174,8 @@ std::optional<std::string> find_end(const Wall& wall, std::size_t axis, const Pe
   for (const WallMotion& motion : wall.motions) {
     if (std::optional<std::string> end = find_end_of_motion(wall, motion, axis, way)) return end;
   }
-  if (wall.drive && !is_across(wall.drive->axis, axis)) return "its drive takes it along the axis";
+  if (wall.drive && wall.drive->turns() && !is_along(wall.drive->axis, axis)) return "its drive does not turn it about the axis";
+  if (wall.drive && !wall.drive->turns() && !is_across(wall.drive->axis, axis)) return "its drive takes it along the axis";
   const Ends ends = ends_of(wall, axis);
   const Ends needed{period.lower - way, period.upper() + way};
   if (ends.lower <= needed.lower + kRounding && ends.upper >= needed.upper - kRounding) return std::nullopt;

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "drive.hpp"
 #include "geometry.hpp"
 #include "motion.hpp"
 
@@ -53,17 +54,6 @@ struct GroundShape {
 
 using WallShape = std::variant<PlaneShape, BoxShape, CylinderShape, SmoothShape, MeshShape, GroundShape>;
 
-/// A force that drives a wall along an axis, as a piston. The wall can neither leave its axis nor tilt. It has inertia and weight.
-struct Drive {
-  Vector3 axis;                                            ///< unit, at the start; it rotates with the wall
-  double force;                                            ///< N, along the axis
-  double mass;                                             ///< kg
-  double damping = 0;                                      ///< N s/m
-  double from = 0;                                         ///< s; until then the wall is held
-  double until = std::numeric_limits<double>::infinity();  ///< s; then only its weight acts
-  std::array<double, 2> travel = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};  ///< m
-};
-
 /// What messages and pictures call a wall.
 enum class WallRole {
   Part,  ///< a [[part]], or a wall of a container that moves or rotates
@@ -88,5 +78,17 @@ struct Wall {
 
 /// m, radius of a sphere around the wall's position that contains the wall; infinite for a plane and a ground.
 double bounding_radius(const WallShape& shape);
+
+/// Two parallel faces that face each other, of planes or boxes.
+struct FacingFaces {
+  Vector3 normal;                                     ///< unit, of the first face, towards the second one
+  double first, second;                               ///< m, of the faces along the normal
+  double distance() const { return second - first; }  ///< m; negative if the walls overlap
+};
+
+/// The faces of two walls in these poses with the largest distance; empty unless both walls are planes or boxes and have a pair of
+/// parallel ones.
+std::optional<FacingFaces> facing_faces(const WallShape& first, const WallPose& at_first, const WallShape& second,
+                                        const WallPose& at_second);
 
 }  // namespace falling_particles

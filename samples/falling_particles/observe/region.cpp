@@ -12,7 +12,28 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFarthest = 1e6;  // m
 constexpr double kMostCells = 1000;
 
+constexpr double kAlong = 1e-9;  // of a unit vector: rounding of orientations
+
 Vector3 to_vector(const std::vector<double>& v) { return Vector3(v[0], v[1], v[2]); }
+
+/// The axis along which two walls are apart.
+std::size_t axis_of(const FacingFaces& faces) {
+  Eigen::Index axis = 0;
+  faces.normal.cwiseAbs().maxCoeff(&axis);
+  return static_cast<std::size_t>(axis);
+}
+
+/// `pairs`: along x, y and z.
+Bounds bounds_between(const std::vector<FacingWalls>& pairs, const World& world) {
+  Bounds bounds{};
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const FacingFaces faces = world.walls().faces_between(pairs[static_cast<std::size_t>(axis)]);
+    const double sign = faces.normal[axis] < 0 ? -1 : 1;
+    bounds.lower[axis] = std::min(sign * faces.first, sign * faces.second);
+    bounds.upper[axis] = std::max(sign * faces.first, sign * faces.second);
+  }
+  return bounds;
+}
 
 }  // namespace
 
@@ -34,6 +55,10 @@ double Bounds::share_of(const Vector3& a, const Vector3& b) const {
 }
 
 SamplingRegion::SamplingRegion(const TomlTable& table, const Scene& scene, Without without) {
+  if (table.has("between")) {
+    read_between(table, scene);
+    return;
+  }
   if (!table.has("lower") && !table.has("upper")) {
     is_cell_ = std::holds_alternative<Periodic>(scene.container);
     if (is_cell_ || without == Without::Everywhere) return;
@@ -58,8 +83,28 @@ SamplingRegion::SamplingRegion(const TomlTable& table, const Scene& scene, Witho
   }
 }
 
+// Contacts have shares in a box with sides along the axes.
+void SamplingRegion::read_between(const TomlTable& table, const Scene& scene) {
+  for (const char* key : {"lower", "upper"}) {
+    if (table.has(key)) table.fail(key, table.full_name(key) + " is given besides between; allowed: one of both");
+  }
+  between_.resize(3);
+  start_lengths_.emplace();
+  for (const FacingWalls& pair : read_facing_walls(table, "between", 3, scene.walls, Vector3::Zero())) {
+    const FacingFaces faces = faces_at_start(pair, scene.walls);
+    const std::size_t axis = axis_of(faces);
+    if (std::abs(faces.normal[static_cast<Eigen::Index>(axis)]) < 1 - kAlong) {
+      table.fail("between", table.full_name("between") + " has \"" + pair[0] + "\" and \"" + pair[1] +
+                                "\", which are not across x, y or z; allowed: walls that are");
+    }
+    between_[axis] = pair;
+    (*start_lengths_)[static_cast<Eigen::Index>(axis)] = faces.distance();
+  }
+}
+
 Bounds SamplingRegion::bounds(const World& world) const {
   if (given_) return *given_;
+  if (!between_.empty()) return bounds_between(between_, world);
   if (is_cell_) return {Vector3::Zero(), periods_of(world)};
   Bounds everywhere{Vector3::Constant(-kInfinity), Vector3::Constant(kInfinity)};
   if (world.cell() == nullptr) return everywhere;

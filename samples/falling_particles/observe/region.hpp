@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/toml_input.hpp"
+#include "facing_walls.hpp"
 #include "model/scene.hpp"
 #include "pair_contact.hpp"
 #include "world/world.hpp"
@@ -23,7 +24,7 @@ struct Bounds {
   double share_of(const Vector3& a, const Vector3& b) const;
 };
 
-/// A region of a scene file: `lower` and `upper`, or the whole periodic cell, or everywhere.
+/// A region of a scene file: `lower` and `upper`, or `between` walls, or the whole periodic cell, or everywhere.
 class SamplingRegion {
  public:
   enum class Without { Refused, Everywhere };
@@ -31,9 +32,15 @@ class SamplingRegion {
   SamplingRegion(const TomlTable& table, const Scene& scene, Without without);
 
   Bounds bounds(const World& world) const;
+  /// m, the distances along x, y and z at the start, of a region between walls; empty for any other one.
+  const std::optional<Vector3>& start_lengths() const { return start_lengths_; }
 
  private:
+  void read_between(const TomlTable& table, const Scene& scene);
+
   std::optional<Bounds> given_;
+  std::vector<FacingWalls> between_;  // along x, y and z; or empty
+  std::optional<Vector3> start_lengths_;
   bool is_cell_ = false;
 };
 

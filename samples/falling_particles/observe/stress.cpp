@@ -17,6 +17,7 @@ struct SliceSums {
   Matrix3d momentum = Matrix3d::Zero();  // kg m^2/s^2, sum of m v v^T
   Vector3 velocity = Vector3::Zero();    // kg m/s, sum of m v
   double mass = 0;                       // kg
+  double volume = 0;                     // m^3, of the grains
   std::size_t grains = 0;
 };
 
@@ -46,6 +47,7 @@ void add_grain(SliceSums& sums, const Grain& grain) {
   const dReal* v = dBodyGetLinearVel(grain.body);
   const Vector3 velocity(v[0], v[1], v[2]);
   sums.mass += grain.mass.mass;
+  sums.volume += grain.volume();
   sums.velocity += grain.mass.mass * velocity;
   sums.momentum += grain.mass.mass * velocity * velocity.transpose();
   ++sums.grains;
@@ -62,7 +64,9 @@ class Stress final : public Measurement {
         text += std::string(",") + prefix + '_' + entry + "_Pa";
       }
     }
-    return text + ",pressure_Pa,deviator_Pa";
+    text += ",pressure_Pa,deviator_Pa,volume_fraction";
+    if (region_.start_lengths()) text += ",length_x_m,length_y_m,length_z_m,strain_x,strain_y,strain_z,volumetric_strain";
+    return text;
   }
 
   void measure(const Sample& sample, TableText& table) const override {
@@ -78,6 +82,8 @@ class Stress final : public Measurement {
       }
       table.add(sample.time).add(index).add(slice.lower[axis]).add(slice.upper[axis]).add(sums.grains);
       write(sums, slice.volume(), table);
+      if (region_.start_lengths()) write_strain(all.upper - all.lower, *region_.start_lengths(), table);
+      table.end_line();
     }
   }
 
@@ -92,7 +98,12 @@ class Stress final : public Measurement {
     for (const Matrix3d& stress : {contact, kinetic}) {
       for (Eigen::Index row = 0; row < 3; ++row) table.add(Vector3(stress.row(row)));
     }
-    table.add(pressure).add(std::sqrt(1.5) * deviator.norm()).end_line();
+    table.add(pressure).add(std::sqrt(1.5) * deviator.norm()).add(sums.volume / volume);
+  }
+
+  static void write_strain(const Vector3& lengths, const Vector3& at_start, TableText& table) {
+    const Vector3 strain = (at_start.array() / lengths.array()).log();
+    table.add(lengths).add(strain).add(strain.sum());
   }
 
   SamplingRegion region_;
@@ -108,9 +119,15 @@ MeasurementKind stress_kind() {
           .measures = "the stress tensor of a box or of slices of it, pressure positive",
           .parameters = {{"lower, upper",
                           "m, corners of the box, which should lie within the container; without them all of a periodic cell"},
+                         {"between",
+                          "in place of lower and upper: six names of walls that face each other two by two, across x, y and z; the "
+                          "box follows them"},
                          {"axis", "x, y or z, across which the box is sliced; z without it"},
                          {"slices", "1 to 1000, of equal thickness; 1 without it"}},
-          .columns = "time, slice, its ends, grains; contact part and kinetic part, nine components each; pressure, deviator",
+          .columns =
+              "time, slice, its ends, grains; contact part and kinetic part, nine components each; pressure, deviator, volume "
+              "fraction of "
+              "the grains with centres inside; with between: lengths, logarithmic strains along x, y and z, their sum",
           .source =
               "Love 1927, Weber 1966; a slice takes the fraction of each branch that is in it: Weinhart et al., Granular "
               "Matter 14 (2012)",

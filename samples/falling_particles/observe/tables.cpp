@@ -77,6 +77,17 @@ void write_compression(const Sample& sample, TableText& table) {
   table.add(packing.overlap.relative).add(packing.target_overlap).add(packing.contacts_per_grain).end_line();
 }
 
+/// What drives a part in the last step: a force or a torque, and the stress on a servo.
+void write_drive(const WallBodies& walls, std::size_t index, TableText& table) {
+  const DrivenState* driven = walls.driven(index);
+  const bool turns = driven != nullptr && walls.wall(index).drive->turns();
+  driven != nullptr && !turns ? table.add(driven->push) : table.blank();
+  turns ? table.add(driven->push) : table.blank();
+  const std::optional<double> stress = walls.servo_stress(index);
+  stress ? table.add(*stress) : table.blank();
+  table.end_line();
+}
+
 /// The velocity of a part is the mean of the last step, without the motion of a conveyor's surface.
 void write_parts(const Sample& sample, TableText& table) {
   const WallBodies& walls = sample.world.walls();
@@ -85,7 +96,8 @@ void write_parts(const Sample& sample, TableText& table) {
     const auto& [pose, velocity] = walls.state(i);
     const Eigen::Quaterniond& q = pose.rotation;
     table.add(sample.time).add(walls.wall(i).name).add(pose.position).add(q.w()).add(q.x()).add(q.y()).add(q.z());
-    table.add(velocity.linear).add(velocity.angular).end_line();
+    table.add(velocity.linear).add(velocity.angular);
+    write_drive(walls, i, table);
   }
 }
 
@@ -140,8 +152,10 @@ constexpr std::array kTables = {
                   "time_s,cell_side_m,volume_fraction,volume_fraction_at_contact,mean_overlap,target_overlap,contacts_per_grain",
                   "a frame after the start", "compressions", [](const Scene& scene) { return scene.compression.has_value(); },
                   write_compression},
-    TableOfFrames{"parts", "poses of parts, and their mean velocities in the last step",
-                  "time_s,part,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s",
+    TableOfFrames{"parts",
+                  "poses of parts, their mean velocities in the last step, what drove them in it, and the stress on servos",
+                  "time_s,part,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s,"
+                  "drive_force_N,drive_torque_Nm,servo_stress_Pa",
                   "a frame and part that moves", "scenes with parts that move",
                   [](const Scene& scene) { return std::ranges::any_of(scene.walls, &Wall::moves); }, write_parts},
     TableOfFrames{"grains", "sizes and masses of the grains; the scale is the factor on the lengths of the kind",

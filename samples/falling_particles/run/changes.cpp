@@ -38,15 +38,17 @@ constexpr std::array kContainerKeys = {
     ContainerKey{"conveyor", "speed", WallChange::Motion},
 };
 
+/// The keys of a drive that may change. The inertia, the axis and the stops are those of the joint at the start.
+constexpr std::array kDriveKeys = {"force", "torque", "power", "largest_force", "largest_torque", "stress", "damping", "until"};
+
 std::string keys_that_change(const Scene& scene) {
   std::vector<std::string> keys = effect_sections();
   keys.emplace_back("solver");
   for (const ContainerKey& entry : kContainerKeys) {
     if (kind_of(scene.container) == std::string_view(entry.container)) keys.push_back(std::string("container.") + entry.key);
   }
-  for (const char* key : {"motion", "drive.force", "drive.damping", "drive.until"}) {
-    keys.push_back(std::string("part[NAME].") + key);
-  }
+  keys.emplace_back("part[NAME].motion");
+  for (const char* key : kDriveKeys) keys.push_back(std::string("part[NAME].drive.") + key);
   return join(keys);
 }
 
@@ -80,7 +82,8 @@ Change change_of_part(const std::string& key, std::string_view rest, const Scene
                      (names.empty() ? "; the scene has no parts" : "; allowed: " + join(names)));
   }
   const bool is_motion = rest.starts_with(".motion") && rest.find_first_of(kNameCharacters, 7) != 7;
-  const bool is_drive = rest == ".drive.force" || rest == ".drive.damping" || rest == ".drive.until";
+  constexpr std::string_view kDrive = ".drive.";
+  const bool is_drive = rest.starts_with(kDrive) && std::ranges::find(kDriveKeys, rest.substr(kDrive.size())) != kDriveKeys.end();
   if (!is_motion && !is_drive) refuse_key(key, scene);
   return {false, {name}, is_motion ? WallChange::Motion : WallChange::Drive};
 }
@@ -99,7 +102,11 @@ Change change_of(const std::string& assignment, const Scene& scene) {
 /// Starts the motions now, where the wall is.
 void change_motions(Wall& wall, const Wall& changed, double now) {
   const WallPose pose = pose_at(wall.start, wall.motions, now);
-  if (wall.drive) wall.drive->axis = pose.rotation * wall.start.rotation.conjugate() * wall.drive->axis;
+  if (wall.drive) {
+    const Eigen::Quaterniond turn = pose.rotation * wall.start.rotation.conjugate();
+    wall.drive->axis = turn * wall.drive->axis;
+    if (wall.drive->turns()) wall.drive->point = pose.position + turn * (*wall.drive->point - wall.start.position);
+  }
   wall.start = pose;
   wall.motions = changed.motions;
   std::erase_if(wall.motions, [now](const WallMotion& motion) { return motion.until <= now; });
@@ -108,6 +115,8 @@ void change_motions(Wall& wall, const Wall& changed, double now) {
 
 void change_drive(Drive& drive, const Drive& changed) {
   drive.force = changed.force;
+  drive.power = changed.power;
+  if (drive.servo) drive.servo->stress = changed.servo->stress;
   drive.damping = changed.damping;
   drive.until = changed.until;
 }
@@ -118,6 +127,11 @@ void require_like(const Wall& wall, const Wall& changed, WallChange change) {
   }
   if (change == WallChange::Drive && (!wall.drive || !changed.drive)) {
     throw InputError("part[" + wall.name + "].drive: the part had no drive at the start; allowed: a part with a drive then");
+  }
+  if (change == WallChange::Drive &&
+      (wall.drive->turns() != changed.drive->turns() || wall.drive->servo.has_value() != changed.drive->servo.has_value())) {
+    throw InputError("part[" + wall.name +
+                     "].drive: another kind of drive than at the start; allowed: other values of the same kind");
   }
 }
 

@@ -68,12 +68,19 @@ std::string shape_of(const Wall& wall) {
   return kNames[wall.shape.index()];
 }
 
+std::string describe(const Drive& drive) {
+  const std::string unit = drive.turns() ? " N m" : " N";
+  if (drive.servo) return "a servo to " + shortest(drive.servo->stress) + " Pa";
+  if (drive.power > 0) return "driven by " + shortest(drive.power) + " W, up to " + shortest(drive.force) + unit;
+  return "driven by " + shortest(drive.force) + unit;
+}
+
 std::string describe(const Wall& wall) {
   constexpr std::array kMotions = {"moves", "turns", "vibrates", "has a surface that moves"};
   std::string text = wall.name + ": " + shape_of(wall);
   for (const WallMotion& motion : wall.motions)
     text += std::string(", ") + kMotions[motion.kind.index()] + from_until(motion.from, motion.until);
-  if (wall.drive) text += ", driven by " + shortest(wall.drive->force) + " N" + from_until(wall.drive->from, wall.drive->until);
+  if (wall.drive) text += ", " + describe(*wall.drive) + from_until(wall.drive->from, wall.drive->until);
   return text;
 }
 

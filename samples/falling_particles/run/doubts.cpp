@@ -53,9 +53,21 @@ double normal_speed(const WallMotion& motion, const SurfacePoint& point, bool tu
   return 0;  // a conveyor stands
 }
 
-/// m, the displacement of a driven wall in its first step, from rest without resistance.
-double first_way_of(const Drive& drive, double step) {
-  return step * step * std::abs(drive.force) / (drive.mass + step * drive.damping);
+/// m, the displacement of a driven wall in its first step, from rest without resistance; of its farthest point if it turns.
+double first_way_of(const Wall& wall, double step) {
+  const Drive& drive = *wall.drive;
+  if (drive.servo) return step * std::min(drive.servo->largest_speed, drive.servo->gain * drive.servo->stress);
+  const double way = step * step * std::abs(push_of(drive, 0, step)) / (drive.mass + step * drive.damping);
+  const double radius = bounding_radius(wall.shape);
+  if (!drive.turns() || !std::isfinite(radius)) return way;
+  return way * (radius + drive.axis.cross(wall.start.position - *drive.point).norm());
+}
+
+/// What would make the first displacement of a driven wall smaller, by `factor`.
+std::string slower(const Drive& drive, double factor) {
+  if (drive.servo) return "part.drive.largest_speed up to " + rounded(drive.servo->largest_speed / factor) + " m/s would do";
+  return drive.turns() ? "part.drive.moment from " + rounded(drive.mass * factor) + " kg m^2 on would do"
+                       : "part.drive.mass from " + rounded(drive.mass * factor) + " kg on would do";
 }
 
 std::string in_half_axes(double way, const Scene& scene) {
@@ -146,6 +158,22 @@ double thinnest(const WallShape& shape) {
   return INFINITY;
 }
 
+/// Adds a doubt about a servo on springs. A spring is explicit: it is stable while stiffness x step^2 is below four masses. A servo
+/// has the mass step x area / gain, and a contact for each smallest grain that fits on its area.
+void add_gain(const Scene& scene, const Wall& wall, std::vector<std::string>& doubts) {
+  for (const supernormal::effects::Effect& effect : scene.effects) {
+    const auto* const spring = std::get_if<supernormal::effects::Compliance>(&effect);
+    if (spring == nullptr) continue;
+    const double diameter = 2 * scene.smallest_half_axis();
+    const double most = 4 * diameter * diameter / (spring->stiffness * scene.time.step);
+    if (wall.drive->servo->gain <= most) continue;
+    doubts.push_back("part \"" + wall.name + "\" is a servo with a gain of " + rounded(wall.drive->servo->gain) +
+                     " m/(s Pa), with which it may be unstable on the springs of compliance: part.drive.gain up to " +
+                     rounded(most) + " m/(s Pa), or a smaller time.step would do");
+    return;
+  }
+}
+
 void add_walls(const Scene& scene, std::vector<std::string>& doubts) {
   constexpr double kThin = 1e-6;  // of the smallest half-axis: thinner than the overlap of a contact at rest
   const double size = scene.smallest_half_axis();
@@ -161,10 +189,10 @@ void add_walls(const Scene& scene, std::vector<std::string>& doubts) {
                        rounded(scene.time.step * size / way) + " s would do");
     }
     if (!wall.drive) continue;
-    const double first = first_way_of(*wall.drive, scene.time.step);
+    if (wall.drive->servo) add_gain(scene, wall, doubts);
+    const double first = first_way_of(wall, scene.time.step);
     if (first > size) {
-      doubts.push_back(moves_too_far("part \"" + wall.name + "\" is driven", first, scene) + "part.drive.mass from " +
-                       rounded(wall.drive->mass * first / size) + " kg on would do");
+      doubts.push_back(moves_too_far("part \"" + wall.name + "\" is driven", first, scene) + slower(*wall.drive, first / size));
     }
   }
 }

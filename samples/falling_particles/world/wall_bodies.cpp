@@ -9,21 +9,10 @@
 #include <string>
 
 #include "model/material.hpp"
-#include "to_vector.hpp"
+#include "wall_body.hpp"
 
 namespace falling_particles {
 namespace {
-
-void set_velocity(dBodyID body, const WallVelocity& velocity) {
-  dBodySetLinearVel(body, velocity.linear.x(), velocity.linear.y(), velocity.linear.z());
-  dBodySetAngularVel(body, velocity.angular.x(), velocity.angular.y(), velocity.angular.z());
-}
-
-void set_pose(dBodyID body, const WallPose& pose) {
-  dBodySetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());
-  const dQuaternion q = {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()};
-  dBodySetQuaternion(body, q);
-}
 
 static_assert(sizeof(unsigned int) == sizeof(dTriIndex));
 
@@ -42,30 +31,11 @@ std::vector<double> rows_along_z(const GroundShape& ground) {
   return heights;
 }
 
-/// A body without automatic sleep and without damping.
-dBodyID create_body(dWorldID world) {
-  const dBodyID body = dBodyCreate(world);
-  dBodySetAutoDisableFlag(body, 0);
-  dBodySetLinearDamping(body, 0);
-  dBodySetAngularDamping(body, 0);
-  return body;
-}
-
 }  // namespace
 
-WallPose WallBodies::Entry::wall_pose() const {
-  WallPose moved = pose;
-  if (driven != nullptr) moved.position += position * axis();
-  return moved;
-}
+WallPose WallBodies::Entry::wall_pose() const { return driven == nullptr ? pose : driven->pose_on(pose); }
 
-WallVelocity WallBodies::Entry::wall_velocity() const {
-  WallVelocity moved = velocity;
-  if (driven != nullptr) moved.linear += speed * axis() + velocity.angular.cross(position * axis());
-  return moved;
-}
-
-Vector3 WallBodies::Entry::axis() const { return pose.rotation * wall->start.rotation.conjugate() * wall->drive->axis; }
+WallVelocity WallBodies::Entry::wall_velocity() const { return driven == nullptr ? velocity : driven->velocity_on(pose, velocity); }
 
 WallBodies::WallBodies(dWorldID world, const std::vector<Wall>& walls, double step, unsigned long category_bits,
                        unsigned long collide_bits)
@@ -84,18 +54,17 @@ WallBodies::WallBodies(dWorldID world, const std::vector<Wall>& walls, double st
     index_of_[entry.geom] = i;
     place(entry);
     if (!wall.moves()) continue;
-    entry.carrier = create_body(world);
+    entry.carrier = create_wall_body(world);
     dBodySetKinematic(entry.carrier);
     set_pose(entry.carrier, entry.pose);
     dBodyDisable(entry.carrier);
-    if (wall.drive) add_drive(entry, *wall.drive);
+    if (wall.drive) entry.driven = std::make_unique<DrivenBody>(world, entry.carrier, wall, step);
   }
 }
 
 WallBodies::~WallBodies() {
-  for (const Entry& entry : entries_) {
-    if (entry.slider != nullptr) dJointDestroy(entry.slider);
-    if (entry.driven != nullptr) dBodyDestroy(entry.driven);
+  for (Entry& entry : entries_) {
+    entry.driven.reset();
     if (entry.carrier != nullptr) dBodyDestroy(entry.carrier);
     dGeomDestroy(entry.geom);
   }
@@ -165,22 +134,24 @@ dGeomID WallBodies::create_geom(const MeshShape& mesh) {
   return geom;
 }
 
-void WallBodies::add_drive(Entry& entry, const Drive& drive) {
-  entry.driven = create_body(world_);
-  // The joint prevents all rotation. A body with a large inertia hardly rotates by itself, and leaves less work to the solver. In
-  // shear_cell.toml the final overlap of grains is 5.7 % of the smallest half-axis. With an inertia of m r^2 it is 7.0 %.
-  constexpr double kHeavy = 1e3;
-  const double radius = bounding_radius(entry.wall->shape);
-  const double inertia = kHeavy * drive.mass * (std::isfinite(radius) ? radius * radius : 1);
-  dMass mass;
-  dMassSetParameters(&mass, drive.mass, 0, 0, 0, inertia, inertia, inertia, 0, 0, 0);
-  dBodySetMass(entry.driven, &mass);
-  set_pose(entry.driven, entry.pose);
-  entry.slider = dJointCreateSlider(world_, nullptr);
-  dJointAttach(entry.slider, entry.driven, entry.carrier);
-  dJointSetSliderAxis(entry.slider, drive.axis.x(), drive.axis.y(), drive.axis.z());
-  if (std::isfinite(drive.travel[0])) dJointSetSliderParam(entry.slider, dParamLoStop, drive.travel[0]);
-  if (std::isfinite(drive.travel[1])) dJointSetSliderParam(entry.slider, dParamHiStop, drive.travel[1]);
+const WallBodies::Entry& WallBodies::named(const std::string& name) const {
+  return *std::ranges::find(entries_, name, [](const Entry& entry) { return entry.wall->name; });
+}
+
+FacingFaces WallBodies::faces_between(const FacingWalls& pair) const {
+  const Entry& first = named(pair[0]);
+  const Entry& second = named(pair[1]);
+  const auto faces = facing_faces(first.wall->shape, first.wall_pose(), second.wall->shape, second.wall_pose());
+  if (faces && faces->distance() > 0) return *faces;
+  throw std::runtime_error("walls \"" + pair[0] + "\" and \"" + pair[1] + "\" have met, or no longer face each other");
+}
+
+double WallBodies::area_of(const Entry& entry) const {
+  if (!entry.wall->drive->servo) return 0;
+  const Servo& servo = *entry.wall->drive->servo;
+  double area = servo.between.empty() ? servo.area : 1;
+  for (const FacingWalls& pair : servo.between) area *= faces_between(pair).distance();
+  return area;
 }
 
 void WallBodies::before_step() {
@@ -191,36 +162,35 @@ void WallBodies::before_step() {
     const std::span<const WallMotion> motions = entry.wall->motions;
     entry.next = pose_at(entry.wall->start, motions, then);
     entry.velocity = mean_velocity(entry.pose, entry.next, step_);
-    entry.excess = falling_particles::chord_excess(entry.wall->start, entry.pose, entry.next, motions, now, then);
+    find_excess(entry, now, then);
     WallVelocity surface = conveyor_velocity(entry.wall->start, entry.pose, motions, now, then);
     surface.linear += entry.velocity.linear;
     surface.angular += entry.velocity.angular;
     set_velocity(entry.carrier, surface);
     entry.is_moving = !surface.is_zero();
-    if (entry.driven != nullptr) push(entry, now);
+    if (entry.driven != nullptr) {
+      entry.area = area_of(entry);
+      entry.driven->push(entry.pose, now, entry.area);
+      entry.is_moving = entry.is_moving || !entry.driven->is_held();
+    }
     entry.is_moving ? dBodyEnable(entry.carrier) : dBodyDisable(entry.carrier);
   }
 }
 
-// Damping is implicit in the velocity, so that it never reverses a velocity, whatever the step.
-void WallBodies::push(Entry& entry, double now) {
-  const Drive& drive = *entry.wall->drive;
-  const double slack = 1e-6 * step_;  // times of steps are rounded
-  entry.is_held = now + slack < drive.from;
-  if (entry.is_held) return;
-  entry.is_moving = true;
-  dBodyEnable(entry.driven);
-  const double push = now + slack < drive.until ? drive.force : 0;
-  const double brake = drive.damping * entry.speed / (1 + step_ * drive.damping / drive.mass);
-  const Vector3 force = (push - brake) * entry.axis();
-  dBodyAddForce(entry.driven, force.x(), force.y(), force.z());
+// The end of a driven turn is unknown before the step. With the speed of the step before, the excess is exact to first order.
+void WallBodies::find_excess(Entry& entry, double now, double then) const {
+  const bool turns = entry.driven != nullptr && entry.wall->drive->turns();
+  const WallPose from = turns ? entry.driven->pose_on(entry.pose) : entry.pose;
+  const WallPose to = turns ? entry.driven->next_on(entry.next) : entry.next;
+  entry.lever_base = from.position;
+  entry.excess = falling_particles::chord_excess(entry.wall->start, from, to, entry.wall->motions, now, then);
 }
 
 void WallBodies::after_step() {
   ++steps_;
   for (Entry& entry : entries_) {
     if (entry.carrier == nullptr || !(entry.is_moving || entry.driven != nullptr)) continue;
-    if (entry.driven != nullptr) slide(entry);
+    if (entry.driven != nullptr) entry.driven->read(entry.pose, entry.velocity);
     entry.pose = entry.next;
     put(entry);
   }
@@ -228,20 +198,8 @@ void WallBodies::after_step() {
 
 void WallBodies::put(const Entry& entry) {
   set_pose(entry.carrier, entry.pose);
-  if (entry.driven != nullptr) {
-    set_pose(entry.driven, entry.wall_pose());
-    set_velocity(entry.driven, entry.wall_velocity());
-  }
+  if (entry.driven != nullptr) entry.driven->put(entry.pose, entry.velocity);
   place(entry);
-}
-
-// The solver's residual motion across the axis is discarded: the wall stays on its axis and does not tilt.
-void WallBodies::slide(Entry& entry) {
-  if (entry.is_held) return;
-  const Vector3 axis = entry.axis();
-  const Vector3 lever = to_vector(dBodyGetPosition(entry.driven)) - to_vector(dBodyGetPosition(entry.carrier));
-  entry.position = axis.dot(lever);
-  entry.speed = axis.dot(to_vector(dBodyGetLinearVel(entry.driven)) - entry.velocity.linear);
 }
 
 void WallBodies::place(const Entry& entry) {
@@ -265,22 +223,33 @@ bool WallBodies::is_moving(dGeomID geom) const {
 supernormal::effects::Side WallBodies::side_of(dGeomID geom) const {
   const Entry* entry = find(geom);
   if (entry == nullptr) return {kWallMaterial, dGeomGetBody(geom)};
-  const dBodyID body = entry->driven != nullptr && !entry->is_held ? entry->driven : entry->carrier;
+  const dBodyID body = entry->driven != nullptr && !entry->driven->is_held() ? entry->driven->id() : entry->carrier;
   return {entry->material, entry->is_moving ? body : nullptr};
 }
 
 Vector3 WallBodies::chord_excess(dGeomID geom, const Vector3& centre, const Vector3& velocity) const {
   const Entry* entry = find(geom);
   if (entry == nullptr || !entry->excess) return Vector3::Zero();
-  return entry->excess->at(centre - entry->pose.position, velocity);
+  return entry->excess->at(centre - entry->lever_base, velocity);
 }
 
 WallState WallBodies::state(std::size_t index) const { return {entries_[index].wall_pose(), entries_[index].wall_velocity()}; }
 
+const DrivenState* WallBodies::driven(std::size_t index) const {
+  return entries_[index].driven == nullptr ? nullptr : &entries_[index].driven->state();
+}
+
+std::optional<double> WallBodies::servo_stress(std::size_t index) const {
+  const Entry& entry = entries_[index];
+  if (entry.driven == nullptr || !entry.wall->drive->servo || entry.driven->is_held()) return std::nullopt;
+  return entry.driven->state().load / entry.area;
+}
+
 WallsState WallBodies::save() const {
   WallsState state{steps_, {}};
   for (const Entry& entry : entries_) {
-    if (entry.carrier != nullptr) state.walls.push_back({entry.pose, entry.velocity, entry.position, entry.speed});
+    if (entry.carrier == nullptr) continue;
+    state.walls.push_back({entry.pose, entry.velocity, entry.driven == nullptr ? DrivenState{} : entry.driven->state()});
   }
   return state;
 }
@@ -293,8 +262,7 @@ void WallBodies::restore(const WallsState& state) {
     const WallsState::OfWall& saved = *next++;
     entry.pose = saved.pose;
     entry.velocity = saved.velocity;
-    entry.position = saved.position;
-    entry.speed = saved.speed;
+    if (entry.driven != nullptr) entry.driven->restore(saved.driven);
     put(entry);
   }
 }

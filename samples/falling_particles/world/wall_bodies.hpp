@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "driven_body.hpp"
 #include "model/two_sided_mesh.hpp"
 #include "model/wall.hpp"
 
@@ -26,12 +27,11 @@ struct WallsState {
   struct OfWall {
     WallPose pose;               ///< of the carrier
     WallVelocity velocity = {};  ///< of the carrier in the last step
-    double position = 0;         ///< m, of a driven wall along its axis
-    double speed = 0;            ///< m/s
+    DrivenState driven = {};     ///< of a driven wall
 
     template <typename Archive>
     void serialize(Archive& archive) {
-      archive(pose, velocity, position, speed);
+      archive(pose, velocity, driven);
     }
   };
   long steps = 0;
@@ -45,8 +45,8 @@ struct WallsState {
 
 /// The geoms of all walls of a scene, and the bodies that give contacts their velocities. The geoms have no bodies, since ODE's
 /// planes can have none. They are in no space. A moving wall has a kinematic body beside its geom, with the mean velocity of the
-/// step. After the step the geom and this body are set to the exact pose. A driven wall has a second body with mass, on a slider
-/// joint to the kinematic body.
+/// step. After the step the geom and this body are set to the exact pose. A driven wall has a second body with mass, on a joint to
+/// the kinematic body.
 class WallBodies {
  public:
   /// The walls and the world must outlive this object. The geoms have `category_bits` and collide with geoms that have a bit of
@@ -83,6 +83,12 @@ class WallBodies {
   const Wall& wall(std::size_t index) const { return *entries_[index].wall; }
   std::size_t count() const { return entries_.size(); }
   WallState state(std::size_t index) const;
+  /// Null for a wall without a drive.
+  const DrivenState* driven(std::size_t index) const;
+  /// Pa, of the grains on a servo in the last step; empty for a wall that is none or was held.
+  std::optional<double> servo_stress(std::size_t index) const;
+  /// Of two walls that face each other. Throws std::runtime_error if they have met.
+  FacingFaces faces_between(const FacingWalls& pair) const;
 
   WallsState save() const;
   /// Restores a state of the same walls in a world that has made no step.
@@ -94,29 +100,26 @@ class WallBodies {
     WallPose next;                           // of the carrier at the end of the step
     WallVelocity velocity = {};              // of the carrier in this step
     std::optional<ChordExcess> excess = {};  // in this step
-    double position = 0;                     // m, of the driven body along its axis
-    double speed = 0;                        // m/s
+    Vector3 lever_base = Vector3::Zero();    // m, from which the levers of `excess` lead
     const Wall* wall = nullptr;
     dGeomID geom = nullptr;
-    dBodyID carrier = nullptr;  // kinematic; null for a wall that stands
-    dBodyID driven = nullptr;   // with mass; null for a wall that is not driven
-    dJointID slider = nullptr;
+    dBodyID carrier = nullptr;                     // kinematic; null for a wall that stands
+    std::unique_ptr<DrivenBody> driven = nullptr;  // null for a wall that is not driven
+    double area = 0;                               // m^2, of a servo in this step
     supernormal::effects::Material material = 0;
     bool is_present = true;  // false for a removed lid
     bool is_moving = false;
-    bool is_held = true;
 
     WallPose wall_pose() const;          // with the displacement of the driven body
     WallVelocity wall_velocity() const;  // with the speed of the driven body; mean of the last step
-    Vector3 axis() const;                // of the drive, in the world's frame
   };
   const Entry* find(dGeomID geom) const;
   dGeomID create_geom(const WallShape& shape);
   dGeomID create_geom(const MeshShape& mesh);
   dGeomID create_geom(const GroundShape& ground);
-  void add_drive(Entry& entry, const Drive& drive);
-  void push(Entry& entry, double now);
-  void slide(Entry& entry);
+  const Entry& named(const std::string& name) const;
+  double area_of(const Entry& entry) const;
+  void find_excess(Entry& entry, double now, double then) const;
   static void put(const Entry& entry);
   static void place(const Entry& entry);
 

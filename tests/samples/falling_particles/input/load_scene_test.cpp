@@ -231,6 +231,6 @@ TEST_CASE("the catalogues are valid and name their sources, and the scenes load"
     }
   }
   for (const char* scene : {"mixture", "short", "hopper", "terrain", "heap", "packing_spheres", "packing_ellipsoids", "packing_mm",
-                            "packing_superballs", "tower", "sizes", "compounds", "rods"})
+                            "packing_superballs", "tower", "sizes", "compounds", "rods", "triaxial"})
     load_scene(std::string(SUPERNORMAL_SAMPLES "/scenes/") + scene + ".toml");
 }

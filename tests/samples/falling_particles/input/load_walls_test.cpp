@@ -114,8 +114,11 @@ TEST_CASE("the error of a part names the key, its value and the allowed values")
       {"until = 0.05", "until = 0.01", {"part.motion.until is 0.01", "after from"}},
       {"rpm = 30", "rpm = 30000", {"part.motion.rpm is 30000", "[-12000, 12000]", "tenth"}},
       {"rpm = 30", "rpm = 30\nfrequency = 1", {"unknown key \"frequency\""}},
-      {"pressure = 1000", "", {"part.drive.force and part.drive.pressure are missing", "one of them"}},
-      {"pressure = 1000", "pressure = 1\nforce = 1", {"are both given", "one of them"}},
+      {"pressure = 1000", "", {"part.drive.force is missing", "one of force, pressure, torque, power, stress"}},
+      {"pressure = 1000", "pressure = 1\nforce = 1", {"part.drive has both force and pressure", "one of force"}},
+      {"pressure = 1000", "force = 1\npoint = [0, 0, 0]", {"unknown key \"point\"", "force, mass, damping"}},
+      {"pressure = 1000", "power = 1", {"part.drive.largest_force is missing", "(0, 1e+09] N, at rest"}},
+      {"pressure = 1000", "power = -1\nlargest_force = 1", {"part.drive.power is -1", "(0, 1e+09] W"}},
       {"mass = 0.2", "mass = 0", {"part.drive.mass is 0", "kg"}},
       {"travel = [0, 0.3]", "travel = [0.1, 0.3]", {"part.drive.travel is [0.1, 0.3]", "0 or less"}},
   };
@@ -125,6 +128,65 @@ TEST_CASE("the error of a part names the key, its value and the allowed values")
   }
   check_says(complaint(with_part(std::string(kPart) + kPart)), {"part.name is \"plate\"", "another part"});
   check_says(complaint(scene_in("kind = \"periodic\"\nside = 0.1") + kPart), {"part in a periodic container"});
+}
+
+TEST_CASE("a part that turns has a point, a moment and a travel in degrees") {
+  const std::string door = replaced(kPart, "pressure = 1000\nmass = 0.2\ntravel = [0, 0.3]",
+                                    "torque = 2\npoint = [0.1, 0, 0]\nmoment = 0.3\ntravel = [-90, 60]\n");
+  const Drive& drive = *scene_of(with_part(door)).parts()[0].drive;
+  CHECK(drive.turns());
+  CHECK(drive.force == 2);
+  CHECK(drive.mass == 0.3);
+  CHECK(drive.travel[0] == doctest::Approx(-1.5707963268));
+  const Wall motor = scene_of(with_part(replaced(door, "torque = 2", "power = 5\nlargest_torque = 7\nmass = 0.4"))).parts()[0];
+  CHECK(motor.drive->power == 5);
+  CHECK(motor.drive->force == 7);
+  CHECK(motor.drive->hung_mass == 0.4);
+  const std::vector<Mistake> mistakes = {
+      {"point = [0.1, 0, 0]", "", {"part.drive.point is missing", "m, on part.drive.axis"}},
+      {"moment = 0.3", "moment = 0", {"part.drive.moment is 0", "kg m^2"}},
+      {"moment = 0.3", "mass = 0.3", {"part.drive.moment is missing"}},
+      {"[-90, 60]", "[-90, 180]", {"part.drive.travel[1] is 180", "[-170, 170] degrees"}},
+      {"torque = 2", "power = 5", {"part.drive.largest_torque is missing", "N m, at rest"}},
+      {"torque = 2", "torque = 2\nforce = 1", {"part.drive has both force and torque"}},
+  };
+  for (const Mistake& mistake : mistakes) {
+    CAPTURE(mistake.to);
+    check_says(complaint(with_part(replaced(door, mistake.from, mistake.to))), mistake.says);
+  }
+}
+
+TEST_CASE("a servo has an area, its own or that between four walls that face each other") {
+  const std::string lid =
+      "[[part]]\nname = \"lid\"\nshape = \"plane\"\nposition = [0, 0, 0.3]\naxis = [1, 0, 0]\nangle = 180\n[part.drive]\n"
+      "axis = [0, 0, -1]\nstress = 1000\ngain = 1e-5\nlargest_speed = 0.1\nbetween = [\"x_low\", \"x_high\", \"y_low\", "
+      "\"y_high\"]\n";
+  const Servo& servo = *scene_of(with_part(lid)).walls.back().drive->servo;
+  CHECK(servo.stress == 1000);
+  CHECK(servo.gain == 1e-5);
+  CHECK(servo.largest_speed == 0.1);
+  CHECK(servo.between == std::vector<FacingWalls>{{"x_low", "x_high"}, {"y_low", "y_high"}});
+  const std::string between = "between = [\"x_low\", \"x_high\", \"y_low\", \"y_high\"]";
+  CHECK(scene_of(with_part(replaced(lid, between, "area = 0.02"))).walls.back().drive->servo->area == 0.02);
+  const std::vector<Mistake> mistakes = {
+      {"stress = 1000", "stress = -1", {"part.drive.stress is -1", "(0, 1e+09] Pa"}},
+      {"gain = 1e-5", "", {"part.drive.gain is missing", "m/(s Pa)"}},
+      {"gain = 1e-5", "gain = 0", {"part.drive.gain is 0", "m/(s Pa)"}},
+      {"largest_speed = 0.1", "largest_speed = 0", {"part.drive.largest_speed is 0", "(0, 1000] m/s"}},
+      {"stress = 1000", "stress = 1000\nmass = 1", {"unknown key \"mass\"", "gain"}},
+      {"stress = 1000", "stress = 1000\narea = 1", {"unknown key \"area\"", "between"}},
+      {"\"x_high\"", "\"x_hig\"", {"part.drive.between[1] is the string \"x_hig\"", "did you mean \"x_high\""}},
+      {", \"y_low\", \"y_high\"", "", {"part.drive.between has 2 walls", "2 pairs of planes or boxes"}},
+      {"\"y_low\", \"y_high\"", "\"floor\", \"lid\"", {"has \"floor\" and \"lid\", which do not", "part.drive.axis"}},
+      {"\"x_high\", \"y_low\"", "\"y_low\", \"x_high\"", {"has \"x_low\" and \"y_low\", which do not"}},
+  };
+  for (const Mistake& mistake : mistakes) {
+    CAPTURE(mistake.to);
+    check_says(complaint(with_part(replaced(lid, mistake.from, mistake.to))), mistake.says);
+  }
+  check_says(complaint(with_part(replaced(lid, between, ""))), {"part.drive.area is missing", "m^2"});
+  // Walls that the scene loses along a periodic axis are no walls.
+  check_says(complaint(with_part(lid + "[periodic]\nx = [0, 0.05]\n")), {"part.drive.between[0] is the string \"x_low\""});
 }
 
 TEST_CASE("a conveyor needs a velocity or a turn, and no drive") {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/random.hpp"
+#include "complaint.hpp"
 #include "measured.hpp"
 #include "support/relative.hpp"
 
@@ -191,4 +192,55 @@ TEST_CASE("measurements: the stress of a bed below a piston is the piston's pres
     CAPTURE(i);
     CHECK(bed.stress[i] == relative(bed.expected[i]).epsilon(0.02));
   }
+}
+
+TEST_CASE(
+    "measurements: in equilibrium the stress between walls is their force over the area, and its strains those of the walls") {
+  constexpr double kTarget = 500;  // Pa, along z
+  constexpr double kStart = 0.05;  // m, of the cell along z
+  std::string text = replaced(smooth_box(), "[gravity]\nacceleration = [0, 0, -9.81]\n", "");
+  text +=
+      "[[part]]\nname = \"top\"\nshape = \"plane\"\nposition = [0, 0, 0.05]\naxis = [1, 0, 0]\nangle = 180\n[part.drive]\n"
+      "axis = [0, 0, -1]\nstress = 500\ngain = 1e-4\nlargest_speed = 0.2\n"
+      "between = [\"x_low\", \"x_high\", \"y_low\", \"y_high\"]\n";
+  const Scene scene =
+      scene_with("kind = \"stress\"\nbetween = [\"y_high\", \"y_low\", \"x_low\", \"x_high\", \"floor\", \"top\"]\n", text);
+  std::vector<Placement> peas;
+  for (int i = 0; i < 27; ++i) {
+    peas.push_back(upright(kPea, 0.005 + 0.01 * (i % 3), 0.005 + 0.01 * (i / 3 % 3), 0.004 + 0.012 * (i / 9) + 1e-3 * (i % 2)));
+  }
+  const World world(scene, peas);
+  Stepper stepper(world, scene);
+  for (int step = 0; step < 6000; ++step) stepper.step();
+  double stress = 0, servo = 0;
+  constexpr int kSamples = 50;
+  MeasuredTable table;
+  for (int sample = 0; sample < kSamples; ++sample) {
+    stepper.step(true);
+    table = measure(scene, world, &stepper);
+    stress += table.number("contact_zz_Pa") / kSamples;
+    servo += world.walls().servo_stress(scene.walls.size() - 1).value() / kSamples;
+  }
+  CHECK(servo == relative(kTarget).epsilon(0.01));
+  CHECK(stress == relative(servo).epsilon(0.01));
+  const double height = world.walls().state(scene.walls.size() - 1).pose.position.z();
+  CHECK(height < 0.9 * kStart);
+  CHECK(table.number("length_z_m") == relative(height).epsilon(1e-9));
+  CHECK(table.number("length_x_m") == relative(kWidth).epsilon(1e-9));
+  CHECK(table.number("strain_z") == relative(std::log(kStart / height)).epsilon(1e-9));
+  CHECK(std::abs(table.number("strain_x")) < 1e-12);
+  CHECK(table.number("volumetric_strain") == relative(table.number("strain_z")).epsilon(1e-9));
+  CHECK(table.number("volume_fraction") ==
+        relative(27 * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3) / (kWidth * kWidth * height)).epsilon(1e-9));
+}
+
+TEST_CASE("measurements: a box between walls needs three pairs across the axes, and no other corners") {
+  const auto says = [](const std::string& keys) {
+    return complaint(std::string(kSceneText) + "[[measurement]]\nkind = \"stress\"\ninterval = 0.01\n" + keys);
+  };
+  const std::string four = "\"x_low\", \"x_high\", \"y_low\", \"y_high\"";
+  check_says(says("between = [" + four + "]\n"), {"measurement.between has 4 walls", "3 pairs"});
+  check_says(says("between = [" + four + ", \"floor\", \"x_low\"]\n"),
+             {"measurement.between[5] is the string \"x_low\"", "different words"});
+  check_says(says("between = [" + four + "]\nlower = [0, 0, 0]\n"), {"measurement.lower is given besides between"});
 }

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -71,6 +72,35 @@ TEST_CASE("tables: a scene may request one with an interval of its own") {
   CHECK(lines_of(often) == 1 + 21);
   std::istringstream frames(tables.at("state.csv"));
   for (std::string line; std::getline(frames, line);) CHECK(often.find(line + '\n') != std::string::npos);
+}
+
+TEST_CASE("tables: parts.csv has the force, the torque or the stress of a drive, and nothing of a part that is moved") {
+  const std::string at = "shape = \"box\"\nsize = [0.01, 0.01, 0.01]\nposition = [0.02, 0.02, 0.";
+  const auto part = [&](const char* name, const char* height, const char* rest) {
+    return std::string("[[part]]\nname = \"") + name + "\"\n" + at + height + "]\n" + rest;
+  };
+  std::string text = kSceneText;
+  text += part("moved", "5", "[[part.motion]]\nkind = \"velocity\"\nvelocity = [0, 0, 1]\n");
+  text += part("pushed", "6", "[part.drive]\naxis = [0, 0, 1]\nforce = 3\nmass = 1\n");
+  text += part("turned", "7", "[part.drive]\naxis = [0, 0, 1]\npoint = [0, 0, 0]\ntorque = 4\nmoment = 1\n");
+  text += part("servo", "8", "[part.drive]\naxis = [0, 0, 1]\nstress = 50\ngain = 1e-3\nlargest_speed = 1\narea = 0.1\n");
+  const Scene scene = scene_with("kind = \"fabric\"\n", text);
+  std::vector<MeasurementCost> costs;
+  std::istringstream lines(tables_after(scene, scene.time.steps_per_frame(), costs).at("parts.csv"));
+  std::map<std::string, std::vector<std::string>> last;
+  std::string head, line;
+  std::getline(lines, head);
+  CHECK(head.ends_with("drive_force_N,drive_torque_Nm,servo_stress_Pa"));
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> fields = split(line);
+    last[fields[1]] = {fields.end() - 3, fields.end()};
+  }
+  using Fields = std::vector<std::string>;
+  CHECK(last.at("moved") == Fields{"", "", ""});
+  CHECK(last.at("pushed") == Fields{"3", "", ""});
+  CHECK(last.at("turned") == Fields{"", "4", ""});
+  CHECK(last.at("servo")[0] == "5");  // 50 Pa on 0.1 m^2
+  CHECK(std::abs(std::stod(last.at("servo")[2])) < 1e-9);
 }
 
 TEST_CASE("tables: all are listed, and those of a scene with their columns") {

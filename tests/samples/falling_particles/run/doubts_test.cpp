@@ -93,6 +93,29 @@ TEST_CASE("doubts: a driven part that jumps over a half-axis in its first step i
              {"part.drive.mass is 1e-160; allowed: a number in [1e-12, 1e+06] kg"});
 }
 
+TEST_CASE("doubts: a part that a torque or a servo moves by more than a half-axis in a step is named") {
+  const std::string door =
+      "shape = \"box\"\nsize = [0.04, 0.04, 0.01]\nposition = [0.025, 0.03, 1]\n[part.drive]\naxis = [0, 0, 1]\n"
+      "torque = 10\npoint = [0.025, 0.03, 0]\n";
+  check_one_doubt(with_part(door + "moment = 1e-6\n"), {"part \"p\" is driven", "part.drive.moment from", "kg m^2 on"});
+  CHECK(doubts_about(with_part(door + "moment = 1\n")).empty());
+  const std::string servo =
+      "shape = \"box\"\nsize = [0.04, 0.04, 0.01]\nposition = [0.025, 0.03, 1]\n[part.drive]\naxis = [0, 0, -1]\nstress = 1000\n"
+      "gain = 1\n";
+  check_one_doubt(with_part(servo + "largest_speed = 10\n"),
+                  {"part \"p\" is driven 0.005 m in a step", "part.drive.largest_speed up to 6 m/s"});
+  CHECK(doubts_about(with_part(servo + "largest_speed = 1\n")).empty());
+  // On springs the gain has a limit: 4 x (0.006 m)^2 / (1e4 N/m x 5e-4 s).
+  const auto on_springs = [&](const char* gain) {
+    const std::string text =
+        replaced(kSceneText, "[max_correcting_velocity]\nvelocity = 0.05\n", "[compliance]\nstiffness = 1e4\n");
+    return scene_of(text + "[[part]]\nname = \"p\"\n" + replaced(servo, "gain = 1\n", gain) + "largest_speed = 1\n");
+  };
+  check_one_doubt(on_springs("gain = 3e-5\n"),
+                  {"part \"p\" is a servo with a gain of 3e-05 m/(s Pa)", "part.drive.gain up to 2.88e-05 m/(s Pa)"});
+  CHECK(doubts_about(on_springs("gain = 2.8e-5\n")).empty());
+}
+
 TEST_CASE("doubts: a grain may not start inside a part") {
   const std::string shapes[] = {"shape = \"box\"\nsize = [0.1, 0.1, 0.1]\n", "shape = \"cylinder\"\nradius = 0.1\nlength = 0.1\n",
                                 "shape = \"ellipsoid\"\nhalf_axes = [0.1, 0.1, 0.1]\n",

@@ -165,6 +165,19 @@ TEST_CASE("resume: a piston on its way") {
   check_resume(scene);
 }
 
+TEST_CASE("resume: a door under a power, and a servo on its way") {
+  Scene scene = sample("piston");
+  Drive& servo = *scene.walls.back().drive;
+  servo = {servo.axis, 0, 0};
+  servo.servo = Servo{2000, 1e-4, 0.5, 0, {{"x_low", "x_high"}, {"y_low", "y_high"}}};
+  Wall& door = scene.walls.emplace_back(Wall{"door", BoxShape{{0.06, 0.01, 0.06}}, {{0.04, 0.04, 0.1}}});
+  door.drive = Drive{Vector3::UnitZ(), 1, 1e-4};
+  door.drive->power = 0.1;
+  door.drive->point = Vector3(0.04, 0.04, 0);
+  door.drive->hung_mass = 0.1;
+  check_resume(scene);
+}
+
 TEST_CASE("resume: a hopper, before and after its outlet opens") {
   Scene scene = sample("hopper");
   for (const double opens_at : {0.05, 0.001}) {

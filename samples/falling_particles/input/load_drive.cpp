@@ -1,0 +1,156 @@
+#include "load_drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "base/nearest_word.hpp"
+#include "load_motion.hpp"
+#include "observe/facing_walls.hpp"
+
+namespace falling_particles {
+namespace {
+
+constexpr double kLargest = 1e9;   // N, N m, Pa, W, N s/m or N m s
+constexpr double kHeaviest = 1e6;  // kg or kg m^2
+// ODE squares the moment of inertia, a thousand times mass times radius squared. Far smaller masses give NaN.
+constexpr double kLightest = 1e-12;
+constexpr double kRadians = std::numbers::pi / 180;
+
+const std::vector<std::string> kLaws = {"force", "pressure", "torque", "power", "stress"};
+
+std::string find_law(const TomlTable& table) {
+  std::vector<std::string> given;
+  std::ranges::copy_if(kLaws, std::back_inserter(given), [&](const std::string& law) { return table.has(law); });
+  if (given.size() == 1) return given.front();
+  if (given.empty()) table.fail("", table.full_name("force") + " is missing; allowed: one of " + join(kLaws));
+  table.fail(given.back(), "part.drive has both " + given[0] + " and " + given[1] + "; allowed: one of " + join(kLaws));
+}
+
+/// m^2, the projected area of a wall along the axis of its drive. `axis` is in the wall's frame. 0 if the scene must give the area.
+double plan_area(const WallShape& shape, const Vector3& axis) {
+  if (const auto* box = std::get_if<BoxShape>(&shape)) {
+    const Vector3& s = box->size;
+    return Vector3(s.y() * s.z(), s.z() * s.x(), s.x() * s.y()).dot(axis.cwiseAbs());
+  }
+  if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) {
+    const double across = std::hypot(axis.x(), axis.y());
+    return std::numbers::pi * cylinder->radius * cylinder->radius * std::abs(axis.z()) +
+           2 * cylinder->radius * cylinder->length * across;
+  }
+  return 0;
+}
+
+double read_area(const TomlTable& table, const Wall& wall, const Vector3& axis) {
+  const double area = plan_area(wall.shape, wall.start.rotation.conjugate() * axis);
+  if (area > 0 && !table.has("area")) return area;
+  return table.number("area", Interval::positive(1e6, "m^2, on which the pressure acts"));
+}
+
+/// Reads `travel`; `largest`: of the wall's unit, with its name.
+void read_travel(const TomlTable& table, double largest, const char* unit, const char* about, Drive& drive) {
+  if (!table.has("travel")) return;
+  const std::vector<double> travel = table.numbers("travel", 2, Interval::closed(-largest, largest, unit));
+  if (travel[0] > 0 || travel[1] < 0 || travel[0] == travel[1]) {
+    table.fail("travel", table.full_name("travel") + " is [" + shortest(travel[0]) + ", " + shortest(travel[1]) +
+                             "]; allowed: from 0 or less to 0 or more, " + unit + ' ' + about + " part.drive.axis");
+  }
+  drive.travel = {travel[0], travel[1]};
+}
+
+/// The keys of a law, with the keys that all laws have.
+std::vector<std::string> with_times(std::vector<std::string> keys) {
+  for (const char* key : {"axis", "from", "until", "travel"}) keys.emplace_back(key);
+  return keys;
+}
+
+void read_sliding(const TomlTable& table, const std::string& law, const Wall& wall, Drive& drive) {
+  std::vector<std::string> keys = {law, "mass", "damping"};
+  if (law == "pressure") keys.emplace_back("area");
+  if (law == "power") keys.emplace_back("largest_force");
+  table.refuse_unknown_keys(with_times(std::move(keys)));
+  if (law == "force") drive.force = table.number("force", Interval::closed(-kLargest, kLargest, "N, along part.drive.axis"));
+  if (law == "pressure") {
+    const double area = read_area(table, wall, drive.axis);
+    drive.force = area * table.number("pressure", Interval::closed(-kLargest, kLargest, "Pa, along part.drive.axis"));
+  }
+  if (law == "power") {
+    drive.power = table.number("power", Interval::positive(kLargest, "W, along part.drive.axis"));
+    drive.force = table.number("largest_force", Interval::positive(kLargest, "N, at rest"));
+  }
+  drive.mass = table.number("mass", Interval::closed(kLightest, kHeaviest, "kg"));
+  if (table.has("damping")) drive.damping = table.number("damping", Interval::closed(0, kLargest, "N s/m"));
+  read_travel(table, kLargestLength, "m", "along", drive);
+}
+
+void read_turning(const TomlTable& table, const std::string& law, Drive& drive) {
+  // ODE has the angle of a hinge from -180 to 180 degrees. A stop near the ends would be passed in a step.
+  constexpr double kLargestTravel = 170;
+  std::vector<std::string> keys = {law, "point", "moment", "mass", "damping"};
+  if (law == "power") keys.emplace_back("largest_torque");
+  table.refuse_unknown_keys(with_times(std::move(keys)));
+  drive.point = read_vector(table, "point", Interval::closed(-kLargestLength, kLargestLength, "m, on part.drive.axis"));
+  if (law == "torque") {
+    drive.force = table.number("torque", Interval::closed(-kLargest, kLargest, "N m, about part.drive.axis"));
+  } else {
+    drive.power = table.number("power", Interval::positive(kLargest, "W, about part.drive.axis"));
+    drive.force = table.number("largest_torque", Interval::positive(kLargest, "N m, at rest"));
+  }
+  drive.mass = table.number("moment", Interval::closed(kLightest, kHeaviest, "kg m^2, about part.drive.axis"));
+  if (table.has("mass")) drive.hung_mass = table.number("mass", Interval::closed(0, kHeaviest, "kg"));
+  if (table.has("damping")) drive.damping = table.number("damping", Interval::closed(0, kLargest, "N m s"));
+  read_travel(table, kLargestTravel, "degrees", "about", drive);
+  for (double& end : drive.travel) end *= kRadians;
+}
+
+void read_servo(const TomlTable& table, const Wall& wall, Drive& drive) {
+  table.refuse_unknown_keys(with_times({"stress", "gain", "largest_speed", table.has("between") ? "between" : "area"}));
+  Servo servo{};
+  servo.stress = table.number("stress", Interval::positive(kLargest, "Pa, of the grains against part.drive.axis"));
+  servo.gain = table.number("gain", Interval::positive(kLargest, "m/(s Pa)"));
+  servo.largest_speed = table.number("largest_speed", Interval::positive(kLargestSpeed, "m/s"));
+  if (!table.has("between")) servo.area = read_area(table, wall, drive.axis);
+  drive.servo = servo;
+  read_travel(table, kLargestLength, "m", "along", drive);
+}
+
+}  // namespace
+
+std::optional<Drive> read_drive(const TomlTable& part, const Wall& wall) {
+  const auto table = part.find_table(
+      "drive", {"axis", "force", "pressure", "area", "torque", "point", "moment", "power", "largest_force", "largest_torque",
+                "stress", "gain", "largest_speed", "between", "mass", "damping", "from", "until", "travel"});
+  if (!table) return std::nullopt;
+  for (const WallMotion& motion : wall.motions) {
+    if (std::holds_alternative<Conveyor>(motion.kind)) {
+      part.fail("drive", "part.drive besides a motion of kind \"conveyor\"; allowed: with the other kinds");
+    }
+  }
+  Drive drive{};
+  const std::string law = find_law(*table);
+  drive.axis = read_direction(*table, "axis");
+  if (law == "stress") {
+    read_servo(*table, wall, drive);
+  } else if (law == "torque" || (law == "power" && table->has("point"))) {
+    read_turning(*table, law, drive);
+  } else {
+    read_sliding(*table, law, wall, drive);
+  }
+  std::tie(drive.from, drive.until) = read_times(*table);
+  return drive;
+}
+
+void load_servos(const TomlTable& root, Scene& scene) {
+  if (!root.has("part")) return;
+  const std::vector<TomlTable> tables = root.tables("part");
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    Wall& wall = scene.walls[scene.walls.size() - tables.size() + i];
+    if (!wall.drive || !wall.drive->servo || wall.drive->servo->area > 0) continue;
+    wall.drive->servo->between = read_facing_walls(tables[i].table("drive"), "between", 2, scene.walls, wall.drive->axis);
+  }
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,18 @@
+// Reads the [part.drive] of a wall.
+#pragma once
+
+#include <optional>
+
+#include "base/toml_input.hpp"
+#include "model/scene.hpp"
+
+namespace falling_particles {
+
+/// Reads `drive` of a part, if it has one, but the walls between which a servo is. The part's shape, pose and motions must have
+/// been read. Throws InputError.
+std::optional<Drive> read_drive(const TomlTable& part, const Wall& wall);
+
+/// Reads the walls between which servos are. All walls of the scene must have been read. Throws InputError.
+void load_servos(const TomlTable& root, Scene& scene);
+
+}  // namespace falling_particles
