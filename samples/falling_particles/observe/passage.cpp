@@ -175,7 +175,7 @@ MeasurementKind passage_kind() {
                      {"at", "m, of the plane along the axis"},
                      {"lower, upper",
                       "m, corners of a box to which the plane is limited across the axis; without them it has no end"},
-                     {"per", "\"sample\" or \"grain\" that passes; \"sample\" without it"}},
+                     {"per", "sample or grain, for grains that pass; sample without it"}},
       .columns =
           "per sample a line for each kind: time, kind, numbers and masses that have passed along the axis and against it since "
           "`from`, net rates since the last sample; per grain: time, index, kind, scale, sieve size, mass, direction (1 along the "

@@ -161,7 +161,7 @@ MeasurementKind residence_kind() {
       .name = "residence",
       .measures = "the time that grains spend in a box, from when their centres enter it until they leave it",
       .parameters = {{"lower, upper", "m, corners of the box"},
-                     {"per", "\"sample\", or \"visit\" of a grain that has ended; \"sample\" without it"}},
+                     {"per", "sample or visit, for visits that have ended; sample without it"}},
       .columns =
           "per sample a line for each kind: time, kind, grains inside, entered and left since `from`, those that left after a "
           "known time of entry, mean and standard deviation of their residence; per visit: index, kind, scale and sieve size of "

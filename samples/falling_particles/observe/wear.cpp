@@ -148,7 +148,7 @@ MeasurementKind wear_kind() {
           .parameters = {{"coefficient", "1, in (0, 1]: the wear coefficient k of Archard's law; 1e-8 to 1e-2 is usual"},
                          {"hardness", "Pa, in (0, 1e12]: of the softer one of wall and grains"},
                          {"surfaces", "names of walls, as for part_force; without it all"},
-                         {"per", "\"wall\" or \"triangle\" of meshes, for triangles with wear; \"wall\" without it"}},
+                         {"per", "wall or triangle, for triangles of meshes with wear; wall without it"}},
           .columns =
               "time, wall, sum over contacts and steps of normal force times sliding distance, volume; per triangle also its index "
               "in the mesh, centroid at the start, area and mean depth, which are empty for walls that are no mesh",

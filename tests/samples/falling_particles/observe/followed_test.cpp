@@ -255,6 +255,7 @@ TEST_CASE("residence: dice on a belt stay for the length of the region over the 
   const std::string region =
       "[[measurement]]\nkind = \"residence\"\nlower = [0.05, -1, -1]\nupper = [0.13, 1, 1]\ninterval = 0.5\n";
   std::vector<StartGrain> grains;
+  grains.reserve(3);
   for (int i = 0; i < 3; ++i) grains.push_back(moving(kDie, {-0.02 * i, 0, 6e-3 - 1e-6}, {0, 0, 0}));  // the belt takes them up
   const Scene scene = with_grains(open_scene(kBelt + region, 0.5, kGravity, 0.5), grains);
   const MeasuredTable table = run(scene, "residence");
@@ -384,6 +385,7 @@ cells = [100, 1, 1]
 interval = 0.05
 )";
   std::vector<StartGrain> grains;
+  grains.reserve(8);
   for (int i = 0; i < 8; ++i) grains.push_back(moving(i % 2 == 0 ? kPea : kDie, {-0.03 + 0.015 * i, 0, 6e-3}, {0.3, 0, 0}));
   const Scene scene = with_grains(open_scene(kBelt + sections, 0.2), grains);
   for (const char* name : {"wear", "residence", "passage", "mixing"}) {
