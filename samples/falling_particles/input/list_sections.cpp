@@ -52,7 +52,7 @@ std::string list_sections() {
   segments         a whole number from 3 to 10000; of its circumference
   clearance        m, in (0, 1000]; from the tray to the outlet
   tray_width       m, from the diameter around the segments to 2000
-  opens_at         s, above 0, before time.duration
+  opens_at         s, above 0, before time.duration; 0 with [start]: open from the start
   dish             a table, below; without it, there is none
 [container.dish]
   diameter         m, above 0, as wide as its rim leaves room in the tray

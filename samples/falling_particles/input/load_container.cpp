@@ -34,7 +34,14 @@ std::optional<Dish> read_dish(const TomlTable& container, const Hopper& hopper) 
   return dish;
 }
 
-Hopper read_hopper(const TomlTable& table, const Time& time) {
+/// A run from a state may begin with an open outlet. Grains of a lattice need the lid.
+double read_opens_at(const TomlTable& table, const Time& time, bool has_state) {
+  const char* const note =
+      has_state ? "s (before time.duration; 0: open from the start)" : "s (before time.duration; 0 only with [start])";
+  return table.number("opens_at", {0, time.duration, has_state, false, note});
+}
+
+Hopper read_hopper(const TomlTable& table, const Time& time, bool has_state) {
   table.refuse_unknown_keys(
       {"kind", "outlet", "wall_angle", "diameter", "cylinder_height", "segments", "clearance", "tray_width", "opens_at", "dish"});
   Hopper hopper{};
@@ -47,7 +54,7 @@ Hopper read_hopper(const TomlTable& table, const Time& time) {
   const double outer = hopper.diameter / std::cos(std::numbers::pi / hopper.segments);
   hopper.tray_width =
       table.number("tray_width", Interval::closed(outer, 2 * kLargestLength, "m (the hopper hangs between its walls)"));
-  hopper.opens_at = table.number("opens_at", {0, time.duration, false, false, "s (before time.duration)"});
+  hopper.opens_at = read_opens_at(table, time, has_state);
   hopper.dish = read_dish(table, hopper);
   return hopper;
 }
@@ -208,7 +215,7 @@ Container read_container(const TomlTable& root, const Time& time) {
   const TomlTable table = root.table("container");
   const std::string kind =
       table.choice("kind", {"box", "hopper", "terrain", "periodic", "none", "drum", "tray", "shear_cell", "conveyor"});
-  if (kind == "hopper") return read_hopper(table, time);
+  if (kind == "hopper") return read_hopper(table, time, root.has("start"));
   if (kind == "terrain") return read_terrain(table);
   if (kind == "periodic") return read_periodic(table);
   if (kind == "none") return read_open(root, table);

@@ -54,8 +54,10 @@ std::vector<Wall> walls_of(const Box& box) {
 std::vector<Wall> walls_of(const Hopper& hopper) {
   std::vector<Wall> walls = {floor()};
   add_sides(hopper.tray(), walls);
-  walls.push_back(plane("lid", {0, 0, hopper.clearance}, Vector3::UnitZ()));
-  walls.back().role = WallRole::Lid;
+  if (hopper.opens_at > 0) {
+    walls.push_back(plane("lid", {0, 0, hopper.clearance}, Vector3::UnitZ()));
+    walls.back().role = WallRole::Lid;
+  }
   walls.push_back(side("hopper", MeshShape{make_mesh(hopper)}));
   if (hopper.dish) walls.push_back(side("dish", MeshShape{make_mesh(*hopper.dish, hopper.segments)}));
   return walls;

@@ -28,7 +28,7 @@ struct Hopper {
   int segments;
   double clearance;               ///< m, height of the outlet above the floor of the tray
   double tray_width;              ///< m, the tray is square
-  double opens_at;                ///< s
+  double opens_at;                ///< s; 0: open from the start, without a lid
   std::optional<Dish> dish = {};  ///< below the outlet, around the z-axis
 
   double cone_height() const;        ///< m

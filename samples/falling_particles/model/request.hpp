@@ -24,6 +24,7 @@ struct MeasurementRequest {
   MeasurementMaker make;
 
   bool is_due(int step) const { return step % every == 0 && step >= first && step <= last; }
+  bool follows(int step) const { return step > first && step <= last; }  ///< if the kind follows the run
 };
 
 }  // namespace falling_particles

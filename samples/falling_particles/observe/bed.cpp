@@ -62,21 +62,22 @@ class Columns {
   std::vector<std::vector<Entry>> cells_;
 };
 
-/// m, z of the centre of the grains' volume.
-double mean_z(const World& world) {
+/// m, z of the centre of the volume of the grains whose centres are from `lowest` on.
+double mean_z(const World& world, double lowest) {
   double volume = 0;
   double moment = 0;
   for (const Grain& grain : world.present()) {
+    if (grain.position()[2] < lowest) continue;
     volume += grain.volume();
     moment += grain.volume() * dBodyGetPosition(grain.body)[2];
   }
-  return volume > 0 ? moment / volume : 0;  // without grains there is no bed
+  return volume > 0 ? moment / volume : lowest;  // without grains there is no bed
 }
 
-double bed_height(const World& world, const Box&) { return 2 * mean_z(world); }
+double bed_height(const World& world, const Box&) { return 2 * mean_z(world, 0); }
 
 double bed_height(const World& world, const Hopper& hopper) {
-  const double mean = mean_z(world) - hopper.clearance;
+  const double mean = mean_z(world, hopper.clearance) - hopper.clearance;
   // The height of a cone on its tip is 4/3 of the mean height, the height of a cylinder twice the mean height. The bed's height
   // lies between these.
   double low = 4.0 / 3 * mean;

@@ -36,7 +36,12 @@ void Discharge::open(double time) {
   double mass = 0;
   double volume = 0;
   std::size_t grains = 0;
+  has_passed_.resize(world_.grains().size(), false);
   for (const Grain& grain : world_.present()) {
+    // A run that goes on from a state with an open outlet has grains below it.
+    const bool is_below = grain.position()[2] < hopper_.clearance;
+    has_passed_[world_.index_of(grain)] = is_below;
+    if (is_below) continue;
     ++grains;
     mass += grain.mass.mass;
     volume += grain.volume();

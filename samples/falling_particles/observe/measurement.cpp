@@ -36,9 +36,10 @@ std::string list_measurements() {
               ": " + parameter.text + '\n';
     }
     text += "  columns     " + kind.columns + '\n';
-    text += std::string("  cost        ") +
-            (kind.needs_contacts ? "the forces of the sampled steps' joints" : "a pass over the grains") + "\n  source      " +
-            kind.source + '\n';
+    const std::string steps = kind.follows ? "all" : "the sampled";
+    text += "  cost        " +
+            (kind.needs_contacts ? "the forces of " + steps + " steps' joints" : "a pass over the grains in " + steps + " steps") +
+            "\n  source      " + kind.source + '\n';
   }
   return text;
 }

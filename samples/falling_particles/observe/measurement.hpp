@@ -28,7 +28,8 @@ struct Sample {
   std::size_t lines = 0;                     ///< number of lines that the table has already
 };
 
-/// Writes lines about a run at one time. It has no state from sample to sample: a resumed run needs only MeasurementState.
+/// Writes lines about a run at one time. Most measurements know only this time. One of a kind that follows the run also has a
+/// memory, which a resumed run restores.
 class Measurement {
  public:
   Measurement() = default;
@@ -39,6 +40,17 @@ class Measurement {
   /// The names of the columns, units included, separated by commas.
   virtual std::string columns() const = 0;
   virtual void measure(const Sample& sample, TableText& table) const = 0;
+
+  /// Called once, after the step at which the measurement begins, before its first sample; after the start for the first step.
+  virtual void begin(const Sample& /*sample*/) {}
+  /// Called after each later step, before the sample of the step. `contacts` of the sample are empty; the stepper has the forces if
+  /// the kind needs them.
+  virtual void follow(const Sample& /*sample*/) {}
+  /// Called after measure(), with the same sample.
+  virtual void forget(const Sample& /*written*/) {}
+  /// The memory as bytes, and back.
+  virtual std::string save() const { return {}; }
+  virtual void restore(const std::string& /*memory*/) {}
 };
 
 struct MeasurementParameter {
@@ -68,6 +80,7 @@ struct MeasurementKind {
   std::string columns;                                ///< in words; their names if the kind may be on by default
   std::string source = {};                            ///< reference of the definition
   bool needs_contacts = false;                        ///< whether it needs the contacts of the sampled steps, with their forces
+  bool follows = false;                               ///< whether it needs every step from `from` to `until` (Measurement::follow)
   /// Checks the section's parameters against the scene. The scene's container, grains and time must have been read. Throws
   /// InputError.
   std::function<MeasurementMaker(const TomlTable& table, const Scene& scene)> read;

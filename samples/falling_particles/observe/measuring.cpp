@@ -49,12 +49,17 @@ Measuring::Measuring(const Scene& scene, const Simulation& simulation, const Out
     entry.file = std::make_unique<TableFile>(folder.file(entry.path()), entry.measurement->columns(), table.file);
     entry.state = table.state;
     entry.watch = table.watch;
+    if (!saved.tables.empty()) entry.measurement->restore(table.memory);
   }
 }
 
 void Measuring::go_on_in(const Simulation& simulation) {
   simulation_ = &simulation;
-  for (Entry& entry : entries_) entry.measurement = entry.maker()(simulation.world);
+  for (Entry& entry : entries_) {
+    const std::string memory = entry.measurement->save();
+    entry.measurement = entry.maker()(simulation.world);
+    entry.measurement->restore(memory);
+  }
 }
 
 MeasuringState Measuring::save() {
@@ -62,24 +67,27 @@ MeasuringState Measuring::save() {
   saved.tables.reserve(entries_.size());
   for (Entry& entry : entries_) {
     entry.file->sync();
-    saved.tables.push_back({entry.file->state(), entry.state, entry.watch});
+    saved.tables.push_back({entry.file->state(), entry.state, entry.watch, entry.measurement->save()});
   }
   if (entries_.back().request != nullptr) sync_folder(folder_);
   return saved;
 }
 
 bool Measuring::wants_forces(int step, bool is_frame) const {
-  return std::ranges::any_of(entries_,
-                             [=](const Entry& entry) { return entry.kind->needs_contacts && entry.is_due(step, is_frame); });
+  return std::ranges::any_of(entries_, [=](const Entry& entry) {
+    return entry.kind->needs_contacts && (entry.is_due(step, is_frame) || entry.follows(step));
+  });
 }
 
 void Measuring::after_step(int step, double time, bool is_frame) {
   std::vector<PairContact> contacts;
-  if (step > 0 && wants_forces(step, is_frame)) {
+  const auto needs_contacts = [=](const Entry& entry) { return entry.kind->needs_contacts && entry.is_due(step, is_frame); };
+  if (step > 0 && std::ranges::any_of(entries_, needs_contacts)) {
     const Stopwatch::Lap lap(gathering_);
     contacts = gather_contacts(simulation_->stepper.measured_contacts(), simulation_->world, step_);
   }
   for (Entry& entry : entries_) {
+    if (entry.kind->follows) follow(entry, step, time);
     const bool is_start_without_contacts = step == 0 && entry.kind->needs_contacts;
     if (!precedes_watches(*entry.kind) || is_start_without_contacts) continue;
     if (entry.is_due(step, is_frame)) sample(entry, time, contacts);
@@ -92,10 +100,19 @@ void Measuring::after_watches(int step, double time, bool is_frame) {
   }
 }
 
+void Measuring::follow(Entry& entry, int step, double time) {
+  const Stopwatch::Lap lap(entry.watch);
+  const Sample sample{time, simulation_->world, {}, simulation_, entry.state.lines};
+  if (step == entry.request->first) entry.measurement->begin(sample);
+  if (entry.follows(step)) entry.measurement->follow(sample);
+}
+
 void Measuring::sample(Entry& entry, double time, const std::vector<PairContact>& contacts) {
   const Stopwatch::Lap lap(entry.watch);
   TableText table;
-  entry.measurement->measure({time, simulation_->world, contacts, simulation_, entry.state.lines}, table);
+  const Sample sample{time, simulation_->world, contacts, simulation_, entry.state.lines};
+  entry.measurement->measure(sample, table);
+  entry.measurement->forget(sample);
   entry.file->write(table.text());
   ++entry.state.samples;
   entry.state.lines += table.lines();

@@ -18,7 +18,7 @@ namespace falling_particles {
 /// The folder of the requested tables, within the folder of the run. Tables that are on by default are beside it.
 inline constexpr const char* kMeasurementFolder = "measurements";
 
-/// The state of a measurement besides the bytes of its table. A resumed run restores it.
+/// The state of a measurement besides the bytes of its table and its memory. A resumed run restores it.
 struct MeasurementState {
   unsigned long long samples = 0;
   unsigned long long lines = 0;  ///< of the table, without its head
@@ -35,10 +35,11 @@ struct MeasuringState {
     FileState file;
     MeasurementState state;
     Stopwatch watch;
+    std::string memory = {};  ///< Measurement::save()
 
     template <typename Archive>
     void serialize(Archive& archive) {
-      archive(file, state, watch);
+      archive(file, state, watch, memory);
     }
   };
   std::vector<OfTable> tables;  ///< of the kinds that are on by default, then in the order of the scene; empty at the start
@@ -107,9 +108,11 @@ class Measuring {
 
     bool is_of_end() const { return request == nullptr && kind->on_by_default->when == OnByDefault::When::End; }
     bool is_due(int step, bool is_frame) const { return request == nullptr ? is_frame && !is_of_end() : request->is_due(step); }
+    bool follows(int step) const { return kind->follows && request->follows(step); }
     const MeasurementMaker& maker() const { return request == nullptr ? kind->on_by_default->make : request->make; }
     std::string path() const;  // within the folder of the run
   };
+  void follow(Entry& entry, int step, double time);
   void sample(Entry& entry, double time, const std::vector<PairContact>& contacts);
 
   const Simulation* simulation_;

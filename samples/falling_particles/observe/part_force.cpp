@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "base/nearest_word.hpp"
 #include "measurement.hpp"
 #include "surfaces.hpp"
 
@@ -35,16 +34,6 @@ class PartForce final : public Measurement {
   std::vector<dGeomID> geoms_;
   Vector3 about_;
 };
-
-std::vector<std::string> read_surfaces(const TomlTable& table, const Scene& scene) {
-  const std::vector<std::string> names = surface_names(scene);
-  if (names.empty()) {
-    table.fail("surfaces", std::string("part_force in a ") + kind_of(scene.container) + "; allowed: where there is a wall");
-  }
-  std::vector<std::string> chosen = table.has("surfaces") ? table.choices("surfaces", names) : names;
-  if (chosen.empty()) table.fail("surfaces", table.full_name("surfaces") + " is empty; allowed: words of " + join(names));
-  return chosen;
-}
 
 }  // namespace
 

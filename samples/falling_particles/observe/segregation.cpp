@@ -2,65 +2,34 @@
 
 #include <vector>
 
+#include "lacey.hpp"
 #include "measurement.hpp"
 #include "region.hpp"
 
 namespace falling_particles {
 namespace {
 
-struct CellCount {
-  double first = 0;
-  double both = 0;
-};
-
 class Segregation final : public Measurement {
  public:
   Segregation(const SamplingRegion& region, const CellCounts& cells, std::vector<std::string> grains)
       : region_(region), cells_(cells), grains_(std::move(grains)) {}
 
-  std::string columns() const override {
-    return "time_s,grains,occupied_cells,fraction,variance,variance_segregated,variance_random,lacey";
-  }
+  std::string columns() const override { return std::string("time_s,") + LaceyGrid::kColumns; }
 
   void measure(const Sample& sample, TableText& table) const override {
     const Bounds bounds = region_.bounds(sample.world);
-    std::vector<CellCount> cells(number_of(cells_));
-    CellCount all;
+    LaceyGrid grid(number_of(cells_));
     for (const Grain& grain : sample.world.present()) {
       const bool is_first = grain.kind->name == grains_[0];
       if (!is_first && grain.kind->name != grains_[1]) continue;
-      const auto cell = cell_of(place_of(grain, sample.world), bounds, cells_);
-      if (!cell) continue;
-      for (CellCount* count : {&cells[*cell], &all}) {
-        count->both += 1;
-        if (is_first) count->first += 1;
-      }
+      if (const auto cell = cell_of(place_of(grain, sample.world), bounds, cells_)) grid.add(*cell, is_first);
     }
-    write(sample.time, cells, all, table);
+    table.add(sample.time);
+    grid.write(table);
+    table.end_line();
   }
 
  private:
-  static void write(double time, const std::vector<CellCount>& cells, const CellCount& all, TableText& table) {
-    const double fraction = all.both > 0 ? all.first / all.both : 0;
-    double occupied = 0;
-    double variance = 0;
-    for (const CellCount& cell : cells) {
-      if (cell.both == 0) continue;
-      ++occupied;
-      const double excess = cell.first / cell.both - fraction;
-      variance += cell.both * excess * excess / all.both;
-    }
-    const double segregated = fraction * (1 - fraction);
-    table.add(time).add(static_cast<std::size_t>(all.both)).add(static_cast<std::size_t>(occupied));
-    if (segregated == 0 || occupied >= all.both) {  // only one kind, or as many cells as grains, for which the index is undefined
-      constexpr int kOtherColumns = 5;
-      table.blank(kOtherColumns).end_line();
-      return;
-    }
-    const double random = segregated * (occupied - 1) / (all.both - 1);
-    table.add(fraction).add(variance).add(segregated).add(random).add((segregated - variance) / (segregated - random)).end_line();
-  }
-
   SamplingRegion region_;
   CellCounts cells_;
   std::vector<std::string> grains_;

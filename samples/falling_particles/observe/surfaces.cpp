@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/nearest_word.hpp"
+
 namespace falling_particles {
 
 std::vector<std::string> surface_names(const Scene& scene) {
@@ -9,6 +11,16 @@ std::vector<std::string> surface_names(const Scene& scene) {
   names.reserve(scene.walls.size());
   for (const Wall& wall : scene.walls) names.push_back(wall.name);
   return names;
+}
+
+std::vector<std::string> read_surfaces(const TomlTable& table, const Scene& scene) {
+  const std::vector<std::string> names = surface_names(scene);
+  if (names.empty()) {
+    table.fail("surfaces", table.text("kind") + " in a " + kind_of(scene.container) + "; allowed: where there is a wall");
+  }
+  std::vector<std::string> chosen = table.has("surfaces") ? table.choices("surfaces", names) : names;
+  if (chosen.empty()) table.fail("surfaces", table.full_name("surfaces") + " is empty; allowed: words of " + join(names));
+  return chosen;
 }
 
 std::vector<NamedSurface> surfaces_of(const World& world) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/toml_input.hpp"
 #include "model/scene.hpp"
 #include "world/world.hpp"
 
@@ -20,6 +21,9 @@ struct NamedSurface {
 /// The names of all walls of a scene ("floor", "x_low", "x_high", "y_low", "y_high" of a box or a hopper's tray, "lid", "hopper",
 /// "dish", "ground"; names of parts).
 std::vector<std::string> surface_names(const Scene& scene);
+
+/// The names under `surfaces` of a measurement, or all names. Throws InputError.
+std::vector<std::string> read_surfaces(const TomlTable& table, const Scene& scene);
 
 /// The walls of a world, without a lid that it has removed.
 std::vector<NamedSurface> surfaces_of(const World& world);

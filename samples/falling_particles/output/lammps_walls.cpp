@@ -49,8 +49,10 @@ class WallsWriter {
     const double half = hopper.tray_width / 2;
     walls_.bounds = {{{-half, half}, {-half, half}, {0, 0}}};
     add("tray") << "box " << -half << ' ' << -half << " 0 " << half << ' ' << half << " 1e3 " << law_ << '\n';
-    add("lid") << "plane 0 0 " << hopper.clearance << " 0 0 1 " << law_ << '\n';
-    walls_.change = LammpsChange{hopper.opens_at, "unfix lid\n"};
+    if (hopper.opens_at > 0) {
+      add("lid") << "plane 0 0 " << hopper.clearance << " 0 0 1 " << law_ << '\n';
+      walls_.change = LammpsChange{hopper.opens_at, "unfix lid\n"};
+    }
     add_mesh("hopper", make_mesh(hopper));
     if (hopper.dish) add_mesh("dish", make_mesh(*hopper.dish, hopper.segments));
   }

@@ -129,6 +129,76 @@ void add_solver(const Scene& scene, std::vector<std::string>& doubts) {
   }
 }
 
+/// The heaviest and the lightest grain of a scene.
+struct Extremes {
+  const GrainCount* heavy = nullptr;
+  const GrainCount* light = nullptr;
+  double most = 0;          // kg
+  double least = INFINITY;  // kg
+};
+
+Extremes extremes_of(const Scene& scene) {
+  Extremes found;
+  for (const GrainCount& entry : scene.kinds) {
+    if (entry.count == 0 && !entry.is_fed) continue;
+    const double mass = mass_of(entry.kind);
+    const double most = std::pow(entry.largest_scale(), 3) * mass;
+    const double least = std::pow(entry.smallest_scale(), 3) * mass;
+    if (most > found.most) {
+      found.heavy = &entry;
+      found.most = most;
+    }
+    if (least < found.least) {
+      found.light = &entry;
+      found.least = least;
+    }
+  }
+  return found;
+}
+
+/// m/s, of the correction of overlaps; infinite without a limit.
+double largest_correcting_velocity(const Scene& scene) {
+  double velocity = INFINITY;
+  for (const supernormal::effects::Effect& effect : scene.effects) {
+    const auto* const limit = std::get_if<supernormal::effects::MaxCorrectingVelocity>(&effect);
+    if (limit != nullptr) velocity = limit->velocity;
+  }
+  return velocity;
+}
+
+// Adds a doubt if grains differ so much in mass that quickstep cannot hold the heaviest one on the lightest ones. A light grain of
+// mass m bears the part q m of the heavy one. An iteration of projected Gauss-Seidel on its two contacts leaves q / (1 + q) of the
+// error, the squared coupling of the two rows over the product of their diagonals. After n iterations from 0 the heavy grain still
+// falls with the fraction f = (q / (1 + q))^n of its weight. It rests where the correction of its overlap makes up for this:
+// (1 - f) erp depth / step = f g step. grains.md, "Large and small grains", has the measurements.
+void add_mass_ratio(const Scene& scene, std::vector<std::string>& doubts) {
+  constexpr double kDeep = 0.01;  // of the light grain's smallest half-axis: about 1 % of the bed's volume
+  constexpr double kBearers = 4;  // light grains that bear a heavy one; a bed below them spreads the load
+  const auto* const gravity = scene.gravity();
+  const double acceleration = gravity == nullptr ? 0 : gravity->acceleration.norm();
+  const Extremes grains = extremes_of(scene);
+  const auto& [iterations, erp, cfm] = scene.solver;
+  if (!(acceleration > 0) || grains.heavy == nullptr || has_soft_contacts(scene) || scene.compression || erp == 0) return;
+  const double step = scene.time.step;
+  const double size = grains.light->smallest_scale() * grains.light->kind.smallest_half_axis();
+  const double ratio = grains.most / grains.least;
+  const double unit = acceleration * step * step / erp;                             // m; depth for f / (1 - f) = 1
+  const double fastest = largest_correcting_velocity(scene) / acceleration / step;  // f / (1 - f) that no depth makes up for
+  const double rest = 1 / std::expm1(iterations * std::log1p(kBearers / ratio));    // f / (1 - f)
+  const double allowed = std::min(kDeep * size / unit, fastest);
+  if (!(rest > allowed)) return;
+  const std::string way =
+      rest > fastest ? "until more than 4 bear it" : "by about " + rounded(unit * rest / size) + " of their smallest half-axis";
+  doubts.push_back(
+      "the heaviest grain (\"" + grains.heavy->kind.name + "\") has " + rounded(ratio) + " times the mass of the lightest (\"" +
+      grains.light->kind.name + "\"): with solver.iterations = " + std::to_string(iterations) + " it sinks into such grains " +
+      way + "; time.step up to " + rounded(std::min(std::sqrt(kDeep * size * erp / acceleration / rest), step * fastest / rest)) +
+      " s, solver.iterations from " +
+      std::to_string(static_cast<long>(std::ceil(std::log1p(1 / allowed) / std::log1p(kBearers / ratio)))) +
+      " on, or densities with masses up to 1 : " + rounded(kBearers / std::expm1(std::log1p(1 / allowed) / iterations)) +
+      " would do (grains.md)");
+}
+
 void add_layer(const Scene& scene, std::vector<std::string>& doubts) {
   if (!scene.looks_ahead()) return;
   for (const supernormal::effects::Effect& effect : scene.effects) {
@@ -263,6 +333,7 @@ std::vector<std::string> doubts_about(const Scene& scene) {
   add_fall(scene, doubts);
   add_speed(scene, doubts);
   add_solver(scene, doubts);
+  add_mass_ratio(scene, doubts);
   add_layer(scene, doubts);
   add_walls(scene, doubts);
   add_feeders(scene, doubts);

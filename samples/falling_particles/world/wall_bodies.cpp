@@ -233,6 +233,18 @@ Vector3 WallBodies::chord_excess(dGeomID geom, const Vector3& centre, const Vect
   return entry->excess->at(centre - entry->lever_base, velocity);
 }
 
+// The carrier keeps the velocity of its surface until the next step, while the poses are already those after this one.
+Vector3 WallBodies::surface_velocity(dGeomID geom, const Vector3& point, const Vector3& centre, const Vector3& velocity) const {
+  const Entry* entry = find(geom);
+  if (entry == nullptr || entry->carrier == nullptr || !entry->is_moving) return Vector3::Zero();
+  const Vector3 before = entry->pose.position - step_ * entry->velocity.linear;
+  const Vector3 spin = to_vector(dBodyGetAngularVel(entry->carrier));
+  Vector3 surface = to_vector(dBodyGetLinearVel(entry->carrier)) + spin.cross(point - before);
+  if (entry->driven != nullptr) surface += entry->speed * entry->axis();
+  if (entry->excess) surface += entry->excess->at(centre - before, velocity);
+  return surface;
+}
+
 WallState WallBodies::state(std::size_t index) const { return {entries_[index].wall_pose(), entries_[index].wall_velocity()}; }
 
 const DrivenState* WallBodies::driven(std::size_t index) const {

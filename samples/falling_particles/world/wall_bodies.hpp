@@ -80,6 +80,10 @@ class WallBodies {
   /// body (ChordExcess). Zero if the geom belongs to no wall.
   Vector3 chord_excess(dGeomID geom, const Vector3& centre, const Vector3& velocity) const;
 
+  /// m/s, of the wall's surface at a contact of the last step, the motion of a conveyor included. `point` (m) is the contact;
+  /// `centre` (m) and `velocity` (m/s) are of the grain, before and after the step. Zero if the geom belongs to no wall that moves.
+  Vector3 surface_velocity(dGeomID geom, const Vector3& point, const Vector3& centre, const Vector3& velocity) const;
+
   const Wall& wall(std::size_t index) const { return *entries_[index].wall; }
   std::size_t count() const { return entries_.size(); }
   WallState state(std::size_t index) const;

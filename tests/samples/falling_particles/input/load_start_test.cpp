@@ -8,6 +8,7 @@
 #include "base/input_error.hpp"
 #include "complaint.hpp"
 #include "model/grain_shape.hpp"
+#include "run/doubts.hpp"
 #include "scene_text.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -183,4 +184,14 @@ TEST_CASE("start: a scene with a state needs no counts and no lattice") {
   check_says(complaint(replaced(text, "file = \"none.csv\"", "folder = 2")), {"unknown key \"folder\""});
   const Loaded narrow(kOneGrain, {"container.width=[0.01, 0.06]"});  // on a lattice, the die would not fit in any orientation
   CHECK(narrow.text.empty());
+}
+
+TEST_CASE("start: the outlet of a hopper may be open from the start") {
+  const TemporaryFolder folder;
+  folder.write("grains.toml", kCatalogueText);
+  folder.write("state", "grain,x_m,y_m,z_m,qw,qx,qy,qz\npea,0,0,0.03,1,0,0,0\npea,0,0,0.07,1,0,0,0\n");
+  const std::string open = replaced(kHopperText, "opens_at = 0.05", "opens_at = 0");
+  const Scene scene = load_scene(folder.write("scene.toml", scene_in(open) + "[start]\nfile = \"state\"\n"));
+  refuse_overlapping_start(scene);  // it would find the grain below in a lid
+  CHECK(scene.start->grains.size() == 2);
 }

@@ -63,6 +63,7 @@ TEST_CASE("every mistake in a container ends with one line: file, line, what is 
       {"clearance = 0.05", "clearance = \"low\"", {"scene.toml:10: container.clearance is the string \"low\";"}},
       {"tray_width = 0.15", "tray_width = 0.1", {"scene.toml:11: container.tray_width is 0.1;", "[0.103"}},
       {"opens_at = 0.05", "opens_at = 0.1", {"scene.toml:12: container.opens_at is 0.1;", "(0, 0.1) s"}},
+      {"opens_at = 0.05", "opens_at = 0", {"scene.toml:12: container.opens_at is 0;", "(0, 0.1) s", "0 only with [start]"}},
       {"opens_at = 0.05", "", {"scene.toml:3: container.opens_at is missing;", "(0, 0.1) s"}},
   };
   for (const Mistake& mistake : in_hoppers) {

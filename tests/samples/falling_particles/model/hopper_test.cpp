@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -206,6 +207,28 @@ TEST_CASE("a grain that passes the outlet counts once; a grain beside the outlet
   // 20 % of the charge is reached with the first grain at 0.4 s, 60 % with the third at 0.8 s.
   REQUIRE(discharge.mass_flow());
   CHECK(*discharge.mass_flow() == supernormal::test::relative(2 * grain_mass / 0.4));
+}
+
+TEST_CASE(
+    "an outlet that is open from the start has no lid, and grains below it belong neither to the charge nor to the discharge") {
+  Hopper hopper = kHopper;
+  hopper.opens_at = 0;
+  const Scene scene = scene_of(hopper, {{lentil(), 3}});
+  CHECK(std::ranges::none_of(scene.walls, [](const Wall& wall) { return wall.role == WallRole::Lid; }));
+  World world(scene, {{0, {0, 0, 0.07}, {1, 0, 0, 0}}, {0, {0, 0, 0.03}, {1, 0, 0, 0}}, {0, {0.04, 0, 0.01}, {1, 0, 0, 0}}});
+  Random random(1);
+  Discharge discharge(world, hopper, random);
+  const double grain_mass = world.grains()[0].mass.mass;
+  discharge.after_step(5e-4);
+  REQUIRE(discharge.charge());
+  CHECK(discharge.charge()->mass == supernormal::test::relative(grain_mass).epsilon(1e-12));
+  CHECK(discharge.charge()->bed.height < 2.1 * (0.07 - hopper.clearance));
+  dBodySetPosition(world.grains()[2].body, 0, 0, 0.01);  // rolls below the outlet
+  discharge.after_step(1e-3);
+  CHECK(discharge.count() == 0);
+  dBodySetPosition(world.grains()[0].body, 0, 0, 0.05);
+  discharge.after_step(1.5e-3);
+  CHECK(discharge.count() == 1);
 }
 
 TEST_CASE("the bed in a hopper: one lying column of known volume") {

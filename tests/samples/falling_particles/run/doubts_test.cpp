@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -221,4 +222,37 @@ TEST_CASE("doubts: grains that sink by their own weight") {
   check_one_doubt(scene_of(replaced(replaced(kSceneText, "cfm = 1e-10", "cfm = 1"), "erp = 0.2", "erp = 0.01")),
                   {"grain \"die\" sinks by", "solver.cfm up to"});
   CHECK(doubts_about(scene_of(replaced(kSceneText, "cfm = 1e-10", "cfm = 0.001"))).empty());
+}
+
+TEST_CASE("doubts: a heavy grain on light ones is compared with the iterations, and each remedy would do") {
+  const auto scene_with = [](double ratio, int iterations, double step) {
+    Scene scene = scene_of(std::string(kSceneText));
+    scene.kinds = {scene.kinds[0], scene.kinds[0]};
+    scene.kinds[1].kind.name = "boulder";
+    scene.kinds[1].kind.density *= ratio;
+    scene.solver.iterations = iterations;
+    scene.time.step = step;
+    return scene;
+  };
+  CHECK(doubts_about(scene_with(125, 40, 5e-4)).empty());
+  // f / (1 - f) with f = (2000 / 2001)^40 is 49.5: the correction of overlaps would need 0.24 m/s, and 0.05 m/s are allowed.
+  check_one_doubt(scene_with(8000, 40, 5e-4),
+                  {"\"boulder\") has 8e+03 times the mass of the lightest (\"pea\")", "solver.iterations = 40",
+                   "it sinks into such grains until more than 4 bear it", "time.step up to", "grains.md"});
+  // f / (1 - f) = 5.776 with f = (250 / 251)^40: 9.81 m/s^2 (0.5 ms)^2 / 0.2 of it are 71 um.
+  check_one_doubt(scene_with(1000, 40, 5e-4),
+                  {"has 1e+03 times", "it sinks into such grains by about 0.0236 of their smallest half-axis"});
+  const double step = std::sqrt(0.01 * 3e-3 * 0.2 / 9.81 / 5.776);
+  CHECK(doubts_about(scene_with(1000, 40, 0.99 * step)).empty());
+  CHECK(doubts_about(scene_with(1000, 40, 1.01 * step)).size() == 1);
+  const double allowed = 0.01 * 3e-3 * 0.2 / 9.81 / (5e-4 * 5e-4);
+  const double iterations = std::log1p(1 / allowed) / std::log1p(1 / 250.0);
+  CHECK(doubts_about(scene_with(1000, static_cast<int>(iterations) + 1, 5e-4)).empty());
+  CHECK(doubts_about(scene_with(1000, static_cast<int>(iterations) - 1, 5e-4)).size() == 1);
+  const double ratio = 4 / std::expm1(std::log1p(1 / allowed) / 40);
+  CHECK(doubts_about(scene_with(0.99 * ratio, 40, 5e-4)).empty());
+  CHECK(doubts_about(scene_with(1.01 * ratio, 40, 5e-4)).size() == 1);
+  Scene weightless = scene_with(8000, 40, 5e-4);
+  weightless.effects.clear();
+  CHECK(doubts_about(weightless).empty());
 }

@@ -1,0 +1,168 @@
+// The measurement wear: the volume that sliding grains wear off walls.
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/archive.hpp"
+#include "measurement.hpp"
+#include "model/two_sided_mesh.hpp"
+#include "simulation.hpp"
+#include "surfaces.hpp"
+#include "world/to_vector.hpp"
+
+namespace falling_particles {
+namespace {
+
+/// N m, the normal force times the sliding distance in the step of a contact of a grain and the wall with `geom`.
+double sliding_work(const MeasuredContact& contact, dGeomID grain, dGeomID wall, const World& world) {
+  const double step = world.scene().time.step;
+  const Point force = contact.force();
+  const Vector3 normal = to_vector(contact.geom.normal);
+  const double load = normal.dot(Vector3(force[0], force[1], force[2]));
+  if (!(load > 0)) return 0;
+  dBodyID body = dGeomGetBody(grain);
+  const Vector3 velocity = to_vector(dBodyGetLinearVel(body));
+  const Vector3 centre = to_vector(dBodyGetPosition(body)) - step * velocity;
+  const Vector3 point = to_vector(contact.geom.pos);
+  const Vector3 slip = velocity + to_vector(dBodyGetAngularVel(body)).cross(point - centre) -
+                       world.walls().surface_velocity(wall, point, centre, velocity);
+  return step * load * (slip - normal.dot(slip) * normal).norm();
+}
+
+using Triangles = std::vector<std::array<unsigned int, 3>>;
+
+/// The triangles of a mesh as contacts number them; empty for other shapes. A two-sided mesh has each distinct triangle once, and
+/// contacts with its other side have higher numbers.
+Triangles triangles_of(const WallShape& shape) {
+  const auto* const mesh = std::get_if<MeshShape>(&shape);
+  if (mesh == nullptr) return {};
+  return mesh->two_sided ? sheets_of(*mesh).triangles : mesh->triangles;
+}
+
+class Wear final : public Measurement {
+ public:
+  enum class Per { Wall, Triangle };
+
+  /// `worn`: m^3/(N m), the volume for each unit of work.
+  Wear(const World& world, const std::vector<std::string>& names, double worn, Per per) : worn_(worn), per_(per) {
+    for (const Wall& wall : world.scene().walls) {
+      const bool is_chosen = std::ranges::find(names, wall.name) != names.end();
+      const Triangles& triangles = triangles_.emplace_back(is_chosen ? triangles_of(wall.shape) : Triangles());
+      work_.emplace_back(is_chosen ? std::max<std::size_t>(triangles.size(), 1) : 0, 0.0);
+    }
+  }
+
+  std::string columns() const override {
+    return per_ == Per::Wall ? "time_s,wall,force_times_distance_Nm,worn_volume_m3"
+                             : "time_s,wall,triangle,x_m,y_m,z_m,area_m2,force_times_distance_Nm,worn_volume_m3,worn_depth_m";
+  }
+
+  void follow(const Sample& sample) override {
+    const World& world = sample.world;
+    for (const MeasuredContact& contact : sample.simulation->stepper.measured_contacts()) {
+      const bool is_wall_first = grain_of(contact.geom.g1) == nullptr;
+      const auto [wall_geom, grain_geom] =
+          is_wall_first ? std::pair(contact.geom.g1, contact.geom.g2) : std::pair(contact.geom.g2, contact.geom.g1);
+      const Wall* const wall = world.walls().wall_of(wall_geom);
+      if (wall == nullptr) continue;
+      std::vector<double>& work = work_[static_cast<std::size_t>(wall - world.scene().walls.data())];
+      if (work.empty()) continue;
+      const int side = is_wall_first ? contact.geom.side1 : contact.geom.side2;  // -1 for walls without triangles
+      const std::size_t triangle = side < 0 ? 0 : static_cast<std::size_t>(side) % work.size();
+      work[triangle] += sliding_work(contact, grain_geom, wall_geom, world);
+    }
+  }
+
+  void measure(const Sample& sample, TableText& table) const override {
+    per_ == Per::Wall ? write_walls(sample, table) : write_triangles(sample, table);
+  }
+
+  std::string save() const override {
+    Writer writer;
+    writer(work_);
+    return writer.bytes();
+  }
+  void restore(const std::string& memory) override { Reader{memory}(work_); }
+
+ private:
+  /// One line for each name. Several walls may share one.
+  void write_walls(const Sample& sample, TableText& table) const {
+    const std::vector<Wall>& walls = sample.world.scene().walls;
+    std::vector<std::string> names;
+    std::map<std::string, double> works;
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+      if (work_[i].empty()) continue;
+      if (!works.contains(walls[i].name)) names.push_back(walls[i].name);
+      for (const double work : work_[i]) works[walls[i].name] += work;
+    }
+    for (const std::string& name : names) table.add(sample.time).add(name).add(works[name]).add(worn_ * works[name]).end_line();
+  }
+
+  /// One line for each triangle with wear, and for each other wall with wear.
+  void write_triangles(const Sample& sample, TableText& table) const {
+    const std::vector<Wall>& walls = sample.world.scene().walls;
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+      for (std::size_t k = 0; k < work_[i].size(); ++k) {
+        if (work_[i][k] > 0) write_triangle(sample, i, k, table);
+      }
+    }
+  }
+
+  void write_triangle(const Sample& sample, std::size_t index, std::size_t triangle, TableText& table) const {
+    const Wall& wall = sample.world.scene().walls[index];
+    const double work = work_[index][triangle];
+    table.add(sample.time).add(wall.name);
+    if (triangles_[index].empty()) {
+      constexpr int kOfTriangle = 5;
+      table.blank(kOfTriangle).add(work).add(worn_ * work).blank().end_line();
+      return;
+    }
+    std::array<Vector3, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& [x, y, z] = std::get<MeshShape>(wall.shape).vertices[triangles_[index][triangle][k]];
+      corners[k] = wall.start(Vector3(x, y, z));
+    }
+    const auto& [a, b, c] = corners;
+    const double area = (b - a).cross(c - a).norm() / 2;
+    table.add(triangle).add(Vector3((a + b + c) / 3)).add(area).add(work).add(worn_ * work).add(worn_ * work / area).end_line();
+  }
+
+  double worn_;
+  Per per_;
+  std::vector<Triangles> triangles_;       // of each wall of the scene; empty for walls that are not chosen, or no mesh
+  std::vector<std::vector<double>> work_;  // N m, of each triangle, or of the whole wall; empty for walls that are not chosen
+};
+
+}  // namespace
+
+MeasurementKind wear_kind() {
+  constexpr double kHardest = 1e12;  // Pa; diamond has 1e11
+  return {.name = "wear",
+          .measures = "the volume that sliding grains have worn off walls since `from`, by Archard's law",
+          .parameters = {{"coefficient", "1, in (0, 1]: the wear coefficient k of Archard's law; 1e-8 to 1e-2 is usual"},
+                         {"hardness", "Pa, in (0, 1e12]: of the softer one of wall and grains"},
+                         {"surfaces", "names of walls, as for part_force; without it all"},
+                         {"per", "wall or triangle, for triangles of meshes with wear; wall without it"}},
+          .columns =
+              "time, wall, sum over contacts and steps of normal force times sliding distance, volume; per triangle also its index "
+              "in the mesh, centroid at the start, area and mean depth, which are empty for walls that are no mesh",
+          .source = "V = k / H sum F s: Archard, J. Appl. Phys. 24 (1953) 981",
+          .needs_contacts = true,
+          .follows = true,
+          .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+            const double coefficient = table.number("coefficient", Interval::positive(1, ""));
+            const double hardness = table.number("hardness", Interval::positive(kHardest, "Pa"));
+            const std::vector<std::string> names = read_surfaces(table, scene);
+            const bool is_per_triangle = table.has("per") && table.choice("per", {"wall", "triangle"}) == "triangle";
+            const auto per = is_per_triangle ? Wear::Per::Triangle : Wear::Per::Wall;
+            return [=](const World& world) { return std::make_unique<Wear>(world, names, coefficient / hardness, per); };
+          }};
+}
+
+}  // namespace falling_particles
