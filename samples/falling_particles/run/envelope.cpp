@@ -13,7 +13,7 @@ namespace falling_particles {
 namespace {
 
 constexpr std::string_view kMagic = "SNCHKPT\n";
-constexpr std::uint32_t kFormat = 5;  // increase it with every change of the saved data
+constexpr std::uint32_t kFormat = 6;  // increase it with every change of the saved data
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
   throw InputError("checkpoint \"" + path.string() + "\" " + reason + kStartAnew);

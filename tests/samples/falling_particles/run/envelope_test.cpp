@@ -75,9 +75,9 @@ TEST_CASE("checkpoint: a byte that has changed is noticed, wherever it is") {
     CHECK(complaint_about(changed) != "");
   }
   std::string of_later_format = whole;
-  of_later_format[8] = 6;
+  of_later_format[8] = 7;
   CHECK(complaint_about(of_later_format) ==
-        std::string("checkpoint \"out/box/checkpoint\" has format 6; allowed: 5, that of this program") + kStartAnew);
+        std::string("checkpoint \"out/box/checkpoint\" has format 7; allowed: 6, that of this program") + kStartAnew);
 }
 
 TEST_CASE("checkpoint: one of another run is refused, and it is told why") {
