@@ -30,7 +30,8 @@ enum ExitCode { Done = 0, Failed = 1, BadInput = 2, Leaked = 3, Interrupted = 13
 constexpr const char* kFooter =
     "Writes OUT/<scene>/trajectory.csv, energies.csv, state.csv, final_state.csv, summary.toml, of a hopper discharge.csv, of a "
     "packing\n"
-    "compression.csv, of parts that move parts.csv, of feeders and sinks feeders.csv and sinks.csv, and the pictures that the "
+    "compression.csv, of parts that move parts.csv, of feeders and sinks feeders.csv and sinks.csv, of bonds\n"
+    "bonds.csv, broken_bonds.csv and final_bonds.csv, and the pictures that the "
     "scene\n"
     "asks for, view.html, scene.glb and plots of tables if it does not say; until the end they are in "
     "OUT/<scene>.unfinished-1. If the run is killed the tables stay\n"

@@ -90,6 +90,11 @@ hopper_scene() {
   printf '[[measurement]]\nkind = "part_force"\nname = "walls"\ninterval = 0.01\n%s\n' "$pictures"
 }
 
+agglomerate_scene() {
+  sed -e 's/^velocity = \[0, 0, 1\].*/velocity = [0, 0, 4]/' "$samples/scenes/agglomerate.toml"
+  echo "$pictures"
+}
+
 # What a run leaves, but for what it took: [cost] of the summary. $1: the folder
 results() {
   (cd "$1" && find . -type f | sort | while read -r file; do
@@ -226,5 +231,7 @@ damaged
 left_alone hopper 70
 killed
 left_alone packing 30
+killed
+left_alone agglomerate 60
 killed
 echo "all passed"

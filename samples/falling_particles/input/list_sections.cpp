@@ -21,6 +21,21 @@ std::string list_sections() {
 [start]
   file             of the grains, in place of [drop] and counts: final_state.csv of a run, another CSV file, or a dump of LAMMPS
   overlap          in (0, 1], of the smallest half-axis: the deepest allowed overlap of the file's grains; 0.1 without it
+[[bond]]
+  name             letters, digits, _ and -
+  kind             "beam" or "ball"; a ball resists neither bending nor twisting
+  touching         in [0, 10], of the smallest half-axis: bonds all pairs of grains of the start whose gap is at most this
+  chain            two numbers of grains of start.file; in place of touching, bonds each grain between them to the next one
+  file             of pairs, in place of touching and chain: final_bonds.csv of a run, or another CSV file
+  part             a part of the scene, to which touching or file bonds grains; without it, to one another
+  modulus          Pa, in (0, 1e15]; Young's, of the bond's beam
+  poisson_ratio    in [0, 0.5]; of a beam
+  radius           m, in (0, 1000]; of the beam; as relative_radius without it
+  relative_radius  in (0, 10], of the smallest half-axis of the smaller grain; 1 without it
+  tensile_strength  Pa, in (0, 1e15], of tension and bending; unbreakable without it
+  shear_strength   Pa, in (0, 1e15], of shear and torsion; unbreakable without it
+  damping          in [0, 1], of the critical damping; 0 without it
+  contacts         true or false; whether bonded grains collide with one another; false without it
 [[grain]]
   name             of the catalogue
   count            a whole number from 1 to 1000000, from 0 in scenes with feeders

@@ -257,9 +257,11 @@ void read_output(const TomlTable& root, Scene& scene) {
 std::vector<std::filesystem::path> files_of(const TomlTable& root, const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files = {path.parent_path() / root.text("catalogue")};
   if (root.has("start")) files.push_back(path.parent_path() / root.table("start").text("file"));
-  if (!root.has("part")) return files;
-  for (const TomlTable& part : root.tables("part")) {
-    if (const std::optional<std::string> mesh = part.find_text("file")) files.push_back(path.parent_path() / *mesh);
+  for (const char* section : {"part", "bond"}) {
+    if (!root.has(section)) continue;
+    for (const TomlTable& table : root.tables(section)) {
+      if (const std::optional<std::string> file = table.find_text("file")) files.push_back(path.parent_path() / *file);
+    }
   }
   return files;
 }
@@ -268,7 +270,7 @@ std::vector<std::filesystem::path> files_of(const TomlTable& root, const std::fi
 std::vector<std::string> sections() {
   std::vector<std::string> names = {"seed",   "catalogue",   "container",   "drop",   "grain", "time",
                                     "solver", "compression", "broad_phase", "output", "part",  "measurement",
-                                    "feeder", "sink",        "periodic",    "query",  "start"};
+                                    "feeder", "sink",        "periodic",    "query",  "start", "bond"};
   for (std::string& name : effect_sections()) names.push_back(std::move(name));
   return names;
 }
@@ -287,6 +289,7 @@ Scene load(const TomlFile& file, const std::string& path, const std::vector<std:
   if (root.has("feeder") && !scene.start && scene.grains_at_start() > 0) root.table("drop");  // reports that it is missing
   load_periodic(root, scene);
   load_servos(root, scene);
+  load_bonds(root, path, scene);
   scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
   add_wall_effects(scene.walls, scene.effects);

@@ -32,6 +32,10 @@ std::optional<StartState> load_start(const TomlTable& root, const std::vector<Gr
 /// walls and grains must have been read. Throws InputError, also when a wall is not uniform along such an axis.
 void load_periodic(const TomlTable& root, Scene& scene);
 
+/// Reads the sections [[bond]] and their files, whose paths are relative to the scene's folder. The scene's walls, grains and
+/// periodic axes must have been read. Throws InputError.
+void load_bonds(const TomlTable& root, const std::string& scene_path, Scene& scene);
+
 /// Reads the sections [[feeder]]. The scene's container, grains and time must have been read. Throws InputError.
 std::vector<Feeder> load_feeders(const TomlTable& root, const Scene& scene);
 

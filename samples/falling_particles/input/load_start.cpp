@@ -51,7 +51,10 @@ class StateReader {
   std::vector<StartGrain> read() {
     std::vector<StartGrain> grains;
     grains.reserve(table_.rows().size());
-    for (const Row* row : ordered_rows()) grains.push_back(read_grain(*row));
+    for (const auto& [number, row] : ordered_rows()) {
+      grains.push_back(read_grain(*row));
+      grains.back().number = number;
+    }
     return grains;
   }
 
@@ -87,7 +90,7 @@ class StateReader {
   }
 
   /// By the numbers of the grains, if the table has them. LAMMPS writes atoms in any order.
-  std::vector<const Row*> ordered_rows() const {
+  std::vector<std::pair<std::size_t, const Row*>> ordered_rows() const {
     std::vector<std::pair<std::size_t, const Row*>> rows;
     std::set<std::size_t> seen;
     for (const Row& row : table_.rows()) {
@@ -98,10 +101,7 @@ class StateReader {
       rows.emplace_back(number, &row);
     }
     std::ranges::sort(rows);
-    std::vector<const Row*> ordered;
-    ordered.reserve(rows.size());
-    for (const auto& [number, row] : rows) ordered.push_back(row);
-    return ordered;
+    return rows;
   }
 
   StartGrain read_grain(const Row& row) const {

@@ -105,7 +105,7 @@ StateTable::StateTable(const std::filesystem::path& path) : path_(path), text_(r
   is_dump_ = text_.starts_with("ITEM:");
   Lines lines(text_);
   is_dump_ ? read_dump(lines) : read_csv(lines);
-  if (rows_.empty()) fail(std::max(lines.number(), 1U), "the file has no grains; allowed: a line for each grain");
+  if (rows_.empty()) fail(std::max(lines.number(), 1U), "the file has no grains and no bonds; allowed: a line for each of them");
 }
 
 void StateTable::fail(unsigned line, const std::string& text) const { throw InputError(path_.string(), line, text); }

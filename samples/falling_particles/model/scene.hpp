@@ -11,6 +11,7 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
+#include "bond.hpp"
 #include "container.hpp"
 #include "feeder.hpp"
 #include "geometry.hpp"
@@ -91,6 +92,7 @@ struct Scene {
   std::vector<Feeder> feeders = {};                   ///< they insert grains during the run
   std::vector<Sink> sinks = {};                       ///< they remove grains during the run
   std::optional<StartState> start = {};               ///< in place of the lattice: the grains of a file
+  std::vector<BondRule> bonds = {};                   ///< between grains of the start, and between grains and parts
   PeriodicAxes periodic = {};                         ///< axes along which the scene repeats; all empty for a periodic container
   std::vector<std::string> overrides = {};            ///< values that replace the file's, KEY=VALUE each (toml_override.hpp)
   std::vector<std::filesystem::path> files = {};      ///< the loaded files: the scene's own first, then those that it names

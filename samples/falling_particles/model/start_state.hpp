@@ -20,6 +20,7 @@ struct StartGrain {
   Point velocity = {};                              ///< m/s
   Point angular_velocity = {};                      ///< rad/s
   unsigned line = 0;                                ///< of the file
+  std::size_t number = 0;                           ///< in the file: its column body, or its place from 0
 };
 
 /// The section [start] of a scene file, checked but for overlaps (run/start_check.cpp).

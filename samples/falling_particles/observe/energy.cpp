@@ -6,7 +6,7 @@
 
 namespace falling_particles {
 Energy measure_energy(const World& world, const Scene& scene) {
-  Energy energy{0, 0};
+  Energy energy{0, world.bonds() == nullptr ? 0 : world.bonds()->energy()};
   const auto* const gravity = scene.gravity();
   for (const Grain& grain : world.present()) {
     energy.kinetic += kinetic_energy(grain);

@@ -8,7 +8,7 @@ namespace falling_particles {
 
 struct Energy {
   double kinetic;    ///< J, of translation and rotation
-  double potential;  ///< J, in the scene's gravity, 0 at the origin
+  double potential;  ///< J, in the scene's gravity, 0 at the origin, and elastic, of bonds
   double total() const { return kinetic + potential; }
   template <typename Archive>
   void serialize(Archive& archive) {

@@ -36,6 +36,7 @@ Overlap measure_overlap(const World& world) {
   const PeriodicCell* cell = world.cell();
   Overlap overlap;
   for (const auto& [g1, g2] : pairs) {
+    if (world.bonds() != nullptr && world.bonds()->hide(g1, g2)) continue;
     snProximity proximity;
     if (snGeomProximity(g1, g2, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
     if (!(proximity.gap < 0)) continue;

@@ -135,6 +135,46 @@ void write_sinks(const Sample& sample, TableText& table) {
   }
 }
 
+void write_bonds(const Sample& sample, TableText& table) {
+  const Bonds& bonds = *sample.world.bonds();
+  table.add(sample.time).add(bonds.intact()).add(bonds.breaks().size()).add(bonds.energy()).end_line();
+}
+
+/// The name of the rule of a bond, and its bodies: the numbers of two grains, or the name of a part and the number of a grain.
+void add_bond(const Scene& scene, const Bond& bond, TableText& table) {
+  const BondRule& rule = scene.bonds[bond.rule];
+  table.add(rule.name).add(bond.first == Bond::kPart ? scene.walls[*rule.wall].name : std::to_string(bond.first));
+  table.add(std::to_string(bond.second));
+}
+
+/// A line for each bond that broke since the last sample.
+void write_broken_bonds(const Sample& sample, TableText& table) {
+  const Bonds& bonds = *sample.world.bonds();
+  for (std::size_t i = sample.lines; i < bonds.breaks().size(); ++i) {
+    const BondBreak& failure = bonds.breaks()[i];
+    const Bond& bond = bonds.all()[failure.bond];
+    table.add(failure.time);
+    add_bond(sample.world.scene(), bond, table);
+    for (const double number : failure.place) table.add(number);
+    table.add(cause_of(failure, sample.world.scene().bonds[bond.rule]));
+    const auto& [tension, bending, shear, torsion] = failure.stress;
+    table.add(tension).add(bending).add(shear).add(torsion).end_line();
+  }
+}
+
+/// Everything from which another run can bond the grains of final_state.csv (input/load_bonds.cpp).
+void write_final_bonds(const Sample& sample, TableText& table) {
+  for (const Bond& bond : sample.world.bonds()->all()) {
+    if (bond.is_broken) continue;
+    table.add(sample.time);
+    add_bond(sample.world.scene(), bond, table);
+    const Eigen::Quaterniond& q = bond.rest.rotation;
+    table.add(bond.radius).add(bond.rest.start).add(bond.rest.centre).add(q.w()).add(q.x()).add(q.y()).add(q.z()).end_line();
+  }
+}
+
+bool has_bonds(const Scene& scene) { return !scene.bonds.empty(); }
+
 /// In the order of the list for users.
 constexpr std::array kTables = {
     TableOfFrames{"trajectory", "positions and orientations of the grains; the index of a removed grain is never used again",
@@ -169,6 +209,16 @@ constexpr std::array kTables = {
                   "scenes with feeders", [](const Scene& scene) { return !scene.feeders.empty(); }, write_feeders},
     TableOfFrames{"sinks", "the amounts removed so far", "time_s,sink,grain,grains,kg", "a frame, sink and kind of the scene",
                   "scenes with sinks", [](const Scene& scene) { return !scene.sinks.empty(); }, write_sinks},
+    TableOfFrames{"bonds", "the number of bonds, and their elastic energy", "time_s,bonds,broken,elastic_J", "a frame",
+                  "scenes with bonds", has_bonds, write_bonds},
+    TableOfFrames{"broken_bonds",
+                  "when, where and why bonds broke; body_1 may be a part. The stresses are those of the outermost fibre",
+                  "time_s,bond,body_1,body_2,x_m,y_m,z_m,cause,tension_Pa,bending_Pa,shear_Pa,torsion_Pa", "a bond that broke",
+                  "scenes with bonds", has_bonds, write_broken_bonds},
+    TableOfFrames{"final_bonds",
+                  "the bonds at the end, from which another run can start; start and centre are in the frame of body_1",
+                  "time_s,bond,body_1,body_2,radius_m,start_x_m,start_y_m,start_z_m,x_m,y_m,z_m,qw,qx,qy,qz",
+                  "a bond that is there at the end", "scenes with bonds", has_bonds, write_final_bonds, OnByDefault::When::End},
 };
 
 class FrameMeasurement final : public Measurement {

@@ -186,6 +186,7 @@ std::string write_data(const Scene& scene, const std::vector<Placement>& grains,
 }
 
 void refuse_what_has_no_counterpart(const Scene& scene) {
+  if (!scene.bonds.empty()) refuse(scene, "[[bond]]");
   if (scene.parts().size() > static_cast<std::size_t>(std::ranges::count_if(walls_in(scene.container), &Wall::is_part)))
     refuse(scene, "[[part]]");
   if (scene.query) refuse(scene, "[query]");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <variant>
 
 #include "base/toml_string.hpp"
@@ -202,6 +203,16 @@ void add_population(Lines& lines, const Summary& s) {
   }
 }
 
+void add_bonds(Lines& lines, const Scene& scene, const Bonds& bonds) {
+  std::map<std::string, unsigned long long> by_cause;
+  for (const BondBreak& failure : bonds.breaks()) ++by_cause[cause_of(failure, scene.bonds[bonds.all()[failure.bond].rule])];
+  lines.section("bonds");
+  lines.add("at_start", static_cast<unsigned long long>(bonds.all().size()));
+  lines.add("broken", static_cast<unsigned long long>(bonds.breaks().size()));
+  for (const auto& [cause, number] : by_cause) lines.add(("broken_by." + cause).c_str(), number);
+  lines.add("elastic_energy", bonds.energy(), "J, at the end");
+}
+
 void add_packing(Lines& lines, const Packing& packing) {
   lines.section("packing");
   lines.add("cell_side", packing.side, "m");
@@ -284,6 +295,7 @@ std::string to_toml(const Summary& summary, Times times) {
   add_end_state(lines, summary);
   if (summary.discharge != nullptr) add_discharge(lines, summary.scene, *summary.discharge);
   if (summary.population != nullptr) add_population(lines, summary);
+  if (summary.bonds != nullptr) add_bonds(lines, summary.scene, *summary.bonds);
   if (summary.packing) add_packing(lines, *summary.packing);
   if (summary.heap) add_heap(lines, *summary.heap);
   add_costs(lines, summary);

@@ -17,6 +17,7 @@
 #include "observe/measuring.hpp"
 #include "observe/overlap.hpp"
 #include "observe/sizes.hpp"
+#include "world/bonds.hpp"
 #include "world/compression.hpp"
 #include "world/population.hpp"
 #include "world/stepper.hpp"
@@ -61,6 +62,7 @@ struct Summary {
   std::vector<DrawnSizes> sizes = {};
   const Population* population = nullptr;  ///< null unless grains are inserted or removed
   CheckpointCost checkpoints = {};
+  const Bonds* bonds = nullptr;  ///< null unless the scene has bonds
 };
 
 /// Whether the summary has the times of the run. Only these depend on the machine and on when the run was stopped.

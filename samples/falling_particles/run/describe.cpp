@@ -63,6 +63,13 @@ std::string describe(const Feeder& feeder) {
          from_until(feeder.from, feeder.until);
 }
 
+std::string describe(const BondRule& rule, const Scene& scene) {
+  std::string text = rule.name + (rule.kind == BondKind::Beam ? ": beams of " : ": balls of ") + rounded(rule.modulus) + " Pa, ";
+  text += rule.touching ? "of all pairs that touch" : std::to_string(rule.pairs.size());
+  if (rule.wall) text += ", to part \"" + scene.walls[*rule.wall].name + '"';
+  return text;
+}
+
 std::string shape_of(const Wall& wall) {
   constexpr std::array kNames = {"plane", "box", "cylinder", "smooth body", "mesh", "ground"};
   return kNames[wall.shape.index()];
@@ -118,6 +125,7 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   }
   for (const Feeder& feeder : scene.feeders) lines.add("feeders", describe(feeder));
   for (const Sink& sink : scene.sinks) lines.add("sinks", sink.name);
+  for (const BondRule& rule : scene.bonds) lines.add("bonds", describe(rule, scene));
   for (const Wall& wall : scene.parts()) lines.add("parts", describe(wall));
   for (const supernormal::effects::Effect& effect : scene.effects) {
     const supernormal::effects::Description& description = supernormal::effects::descriptions()[effect.index()];

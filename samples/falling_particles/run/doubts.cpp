@@ -284,6 +284,30 @@ void add_feeders(const Scene& scene, std::vector<std::string>& doubts) {
   }
 }
 
+/// Refuses grains of the lattice that start inside a part.
+void refuse_start_in_parts(const Scene& scene) {
+  if (scene.parts().empty() || scene.grains_at_start() == 0) return;
+  Random random(scene.seed);
+  const World world(scene, place(scene, random));
+  std::vector<std::pair<dGeomID, dGeomID>> pairs;
+  world.name_wall_pairs(&pairs, [](void* data, dGeomID g1, dGeomID g2) {
+    static_cast<std::vector<std::pair<dGeomID, dGeomID>>*>(data)->emplace_back(g1, g2);
+  });
+  for (const auto& [geom, wall] : pairs) {
+    const Wall* part = world.walls().wall_of(wall);
+    if (part == nullptr || !part->is_part()) continue;
+    snProximity proximity;
+    if (snGeomProximity(geom, wall, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
+    const Grain& grain = *grain_of(geom);
+    constexpr double kRounding = 1e-6;  // of the smallest half-axis
+    if (!(proximity.gap < -kRounding * grain.smallest_half_axis())) continue;
+    const auto [x, y, z] = grain.position();
+    throw InputError(scene.files.front().string() + ": grain " + std::to_string(world.index_of(grain)) + " (" + grain.kind->name +
+                     ") starts at [" + shortest(x) + ", " + shortest(y) + ", " + shortest(z) + "] m, " + rounded(-proximity.gap) +
+                     " m deep in part \"" + part->name + "\"; allowed: parts that leave the start of the grains free");
+  }
+}
+
 }  // namespace
 
 std::optional<Fall> fall_from_start(const Scene& scene) {
@@ -342,27 +366,8 @@ std::vector<std::string> doubts_about(const Scene& scene) {
 }
 
 void refuse_overlapping_start(const Scene& scene) {
-  if (scene.start) return refuse_bad_state(scene);
-  if (scene.parts().empty() || scene.grains_at_start() == 0) return;
-  Random random(scene.seed);
-  const World world(scene, place(scene, random));
-  std::vector<std::pair<dGeomID, dGeomID>> pairs;
-  world.name_wall_pairs(&pairs, [](void* data, dGeomID g1, dGeomID g2) {
-    static_cast<std::vector<std::pair<dGeomID, dGeomID>>*>(data)->emplace_back(g1, g2);
-  });
-  for (const auto& [geom, wall] : pairs) {
-    const Wall* part = world.walls().wall_of(wall);
-    if (part == nullptr || !part->is_part()) continue;
-    snProximity proximity;
-    if (snGeomProximity(geom, wall, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
-    const Grain& grain = *grain_of(geom);
-    constexpr double kRounding = 1e-6;  // of the smallest half-axis
-    if (!(proximity.gap < -kRounding * grain.smallest_half_axis())) continue;
-    const auto [x, y, z] = grain.position();
-    throw InputError(scene.files.front().string() + ": grain " + std::to_string(world.index_of(grain)) + " (" + grain.kind->name +
-                     ") starts at [" + shortest(x) + ", " + shortest(y) + ", " + shortest(z) + "] m, " + rounded(-proximity.gap) +
-                     " m deep in part \"" + part->name + "\"; allowed: parts that leave the start of the grains free");
-  }
+  scene.start ? refuse_bad_state(scene) : refuse_start_in_parts(scene);
+  if (!scene.bonds.empty()) refuse_bad_bonds(scene);
 }
 
 }  // namespace falling_particles

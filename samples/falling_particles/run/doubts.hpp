@@ -40,4 +40,8 @@ void refuse_overlapping_start(const Scene& scene);
 /// The same for the grains of a state (start_check.cpp).
 void refuse_bad_state(const Scene& scene);
 
+/// Throws InputError if a section [[bond]] bonds nothing, or if its bonds are too stiff for the step and the iterations of the
+/// solver. The scene has bonds.
+void refuse_bad_bonds(const Scene& scene);
+
 }  // namespace falling_particles

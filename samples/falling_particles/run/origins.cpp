@@ -33,7 +33,8 @@ struct Lookout {
 
 Lookout start_of(const Scene& scene) {
   Random random(scene.seed);
-  Lookout origin{"", {}, true};
+  // Bonds to a part may hold the grains.
+  Lookout origin{"", {}, std::ranges::none_of(scene.bonds, [](const BondRule& rule) { return rule.wall.has_value(); })};
   for (const Placement& placement : place(scene, random)) {
     constexpr std::size_t kEnough = 1000;  // the placements are in random order
     if (origin.places.size() < kEnough) origin.places.push_back(placement.position);

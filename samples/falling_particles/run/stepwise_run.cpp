@@ -221,7 +221,8 @@ Summary StepwiseRun::summarize() {
           measuring_->seconds_of_contacts(),
           measure_sizes(world, scene_),
           scene_.changes_population() ? &simulation_->population : nullptr,
-          cost_};
+          cost_,
+          world.bonds()};
 }
 
 void StepwiseRun::finish() {

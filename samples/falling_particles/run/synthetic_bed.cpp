@@ -145,6 +145,7 @@ BedTimes time_bed(const Scene& scene, int grains) {
   Scene still = scene;  // only its grains and effects
   still.container = Box{{1, 1}};
   still.walls.clear();
+  still.bonds.clear();
   still.feeders.clear();
   still.periodic = {};
   std::erase_if(still.effects,  // all grains stay awake

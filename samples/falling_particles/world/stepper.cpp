@@ -39,11 +39,13 @@ void Stepper::step(bool measures) {
     collide_grains();
     sort_contacts();
     collide_with_walls();
+    if (Bonds* bonds = world_.bonds()) bonds->reduce(contacts_);
   }
   {
     const Stopwatch::Lap lap(costs_.contact_setup);
     joints_.replace(contacts_, measures);
     world_.effects().apply_forces();
+    if (Bonds* bonds = world_.bonds()) bonds->before_step();
     if (PeriodicCell* cell = world_.cell(); cell != nullptr && world_.scene().looks_ahead()) cell->share_ways();
   }
   costs_.contacts += contacts_.size();
@@ -52,6 +54,7 @@ void Stepper::step(bool measures) {
   dWorldQuickStep(world_.id(), step_);
   if (PeriodicCell* cell = world_.cell()) cell->gather();
   world_.walls().after_step();
+  if (Bonds* bonds = world_.bonds()) bonds->after_step();
 }
 
 void Stepper::collide_grains() {
@@ -96,6 +99,7 @@ int Stepper::name_pair(void* self, dGeomID g1, dGeomID g2) {
   if (stepper.may_sleep_ && !is_awake(g1) && !is_awake(g2)) {
     if (grain_of(g2) != nullptr || !stepper.world_.walls().is_moving(g2)) return 0;
   }
+  if (const Bonds* bonds = stepper.world_.bonds(); bonds != nullptr && bonds->hide(g1, g2)) return 0;
   ++stepper.costs_.pairs_tested;
   return 1;
 }

@@ -59,6 +59,7 @@ World::World(const Scene& scene, const std::vector<Placement>& placements) : Wor
   grains_.reserve(capacity(scene, placements.size()));
   for (const Placement& placement : placements) add_grain(placement);
   add_cell();
+  if (!scene.bonds.empty()) bonds_ = std::make_unique<Bonds>(*this);
 }
 
 World::World(const Scene& scene, GoOn /*how*/, const WorldState& state) : World(scene) {
@@ -68,6 +69,7 @@ World::World(const Scene& scene, GoOn /*how*/, const WorldState& state) : World(
   if (cell_ != nullptr) cell_->set_lengths(state.periods);
   walls_->restore(state.walls);
   if (!state.has_lid) walls_->remove_lid();
+  if (!scene.bonds.empty()) bonds_ = std::make_unique<Bonds>(*this, state.bonds);
   dRandSetSeed(static_cast<unsigned long>(state.seed));
 }
 
@@ -78,6 +80,7 @@ void World::add_cell() {
 }
 
 World::~World() {
+  bonds_.reset();
   cell_.reset();
   walls_.reset();
   sweep_.reset();
@@ -116,6 +119,7 @@ std::size_t World::insert(const Placement& placement) {
 void World::remove(std::size_t index) {
   Grain& entry = grains_[index];
   if (cell_ != nullptr) cell_->remove(index);
+  if (bonds_ != nullptr) bonds_->release(index);
   effects_->remove_body(entry.body);
   std::ranges::for_each(entry.geoms(), dGeomDestroy);
   dBodyDestroy(entry.body);
@@ -142,6 +146,7 @@ WorldState World::save() const {
   state.has_lid = walls_->has_lid();
   if (cell_ != nullptr) state.periods = cell_->lengths();
   state.walls = walls_->save();
+  if (bonds_ != nullptr) state.bonds = bonds_->save();
   state.grains.reserve(grains_.size());
   for (const Grain& grain : grains_) {
     SavedGrain& saved = state.grains.emplace_back();

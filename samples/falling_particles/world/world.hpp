@@ -10,6 +10,7 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
+#include "bonds.hpp"
 #include "grain.hpp"
 #include "model/scene.hpp"
 #include "periodic_cell.hpp"
@@ -104,6 +105,7 @@ class World {
   /// Calls back for every pair of grains, or of a grain and a wall, whose bounding boxes meet.
   void name_pairs(void* data, dNearCallback* callback) const;
   PeriodicCell* cell() const { return cell_.get(); }  ///< null for a scene without periodic axes
+  Bonds* bonds() const { return bonds_.get(); }       ///< null for a scene without bonds
   WallBodies& walls() const { return *walls_; }       ///< of Scene::walls
 
   /// Inserts a grain and returns its index, the next one. Not during a step.
@@ -134,6 +136,7 @@ class World {
   std::vector<std::size_t> present_;  // indices of the present grains, in order
   std::unique_ptr<PeriodicCell> cell_;
   std::unique_ptr<WallBodies> walls_;
+  std::unique_ptr<Bonds> bonds_;
 };
 
 }  // namespace falling_particles

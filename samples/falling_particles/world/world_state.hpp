@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bonds.hpp"
 #include "model/geometry.hpp"
 #include "wall_bodies.hpp"
 
@@ -34,10 +35,11 @@ struct WorldState {
   bool has_lid = false;            ///< whether a hopper's outlet has its lid
   Point periods = {};              ///< m, of the cell along x, y and z; 0 along axes that are not periodic
   WallsState walls;
+  BondsState bonds;
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(seed, grains, has_lid, periods, walls);
+    archive(seed, grains, has_lid, periods, walls, bonds);
   }
 };
 

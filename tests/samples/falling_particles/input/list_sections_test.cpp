@@ -71,6 +71,7 @@ const std::vector<Section>& sections() {
       {"[solver]", "solver", ""},
       {"[drop]", "drop", ""},
       {"[start]", "start", ""},
+      {"[[bond]]", "bond[glue]", "bond=[{name = \"glue\"}]"},
       {"[[grain]]", "grain[pea]", ""},
       {"[grain.size] distribution = \"uniform\"",
        "grain[pea].size",

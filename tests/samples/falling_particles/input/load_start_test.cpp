@@ -155,8 +155,8 @@ TEST_CASE("start: mistakes in a CSV file are refused with line and column") {
   }
   const std::string head = "body,grain,x_m,y_m,z_m,qw,qx,qy,qz\n4,pea,0.01,0.01,0.01,1,0,0,0\n";
   check_says(Loaded(head + "4,pea,0.02,0.02,0.02,1,0,0,0\n").text, {"state:3: body is 4, which another line has"});
-  check_says(Loaded("grain,x_m,y_m,z_m,qw,qx,qy,qz\n").text, {"state:1: the file has no grains"});
-  check_says(Loaded("").text, {"state:1: the file has no grains"});
+  check_says(Loaded("grain,x_m,y_m,z_m,qw,qx,qy,qz\n").text, {"state:1: the file has no grains and no bonds"});
+  check_says(Loaded("").text, {"state:1: the file has no grains and no bonds"});
 }
 
 TEST_CASE("start: mistakes in a dump are refused") {

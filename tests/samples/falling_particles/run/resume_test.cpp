@@ -136,6 +136,14 @@ TEST_CASE("resume: grains that come from a feeder, some of which have gone into 
   check_resume(scene, 3 * kEvery);
 }
 
+TEST_CASE("resume: an agglomerate whose bonds break") {
+  const Scene scene = sample("agglomerate");
+  std::string saved;
+  end_of_run(scene, 3 * kEvery, saved);
+  CHECK(!Simulation(scene, 1, saved).world.bonds()->breaks().empty());
+  check_resume(scene, 3 * kEvery);
+}
+
 TEST_CASE("resume: images in a periodic drum that turns") {
   Scene scene = sample("drum_periodic");
   for (Wall& wall : scene.walls) {
