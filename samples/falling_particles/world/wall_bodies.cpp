@@ -9,6 +9,7 @@
 #include <string>
 
 #include "model/material.hpp"
+#include "to_vector.hpp"
 #include "wall_body.hpp"
 
 namespace falling_particles {
@@ -237,11 +238,14 @@ Vector3 WallBodies::chord_excess(dGeomID geom, const Vector3& centre, const Vect
 Vector3 WallBodies::surface_velocity(dGeomID geom, const Vector3& point, const Vector3& centre, const Vector3& velocity) const {
   const Entry* entry = find(geom);
   if (entry == nullptr || entry->carrier == nullptr || !entry->is_moving) return Vector3::Zero();
-  const Vector3 before = entry->pose.position - step_ * entry->velocity.linear;
-  const Vector3 spin = to_vector(dBodyGetAngularVel(entry->carrier));
-  Vector3 surface = to_vector(dBodyGetLinearVel(entry->carrier)) + spin.cross(point - before);
-  if (entry->driven != nullptr) surface += entry->speed * entry->axis();
-  if (entry->excess) surface += entry->excess->at(centre - before, velocity);
+  const WallPose before{entry->pose.position - step_ * entry->velocity.linear, entry->pose.rotation};
+  Vector3 surface =
+      to_vector(dBodyGetLinearVel(entry->carrier)) + to_vector(dBodyGetAngularVel(entry->carrier)).cross(point - before.position);
+  if (entry->driven != nullptr) {
+    const WallVelocity drive = entry->driven->velocity_on(before, {});
+    surface += drive.linear + drive.angular.cross(point - entry->driven->pose_on(before).position);
+  }
+  if (entry->excess) surface += entry->excess->at(centre - entry->lever_base, velocity);
   return surface;
 }
 

@@ -68,6 +68,23 @@ TEST_CASE("a door under a torque T turns by T t^2 / (2 I) about its hinge") {
   CHECK((state.velocity.linear - state.velocity.angular.cross(state.pose.position - Vector3(0, 0.1, 0))).norm() < 1e-12);
 }
 
+TEST_CASE("the surface of a driven wall has the velocity of its drive: about the hinge of a door, along the axis of a piston") {
+  const Vector3 point(0.3, 0.11, 0.2);
+  Wall piston = door();
+  piston.drive = Drive{Vector3::UnitX(), 0.5, 0.2};
+  Vector3 of_door, of_piston;
+  const auto ask = [&point](Vector3& answer) {
+    return [&](const World& world) {
+      answer = world.walls().surface_velocity(world.walls().geoms()[0], point, point, Vector3::Zero());
+    };
+  };
+  const WallState turned = after(DrivenScene({door()}).scene, 100, ask(of_door));
+  CHECK((of_door - turned.velocity.angular.cross(point - Vector3(0, 0.1, 0))).norm() < 1e-9);
+  const WallState moved = after(DrivenScene({piston}).scene, 100, ask(of_piston));
+  CHECK((of_piston - moved.velocity.linear).norm() < 1e-9);
+  CHECK(moved.velocity.linear.x() > 0.1);
+}
+
 TEST_CASE("a door stops where its travel ends, and has the terminal speed T / damping before") {
   Wall wall = door();
   wall.drive->damping = 1;
