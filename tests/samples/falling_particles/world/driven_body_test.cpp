@@ -79,7 +79,11 @@ TEST_CASE("the surface of a driven wall has the velocity of its drive: about the
     };
   };
   const WallState turned = after(DrivenScene({door()}).scene, 100, ask(of_door));
-  CHECK((of_door - turned.velocity.angular.cross(point - Vector3(0, 0.1, 0))).norm() < 1e-9);
+  // A grain on a turning wall gets the chord of its step, which differs by up to speed^2 radius step.
+  const Vector3 lever = point - Vector3(0, 0.1, 0);
+  const double chord = turned.velocity.angular.squaredNorm() * lever.norm() * DrivenScene::kStepSize;
+  CHECK((of_door - turned.velocity.angular.cross(lever)).norm() < chord);
+  CHECK(chord < 1e-4 * of_door.norm());
   const WallState moved = after(DrivenScene({piston}).scene, 100, ask(of_piston));
   CHECK((of_piston - moved.velocity.linear).norm() < 1e-9);
   CHECK(moved.velocity.linear.x() > 0.1);
