@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <variant>
 
 namespace falling_particles {
@@ -23,11 +24,25 @@ std::size_t axis_of(const FacingFaces& faces) {
   return static_cast<std::size_t>(axis);
 }
 
+/// Whether no motion and no drive of the wall can change this direction (unit, of its normal at the start).
+bool keeps(const Wall& wall, const Vector3& direction) {
+  const auto tilts = [&](const Vector3& axis) { return axis.cross(direction).norm() > kAlong; };
+  const auto is_tilted_by = [&](const WallMotion& motion) {
+    const auto* const rotation = std::get_if<Rotation>(&motion.kind);
+    return rotation != nullptr && tilts(rotation->axis);
+  };
+  return std::ranges::none_of(wall.motions, is_tilted_by) && !(wall.drive && wall.drive->turns() && tilts(wall.drive->axis));
+}
+
 /// `pairs`: along x, y and z.
 Bounds bounds_between(const std::vector<FacingWalls>& pairs, const World& world) {
   Bounds bounds{};
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const FacingFaces faces = world.walls().faces_between(pairs[static_cast<std::size_t>(axis)]);
+    if (std::abs(faces.normal[axis]) < 1 - kAlong) {  // motions may change during a run
+      const auto& [first, second] = pairs[static_cast<std::size_t>(axis)];
+      throw std::runtime_error("walls \"" + first + "\" and \"" + second + "\" have rotated, and are no longer across x, y or z");
+    }
     const double sign = faces.normal[axis] < 0 ? -1 : 1;
     bounds.lower[axis] = std::min(sign * faces.first, sign * faces.second);
     bounds.upper[axis] = std::max(sign * faces.first, sign * faces.second);
@@ -96,6 +111,11 @@ void SamplingRegion::read_between(const TomlTable& table, const Scene& scene) {
     if (std::abs(faces.normal[static_cast<Eigen::Index>(axis)]) < 1 - kAlong) {
       table.fail("between", table.full_name("between") + " has \"" + pair[0] + "\" and \"" + pair[1] +
                                 "\", which are not across x, y or z; allowed: walls that are");
+    }
+    for (const std::string& name : pair) {
+      if (keeps(*std::ranges::find(scene.walls, name, &Wall::name), faces.normal)) continue;
+      table.fail("between",
+                 table.full_name("between") + " has \"" + name + "\", which rotates; allowed: walls that stay across x, y or z");
     }
     between_[axis] = pair;
     (*start_lengths_)[static_cast<Eigen::Index>(axis)] = faces.distance();

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/interval.hpp"
 #include "model/material.hpp"
 #include "to_vector.hpp"
 #include "wall_body.hpp"
@@ -144,7 +145,10 @@ FacingFaces WallBodies::faces_between(const FacingWalls& pair) const {
   const Entry& second = named(pair[1]);
   const auto faces = facing_faces(first.wall->shape, first.wall_pose(), second.wall->shape, second.wall_pose());
   if (faces && faces->distance() > 0) return *faces;
-  throw std::runtime_error("walls \"" + pair[0] + "\" and \"" + pair[1] + "\" have met, or no longer face each other");
+  throw std::runtime_error("walls \"" + pair[0] + "\" and \"" + pair[1] +
+                           "\", which a key \"between\" names, no longer face each other, or have met, after " +
+                           rounded(static_cast<double>(steps_) * step_) +
+                           " s; part.drive.travel or until of a motion would keep them apart");
 }
 
 double WallBodies::area_of(const Entry& entry) const {

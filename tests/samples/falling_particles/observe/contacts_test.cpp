@@ -244,3 +244,35 @@ TEST_CASE("measurements: a box between walls needs three pairs across the axes, 
              {"measurement.between[5] is the string \"x_low\"", "different words"});
   check_says(says("between = [" + four + "]\nlower = [0, 0, 0]\n"), {"measurement.lower is given besides between"});
 }
+
+namespace {
+
+constexpr const char* kBetweenAll =
+    "kind = \"stress\"\nbetween = [\"x_low\", \"x_high\", \"y_low\", \"y_high\", \"floor\", \"top\"]\n";
+
+/// A box with a lid that has these keys.
+std::string box_with_lid(const std::string& keys) {
+  return std::string(kSceneText) +
+         "[[part]]\nname = \"top\"\nshape = \"plane\"\nposition = [0, 0, 1]\naxis = [1, 0, 0]\nangle = 180\n" + keys;
+}
+
+}  // namespace
+
+TEST_CASE("measurements: the walls of a box between walls may rotate about their normals only") {
+  const std::string rotation = "[[part.motion]]\nkind = \"rotation\"\nrpm = 1\npoint = [0, 0, 1]\n";
+  const std::string torque = "[part.drive]\ntorque = 1\nmoment = 1\npoint = [0, 0, 1]\n";
+  const std::string measurement = std::string("[[measurement]]\ninterval = 0.01\n") + kBetweenAll;
+  for (const std::string& keys : {rotation, torque}) {
+    CHECK(complaint(box_with_lid(keys + "axis = [0, 0, -1]\n") + measurement).empty());
+    check_says(complaint(box_with_lid(keys + "axis = [1, 0, 1]\n") + measurement),
+               {"measurement.between has \"top\", which rotates"});
+  }
+}
+
+TEST_CASE("measurements: there is no box between walls that have rotated together") {
+  Scene scene = scene_with(kBetweenAll, box_with_lid(""));
+  CHECK(measure(scene, World(scene, column())).number("length_z_m") == 1);
+  const Eigen::Quaterniond quarter(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitZ()));
+  for (Wall& wall : scene.walls) wall.start = {quarter * wall.start.position, quarter * wall.start.rotation};
+  CHECK_THROWS_WITH_AS(measure(scene, World(scene, column())), doctest::Contains("have rotated"), std::runtime_error);
+}

@@ -101,6 +101,55 @@ TEST_CASE("a door stops where its travel ends, and has the terminal speed T / da
   CHECK(angle_of(state) == relative(1.5).epsilon(1e-3));
 }
 
+TEST_CASE("no part passes the ends of its travel, however fast it is, and it stays there") {
+  Wall turning = door();
+  turning.drive->mass = 1e-5;  // kg m^2: it would pass the whole circle in a step
+  turning.drive->travel = {-1, 2.9};
+  Wall sliding{"piston", BoxShape{{0.1, 0.1, 0.02}}};
+  sliding.drive = Drive{Vector3::UnitX(), -1000, 1};
+  sliding.drive->travel = {-0.5, 0.1};
+  Wall servo = sliding;
+  servo.drive->servo = Servo{1000, 1, 50, 0.01};
+  for (const double step : {1e-4, 1e-3, 1e-2}) {
+    CAPTURE(step);
+    const auto last_of = [&](const Wall& wall, const auto& coordinate, double low, double high) {
+      Scene scene = DrivenScene({wall}).scene;
+      scene.time.step = step;
+      const WallState end = after(scene, static_cast<int>(std::lround(0.3 / step)), [&](const World& world) {
+        const double now = coordinate(world.walls().state(0));
+        CHECK(now >= low - 1e-12);
+        CHECK(now <= high + 1e-12);
+      });
+      CHECK(end.velocity.linear.norm() < 1e-12);
+      CHECK(end.velocity.angular.norm() < 1e-12);
+      return coordinate(end);
+    };
+    const auto x_of = [](const WallState& state) { return state.pose.position.x(); };
+    CHECK(last_of(turning, angle_of, -1, 2.9) == relative(2.9).epsilon(1e-12));
+    CHECK(last_of(sliding, x_of, -0.5, 0.1) == -0.5);
+    CHECK(last_of(servo, x_of, -0.5, 0.1) == 0.1);
+  }
+}
+
+TEST_CASE("damping, and the speed and the stress of a servo, are relative to the motions of the part, whose velocity changes") {
+  constexpr double kStep = DrivenScene::kStepSize;
+  Wall wall{"lid", BoxShape{{0.1, 0.1, 0.02}}};
+  wall.drive = Drive{Vector3::UnitX(), 0, 0.5, 2};
+  wall.motions = {{Translation{{1, 0, 0}}, 100 * kStep}};  // m/s
+  const double relative_speed = after(DrivenScene({wall}).scene, 300).velocity.linear.x() - 1;
+  CHECK(relative_speed == relative(-std::pow(1 + kStep * 2 / 0.5, -200)).epsilon(1e-9));
+
+  wall.drive->servo = Servo{500, 1e-4, 10, 0.01};
+  wall.motions = {{Vibration{{0.005, 0, 0}, 5, 0}}};
+  int steps = 0;
+  after(DrivenScene({wall}).scene, 500, [&](const World& world) {
+    const double time = ++steps * kStep;
+    const double vibration = 0.005 * std::sin(2 * std::numbers::pi * 5 * time);
+    CHECK(world.walls().state(0).pose.position.x() - vibration == relative(0.05 * time).epsilon(1e-9));
+    CHECK(std::abs(world.walls().servo_stress(0).value()) < 1e-6);
+  });
+}
+
 TEST_CASE("a part that hangs on a horizontal axis swings as a pendulum with its mass and moment") {
   Wall wall = door();
   wall.drive = Drive{Vector3::UnitY(), 0, 0.2};
@@ -225,6 +274,20 @@ TEST_CASE("the stress of a servo follows the area between walls that move") {
   for (int i = 0; i < 6000; ++i) stepper.step();
   CHECK(world.walls().servo_stress(0).value() == relative(kTarget).epsilon(1e-4));
   CHECK(world.walls().driven(0)->load == relative(kTarget * 0.055 * 0.04).epsilon(1e-4));
+}
+
+TEST_CASE("a servo whose area has vanished ends the run, with the names of the walls, the time and what would prevent it") {
+  Scene scene = spring_bed(1e-3);
+  scene.walls[3].motions = {{Translation{{0, -0.3, 0}}, 0.1}};  // y_high meets y_low after 0.2667 s
+  const World world(scene, {{0, {5, 5, 5}, {1, 0, 0, 0}}});
+  Stepper stepper(world, scene);
+  const auto run = [&] {
+    for (int i = 0; i < 1000; ++i) stepper.step();
+  };
+  CHECK_THROWS_WITH_AS(run(),
+                       doctest::Contains("\"y_low\" and \"y_high\", which a key \"between\" names, no longer face each other"),
+                       std::runtime_error);
+  CHECK_THROWS_WITH_AS(stepper.step(), doctest::Contains("after 0.267 s; part.drive.travel"), std::runtime_error);
 }
 
 TEST_CASE("a servo is held before it starts and after it ends, and its stops bear what the grains do not") {
