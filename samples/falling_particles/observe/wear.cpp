@@ -27,11 +27,11 @@ double sliding_work(const MeasuredContact& contact, dGeomID grain, dGeomID wall,
   const double load = normal.dot(Vector3(force[0], force[1], force[2]));
   if (!(load > 0)) return 0;
   dBodyID body = dGeomGetBody(grain);
-  const Vector3 velocity = to_vector(dBodyGetLinearVel(body));
+  const Vector3 velocity = velocity_of_move(body);
   const Vector3 centre = to_vector(dBodyGetPosition(body)) - step * velocity;
   const Vector3 point = to_vector(contact.geom.pos);
-  const Vector3 slip = velocity + to_vector(dBodyGetAngularVel(body)).cross(point - centre) -
-                       world.walls().surface_velocity(wall, point, centre, velocity);
+  const Vector3 slip =
+      velocity + spin_of_move(body).cross(point - centre) - world.walls().surface_velocity(wall, point, centre, velocity);
   return step * load * (slip - normal.dot(slip) * normal).norm();
 }
 

@@ -329,6 +329,42 @@ interval = 0.1
   CHECK(grains.number("time_s", 1) == relative(0.0301 / 0.2).epsilon(1e-6));
 }
 
+TEST_CASE("passage: grains that land on the plane at the end of a step pass it once, whatever the rounding") {
+  const std::string plane = "[[measurement]]\nkind = \"passage\"\naxis = \"x\"\nat = 0.3\ninterval = 0.1\n";
+  for (const double sign : {1.0, -1.0}) {
+    CAPTURE(sign);
+    std::vector<StartGrain> grains;
+    for (int i = 0; i < 60; ++i) {
+      for (int steps = 20; steps < 25; ++steps) {
+        const double speed = sign * (0.1 + 0.01 * i);
+        grains.push_back(moving(kPea, {0.3 - speed * 5e-4 * (i + steps), 0.01 * i, 0.01 * steps}, {speed, 0, 0}));
+      }
+    }
+    const MeasuredTable table = run(with_grains(open_scene(kFarFloor + plane, 0.1, 0), grains), "passage");
+    CHECK(table.number("forward", 2) == (sign > 0 ? 300 : 0));
+    CHECK(table.number("backward", 2) == (sign > 0 ? 0 : 300));
+  }
+}
+
+TEST_CASE("damping takes neither passages nor wear: ODE damps velocities after it has moved the bodies") {
+  // A damped velocity v falls by exp(-damping t), and the grain goes on by the sum of step v over the steps.
+  constexpr double kDamping = 200;  // 1/s, a tenth in each step
+  constexpr double kStep = 5e-4;
+  constexpr double kSpeed = 4;
+  const double whole = kSpeed * kStep / -std::expm1(-kDamping * kStep);  // m, to rest
+  const std::string damping = "[damping]\nlinear = 200\nangular = 200\n";
+  const std::string plane = "[[measurement]]\nkind = \"passage\"\naxis = \"x\"\nat = 0\ninterval = 0.1\n";
+  std::vector<StartGrain> grains;
+  for (int i = 0; i < 200; ++i) grains.push_back(moving(kPea, {-0.9 * whole * (i + 1) / 200, 0.01 * i, 0}, {kSpeed, 0, 0}));
+  const MeasuredTable passages = run(with_grains(open_scene(kFarFloor + plane + damping, 0.1, 0), grains), "passage");
+  CHECK(passages.number("forward", 2) == 200);
+
+  const Scene slide = with_grains(open_scene(kFloor + wear_every(0.1) + damping, 0.1, kGravity, kNoFriction),
+                                  {moving(kDie, {0, 0, 6e-3 - 1e-6}, {kSpeed / 10, 0, 0})});
+  CHECK(run(slide, "wear").number("force_times_distance_Nm") ==
+        relative(grain_mass(slide, kDie) * kGravity * whole / 10).epsilon(0.01));
+}
+
 TEST_CASE("mixing: halves that change places stay apart by Lacey's index, and grains that interleave are mixed") {
   const std::string section = R"(
 [[measurement]]
