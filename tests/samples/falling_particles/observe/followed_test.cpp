@@ -440,6 +440,8 @@ TEST_CASE("measurements that follow a run: mistakes are told with what is allowe
       {"kind = \"wear\"\ncoefficient = 2\nhardness = 1e9\n", {"measurement.coefficient is 2", "(0, 1]"}},
       {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 0\n", {"measurement.hardness is 0", "(0, 1e+12] Pa"}},
       {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 1e9\nsurfaces = [\"flor\"]\n", {"surfaces[0]", "did you mean \"floor\"?"}},
+      {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 1e9\nsurfaces = [\"floor\", \"floor\"]\n",
+       {"surfaces[1] is the string \"floor\" for the second time; allowed"}},
       {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 1e9\nper = \"grain\"\n",
        {"measurement.per is \"grain\"", "wall, triangle"}},
       {"kind = \"residence\"\n", {"measurement.lower is missing"}},
@@ -451,5 +453,13 @@ TEST_CASE("measurements that follow a run: mistakes are told with what is allowe
       {"kind = \"mixing\"\naxis = \"x\"\nat = 0\n" + box, {"measurement.cells is missing"}},
   };
   for (const auto& [section, says] : mistakes) check_says(complaint(start + section), says);
+  const std::string plane = "kind = \"passage\"\naxis = \"x\"\nat = 0\n";
+  check_says(complaint(start + plane + "from = 0.032\nuntil = 0.038\n"),
+             {"measurement.interval is 0.01", "no sample", "from 0.032 to 0.038 s"});
+  check_says(complaint(start + plane + "from = 0.0301\nuntil = 0.0304\n"), {"no sample"});
+  check_says(complaint(start + "kind = \"wear\"\ncoefficient = 1e-3\nhardness = 1e9\nuntil = 0.005\n"),
+             {"no sample", "from 5e-04 to 0.005 s"});
+  CHECK(complaint(start + plane + "until = 0.005\n").empty());  // at 0
+  CHECK(complaint(start + plane + "from = 0.025\nuntil = 0.03\n").empty());
   CHECK(complaint(start + "kind = \"mixing\"\naxis = \"x\"\nat = 0\ncells = [2, 2, 2]\n" + box).empty());
 }
