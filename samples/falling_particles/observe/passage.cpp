@@ -111,17 +111,8 @@ class Passage final : public Measurement {
   void remember(const Grain& grain, const World& world) {
     const std::size_t index = world.index_of(grain);
     if (index >= places_.size()) places_.resize(index + 1);
-    places_[index] = world.place_of(grain);
-  }
-
-  /// Before the last step, in which a feeder may have inserted the grain.
-  Vector3 place_before(const Grain& grain, const World& world) const {
-    const std::size_t index = world.index_of(grain);
-    if (index >= places_.size() || !places_[index]) {
-      return place_of(grain, world) - world.scene().time.step * velocity_of_move(grain.body);
-    }
-    const auto& [x, y, z] = *places_[index];
-    return {x, y, z};
+    const Vector3 place = place_of(grain, world);
+    places_[index] = Point{place[0], place[1], place[2]};
   }
 
   /// Whether the grain passed in the last step. Its side before is that of the place after the step before, to the bit: rounding
@@ -134,7 +125,9 @@ class Passage final : public Measurement {
       return periods[along] > 0 ? distance - periods[along] * std::round(distance / periods[along]) : distance;
     };
     const Vector3 now = place_of(grain, world);
-    const Vector3 old = place_before(grain, world);
+    const std::size_t index = world.index_of(grain);
+    const bool is_new = index >= places_.size() || !places_[index];
+    const Vector3 old = is_new ? place_before(grain, world) : to_vector(places_[index]->data());
     const double before = nearest(old[axis] - plane_.at, axis);
     const double after = nearest(now[axis] - plane_.at, axis);
     if ((before < 0) == (after < 0)) return std::nullopt;
@@ -143,13 +136,10 @@ class Passage final : public Measurement {
     const double part = after / way;                                                  // of the step, since the passage
     Vector3 place = now;
     for (Eigen::Index i = 0; i < 3; ++i) place[i] -= part * nearest(now[i] - old[i], i);
-    if (world.cell() != nullptr) place = to_vector(world.cell()->wrapped({place[0], place[1], place[2]}).data());
+    place = image_in_cell(place, world);
     if (!plane_.has_in_window(place, world)) return std::nullopt;
-    return PassedGrain{sample.time - part * world.scene().time.step,
-                       world.index_of(grain),
-                       way > 0,
-                       {place[0], place[1], place[2]},
-                       grain.velocity()};
+    return PassedGrain{
+        sample.time - part * world.scene().time.step, index, way > 0, {place[0], place[1], place[2]}, grain.velocity()};
   }
 
   void count(const Grain& grain, const PassedGrain& passed, const World& world) {

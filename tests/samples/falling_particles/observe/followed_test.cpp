@@ -198,6 +198,28 @@ TEST_CASE("wear: each triangle has the wear of the way across it") {
   CHECK(sum == relative(weight * 0.04).epsilon(0.01));
 }
 
+TEST_CASE("wear: in a periodic cell the area and centroid of a triangle belong to its part in the cell") {
+  const TemporaryFolder folder;
+  // 80 mm along x; along y 30 mm longer than the cell at both ends. The diagonal is at x = 20 mm in the middle.
+  // Meshes have numbers of single precision.
+  const std::string mesh =
+      folder.write("strip.obj", "v -0.02 -0.03 0\nv 0.06 -0.03 0\nv 0.06 0.13 0\nv -0.02 0.13 0\nf 1 2 3\nf 1 3 4\n");
+  const std::string strip =
+      "\n[periodic]\ny = [0, 0.1]\n[[part]]\nname = \"strip\"\nshape = \"mesh\"\nunit = \"m\"\nfile = \"" + mesh + "\"\n";
+  const Scene scene = with_grains(open_scene(strip + wear_every(0.1, "per = \"triangle\"\n"), 0.1, kGravity, kNoFriction),
+                                  {moving(kPea, {0, 0.05, kPeaRadius - 1e-6}, {0.4, 0, 0})});
+  const MeasuredTable table = run(scene, "wear");
+  REQUIRE(table.rows.size() == 2);
+  for (std::size_t row = 0; row < 2; ++row) {
+    // A trapezium: 80 mm x 100 mm cut by a diagonal from 15 to 65 mm of x, whose halves are alike.
+    const double sign = table.number("triangle", row) == 0 ? 1 : -1;
+    CHECK(table.number("area_m2", row) == relative(4e-3).epsilon(1e-6));
+    const double shift_y = 0.1 * (0.065 - 0.015) / (6 * (0.065 + 0.015));
+    CHECK(table.number("y_m", row) == relative(0.05 - sign * shift_y).epsilon(1e-6));
+    CHECK(table.number("worn_depth_m", row) == relative(table.number("worn_volume_m3", row) / 4e-3).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("residence: grains that fly through a region stay for its length over their speed, with mean and deviation") {
   const std::string region = R"(
 [[measurement]]
@@ -395,6 +417,41 @@ interval = 0.1
     CHECK(table.number("variance", 1) == doctest::Approx(interleave ? 0 : 0.25));
     CHECK(table.number("lacey", 1) == doctest::Approx(interleave ? 0.25 / (0.25 - 0.25 * 3 / 31) : 0));
   }
+}
+
+TEST_CASE("a grain of a feeder counts from where it is inserted, also if it is elsewhere after its first step") {
+  // The grains enter at x = 3 to 9 mm, and move by 20 mm in a step.
+  const std::string sections = R"(
+[[feeder]]
+name = "f"
+corner = [0, 0, 0.2]
+size = [0.012, 0.1, 0.05]
+velocity = [40, 0, 0]
+grains_per_second = 200
+[[feeder.grain]]
+name = "pea"
+fraction = 1
+[[measurement]]
+kind = "mixing"
+axis = "x"
+at = 0.0125
+lower = [-9, -9, -9]
+upper = [9, 9, 9]
+cells = [1, 1, 1]
+interval = 0.05
+[[measurement]]
+kind = "passage"
+axis = "x"
+at = 0.0125
+interval = 0.05
+)";
+  const Scene scene = with_grains(open_scene(kFarFloor + sections, 0.05, 0),
+                                  {moving(kDie, {0.05, 0.02, 0}, {0, 0, 0}), moving(kDie, {0.05, 0.06, 0}, {0, 0, 0})});
+  const MeasuredTable passages = run(scene, "passage");
+  CHECK(passages.number("forward", 2) == 10);
+  const MeasuredTable mixed = run(scene, "mixing");
+  CHECK(mixed.number("grains", 1) == 12);
+  CHECK(mixed.number("fraction", 1) == relative(10.0 / 12).epsilon(1e-12));
 }
 
 TEST_CASE("measurements that follow a run resume to the bit") {
