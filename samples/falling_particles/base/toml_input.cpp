@@ -112,10 +112,11 @@ std::vector<std::string> TomlTable::choices(std::string_view key, const std::vec
   for (const toml::node& element : *array) {
     const auto word = element.value_exact<std::string>();
     const bool is_allowed = word && std::ranges::find(allowed, *word) != allowed.end();
-    if (!is_allowed || std::ranges::find(result, *word) != result.end()) {
+    const bool is_repeated = is_allowed && std::ranges::find(result, *word) != result.end();
+    if (!is_allowed || is_repeated) {
+      const std::string why = is_repeated ? " for the second time" : word ? did_you_mean(*word, allowed) : "";
       refuse(node_->file, element.source(),
-             full_name(key) + "[" + std::to_string(result.size()) + "] is " + describe(element) +
-                 (word ? did_you_mean(*word, allowed) : "") + "; allowed: " + all);
+             full_name(key) + "[" + std::to_string(result.size()) + "] is " + describe(element) + why + "; allowed: " + all);
     }
     result.push_back(*word);
   }

@@ -54,6 +54,16 @@ int read_every(const TomlTable& table, const Time& time) {
   return static_cast<int>(steps);
 }
 
+/// Samples are at multiples of the interval; contacts have forces from the first step on.
+void refuse_without_sample(const TomlTable& table, const MeasurementRequest& request, double step) {
+  const int first = request.needs_contacts ? std::max(request.first, 1) : request.first;
+  if ((first + request.every - 1) / request.every * request.every <= request.last) return;
+  table.fail("interval", table.full_name("interval") + " is " + shortest(request.every * step) +
+                             ", and the measurement has no sample: no multiple of it is from " + shortest(first * step) + " to " +
+                             shortest(request.last * step) + " s; allowed: an interval with a multiple from " +
+                             table.full_name("from") + " to " + table.full_name("until"));
+}
+
 }  // namespace
 
 std::vector<MeasurementRequest> load_measurements(const TomlTable& root, const Scene& scene) {
@@ -77,6 +87,7 @@ std::vector<MeasurementRequest> load_measurements(const TomlTable& root, const S
     const int first = static_cast<int>(std::ceil(from / time.step - kRounding));
     const int last = static_cast<int>(std::floor(until / time.step + kRounding));
     requests.push_back({std::move(name), kind.name, every, first, last, kind.needs_contacts, kind.read(table, scene)});
+    refuse_without_sample(table, requests.back(), time.step);
   }
   return requests;
 }

@@ -23,8 +23,8 @@ class Mixing final : public Measurement {
 
   std::string columns() const override { return std::string("time_s,") + LaceyGrid::kColumns; }
 
-  void begin(const Sample& sample) override { label_new(sample.world); }
-  void follow(const Sample& sample) override { label_new(sample.world); }
+  void begin(const Sample& sample) override { label_new(sample.world, place_of); }
+  void follow(const Sample& sample) override { label_new(sample.world, place_before); }
 
   void measure(const Sample& sample, TableText& table) const override {
     const Bounds bounds = region_.bounds(sample.world);
@@ -48,10 +48,10 @@ class Mixing final : public Measurement {
 
  private:
   /// Grains that were removed before they had a label are in no sample.
-  void label_new(const World& world) {
+  void label_new(const World& world, Vector3 (*place)(const Grain&, const World&)) {
     const std::vector<Grain>& grains = world.grains();
     for (std::size_t i = is_below_.size(); i < grains.size(); ++i) {
-      is_below_.push_back(grains[i].is_present() && place_of(grains[i], world)[static_cast<int>(plane_.axis)] < plane_.at ? 1 : 0);
+      is_below_.push_back(grains[i].is_present() && place(grains[i], world)[static_cast<int>(plane_.axis)] < plane_.at ? 1 : 0);
     }
   }
 

@@ -34,10 +34,10 @@ class WallNumbers {
   std::vector<dGeomID> walls_;
 };
 
-/// The centre before the step: ODE moves a body by step times its new velocity.
+/// The centre before the step.
 Vector3 centre_before(dGeomID geom, double step) {
   dBodyID body = dGeomGetBody(geom);
-  return to_vector(dBodyGetPosition(body)) - step * to_vector(dBodyGetLinearVel(body));
+  return to_vector(dBodyGetPosition(body)) - step * velocity_of_move(body);
 }
 
 ContactPoint point_of(const MeasuredContact& contact, const World& world, WallNumbers& walls, double step) {

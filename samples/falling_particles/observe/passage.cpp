@@ -37,12 +37,13 @@ struct PassedOfKind {
 struct PassedGrain {
   double time = 0;  // s
   std::size_t grain = 0;
-  Point position = {};  // m
-  Point velocity = {};  // m/s
+  bool is_forward = false;  // along the axis
+  Point position = {};      // m
+  Point velocity = {};      // m/s
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(time, grain, position, velocity);
+    archive(time, grain, is_forward, position, velocity);
   }
 };
 
@@ -74,11 +75,15 @@ class Passage final : public Measurement {
                : "time_s,body,grain,scale,sieve_size_m,mass_kg,direction,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s";
   }
 
-  void begin(const Sample& sample) override { sampled_at_ = sample.time; }
+  void begin(const Sample& sample) override {
+    sampled_at_ = sample.time;
+    for (const Grain& grain : sample.world.present()) remember(grain, sample.world);
+  }
 
   void follow(const Sample& sample) override {
     for (const Grain& grain : sample.world.present()) {
       if (const auto passed = find_passage(grain, sample)) count(grain, *passed, sample.world);
+      remember(grain, sample.world);
     }
   }
 
@@ -97,34 +102,49 @@ class Passage final : public Measurement {
 
   std::string save() const override {
     Writer writer;
-    writer(kinds_, passed_, sampled_at_);
+    writer(kinds_, passed_, sampled_at_, places_);
     return writer.bytes();
   }
-  void restore(const std::string& memory) override { Reader{memory}(kinds_, passed_, sampled_at_); }
+  void restore(const std::string& memory) override { Reader{memory}(kinds_, passed_, sampled_at_, places_); }
 
  private:
-  /// Whether the grain passed in the last step. ODE moves a body by step times its new velocity. In a periodic cell the nearest
-  /// image of the plane counts.
+  void remember(const Grain& grain, const World& world) {
+    const std::size_t index = world.index_of(grain);
+    if (index >= places_.size()) places_.resize(index + 1);
+    const Vector3 place = place_of(grain, world);
+    places_[index] = Point{place[0], place[1], place[2]};
+  }
+
+  /// Whether the grain passed in the last step. Its side before is that of the place after the step before, to the bit: rounding
+  /// neither loses nor repeats a passage. In a periodic cell the nearest image of the plane counts.
   std::optional<PassedGrain> find_passage(const Grain& grain, const Sample& sample) const {
     const World& world = sample.world;
     const auto axis = static_cast<Eigen::Index>(plane_.axis);
-    const double period = periods_of(world)[axis];
-    const Vector3 velocity = to_vector(dBodyGetLinearVel(grain.body));
+    const Vector3 periods = periods_of(world);
+    const auto nearest = [&](double distance, Eigen::Index along) {
+      return periods[along] > 0 ? distance - periods[along] * std::round(distance / periods[along]) : distance;
+    };
     const Vector3 now = place_of(grain, world);
-    double after = now[axis] - plane_.at;
-    if (period > 0) after -= period * std::round(after / period);
-    const double before = after - world.scene().time.step * velocity[axis];
+    const std::size_t index = world.index_of(grain);
+    const bool is_new = index >= places_.size() || !places_[index];
+    const Vector3 old = is_new ? place_before(grain, world) : to_vector(places_[index]->data());
+    const double before = nearest(old[axis] - plane_.at, axis);
+    const double after = nearest(now[axis] - plane_.at, axis);
     if ((before < 0) == (after < 0)) return std::nullopt;
-    const double since = after / velocity[axis];  // s
-    const Vector3 place = now - since * velocity;
+    const double way = after - before;
+    if (periods[axis] > 0 && std::abs(way) > periods[axis] / 2) return std::nullopt;  // from image to image, far from the plane
+    const double part = after / way;                                                  // of the step, since the passage
+    Vector3 place = now;
+    for (Eigen::Index i = 0; i < 3; ++i) place[i] -= part * nearest(now[i] - old[i], i);
+    place = image_in_cell(place, world);
     if (!plane_.has_in_window(place, world)) return std::nullopt;
     return PassedGrain{
-        sample.time - since, world.index_of(grain), {place[0], place[1], place[2]}, {velocity[0], velocity[1], velocity[2]}};
+        sample.time - part * world.scene().time.step, index, way > 0, {place[0], place[1], place[2]}, grain.velocity()};
   }
 
   void count(const Grain& grain, const PassedGrain& passed, const World& world) {
     PassedOfKind& kind = kinds_[world.scene().kind_of(*grain.kind)];
-    PassedAmount& amount = passed.velocity[plane_.axis] > 0 ? kind.forward : kind.backward;
+    PassedAmount& amount = passed.is_forward ? kind.forward : kind.backward;
     ++amount.grains;
     amount.mass += grain.mass.mass;
     if (per_ == Per::Grain) passed_.push_back(passed);
@@ -150,7 +170,7 @@ class Passage final : public Measurement {
     for (const PassedGrain& passed : passed_) {
       const Grain& grain = sample.world.grains()[passed.grain];
       table.add(passed.time).add(passed.grain).add(grain.kind->name).add(grain.scale).add(grain.scale * grain.kind->sieve_size());
-      table.add(grain.mass.mass).add(passed.velocity[plane_.axis] > 0 ? 1.0 : -1.0);
+      table.add(grain.mass.mass).add(passed.is_forward ? 1.0 : -1.0);
       for (const double number : passed.position) table.add(number);
       for (const double number : passed.velocity) table.add(number);
       table.end_line();
@@ -159,9 +179,10 @@ class Passage final : public Measurement {
 
   PassedPlane plane_;
   Per per_;
-  std::vector<PassedOfKind> kinds_;  // of the scene
-  std::vector<PassedGrain> passed_;  // since the last sample
-  double sampled_at_ = 0;            // s
+  std::vector<PassedOfKind> kinds_;           // of the scene
+  std::vector<PassedGrain> passed_;           // since the last sample
+  double sampled_at_ = 0;                     // s
+  std::vector<std::optional<Point>> places_;  // m, of each grain after the last step
 };
 
 }  // namespace

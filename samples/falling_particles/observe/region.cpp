@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <variant>
 
+#include "world/to_vector.hpp"
+
 namespace falling_particles {
 namespace {
 
@@ -147,9 +149,16 @@ Vector3 periods_of(const World& world) {
   return periods;
 }
 
-Vector3 place_of(const Grain& grain, const World& world) {
-  const Point place = world.place_of(grain);
-  return {place[0], place[1], place[2]};
+Vector3 image_in_cell(const Vector3& place, const World& world) {
+  if (world.cell() == nullptr) return place;
+  return to_vector(world.cell()->wrapped({place[0], place[1], place[2]}).data());
+}
+
+Vector3 place_of(const Grain& grain, const World& world) { return image_in_cell(to_vector(dBodyGetPosition(grain.body)), world); }
+
+Vector3 place_before(const Grain& grain, const World& world) {
+  const double step = world.scene().time.step;
+  return image_in_cell(to_vector(dBodyGetPosition(grain.body)) - step * velocity_of_move(grain.body), world);
 }
 
 double share_of_images(const Bounds& bounds, const Vector3& a, const Vector3& b, const Vector3& periods) {

@@ -47,8 +47,14 @@ class SamplingRegion {
 /// m, the periods of a world along x, y and z; 0 along axes that are not periodic.
 Vector3 periods_of(const World& world);
 
+/// m, the image of a place in the periodic cell; the place itself in a world without one.
+Vector3 image_in_cell(const Vector3& place, const World& world);
+
 /// m, the centre of a grain; in a periodic world, its image within the cell.
 Vector3 place_of(const Grain& grain, const World& world);
+
+/// m, the same before the last step, up to rounding; of a grain that a feeder inserted in this step, where it was inserted.
+Vector3 place_before(const Grain& grain, const World& world);
 
 /// The fraction of the segment from a to b, and of all its images in a periodic world together, that is in the bounds.
 double share_of_images(const Bounds& bounds, const Vector3& a, const Vector3& b, const Vector3& periods);

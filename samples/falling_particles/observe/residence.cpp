@@ -88,8 +88,7 @@ class Residence final : public Measurement {
       const Vector3 now = place_of(grain, world);
       const bool is_inside = bounds.contains(now);
       if (was_inside == is_inside) continue;
-      // ODE moves a body by step times its new velocity.
-      const Vector3 before = now - step * to_vector(dBodyGetLinearVel(grain.body));
+      const Vector3 before = now - step * velocity_of_move(grain.body);
       const double time_inside = step * share_of_images(bounds, before, now, periods);
       is_inside ? enter(i, world, sample.time - time_inside) : leave(i, world, sample.time - step + time_inside);
     }

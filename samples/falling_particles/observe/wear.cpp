@@ -27,11 +27,11 @@ double sliding_work(const MeasuredContact& contact, dGeomID grain, dGeomID wall,
   const double load = normal.dot(Vector3(force[0], force[1], force[2]));
   if (!(load > 0)) return 0;
   dBodyID body = dGeomGetBody(grain);
-  const Vector3 velocity = to_vector(dBodyGetLinearVel(body));
+  const Vector3 velocity = velocity_of_move(body);
   const Vector3 centre = to_vector(dBodyGetPosition(body)) - step * velocity;
   const Vector3 point = to_vector(contact.geom.pos);
-  const Vector3 slip = velocity + to_vector(dBodyGetAngularVel(body)).cross(point - centre) -
-                       world.walls().surface_velocity(wall, point, centre, velocity);
+  const Vector3 slip =
+      velocity + spin_of_move(body).cross(point - centre) - world.walls().surface_velocity(wall, point, centre, velocity);
   return step * load * (slip - normal.dot(slip) * normal).norm();
 }
 
@@ -43,6 +43,48 @@ Triangles triangles_of(const WallShape& shape) {
   const auto* const mesh = std::get_if<MeshShape>(&shape);
   if (mesh == nullptr) return {};
   return mesh->two_sided ? sheets_of(*mesh).triangles : mesh->triangles;
+}
+
+using Polygon = std::vector<Vector3>;  // m, convex and plane
+
+/// The part of a polygon whose coordinate along an axis is at least `limit` (Sutherland and Hodgman 1974); at most with sign -1.
+Polygon part_beyond(double limit, double sign, Eigen::Index axis, const Polygon& polygon) {
+  Polygon part;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector3& a = polygon[i];
+    const Vector3& b = polygon[(i + 1) % polygon.size()];
+    const double from = sign * (a[axis] - limit);
+    const double to = sign * (b[axis] - limit);
+    if (from >= 0) part.push_back(a);
+    if ((from < 0) != (to < 0)) part.emplace_back(a + from / (from - to) * (b - a));
+  }
+  return part;
+}
+
+/// Walls extend beyond a periodic cell, and have contacts only in it.
+Polygon part_in_cell(Polygon polygon, const PeriodicAxes& axes) {
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (!axes[i]) continue;
+    const auto axis = static_cast<Eigen::Index>(i);
+    polygon = part_beyond(axes[i]->upper(), -1, axis, part_beyond(axes[i]->lower, 1, axis, polygon));
+  }
+  return polygon;
+}
+
+struct Extent {
+  double area = 0;                     // m^2
+  Vector3 centroid = Vector3::Zero();  // m; the origin if there is no area
+};
+
+Extent extent_of(const Polygon& polygon) {
+  Extent extent;
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    const double area = (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]).norm() / 2;
+    extent.area += area;
+    extent.centroid += area * (polygon[0] + polygon[i - 1] + polygon[i]) / 3;
+  }
+  if (extent.area > 0) extent.centroid /= extent.area;
+  return extent;
 }
 
 class Wear final : public Measurement {
@@ -123,14 +165,14 @@ class Wear final : public Measurement {
       table.blank(kOfTriangle).add(work).add(worn_ * work).blank().end_line();
       return;
     }
-    std::array<Vector3, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto& [x, y, z] = std::get<MeshShape>(wall.shape).vertices[triangles_[index][triangle][k]];
-      corners[k] = wall.start(Vector3(x, y, z));
+    Polygon corners;
+    for (const unsigned int vertex : triangles_[index][triangle]) {
+      const auto& [x, y, z] = std::get<MeshShape>(wall.shape).vertices[vertex];
+      corners.emplace_back(wall.start(Vector3(x, y, z)));
     }
-    const auto& [a, b, c] = corners;
-    const double area = (b - a).cross(c - a).norm() / 2;
-    table.add(triangle).add(Vector3((a + b + c) / 3)).add(area).add(work).add(worn_ * work).add(worn_ * work / area).end_line();
+    const auto& [area, centroid] = extent_of(part_in_cell(corners, sample.world.scene().periodic));
+    table.add(triangle).add(centroid).add(area).add(work).add(worn_ * work);
+    area > 0 ? table.add(worn_ * work / area).end_line() : table.blank().end_line();
   }
 
   double worn_;

@@ -137,10 +137,15 @@ struct Extremes {
   double least = INFINITY;  // kg
 };
 
+bool is_brought(const GrainCount& entry, const Scene& scene) {
+  const auto is_entry = [&](const FedKind& fed) { return &scene.kinds[fed.kind] == &entry; };
+  return std::ranges::any_of(scene.feeders, [&](const Feeder& feeder) { return std::ranges::any_of(feeder.mixture, is_entry); });
+}
+
 Extremes extremes_of(const Scene& scene) {
   Extremes found;
   for (const GrainCount& entry : scene.kinds) {
-    if (entry.count == 0 && !entry.is_fed) continue;
+    if (entry.count == 0 && !is_brought(entry, scene)) continue;
     const double mass = mass_of(entry.kind);
     const double most = std::pow(entry.largest_scale(), 3) * mass;
     const double least = std::pow(entry.smallest_scale(), 3) * mass;

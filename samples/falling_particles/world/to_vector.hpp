@@ -9,4 +9,17 @@ namespace falling_particles {
 
 inline Vector3 to_vector(const dReal* v) { return {v[0], v[1], v[2]}; }
 
+/// m/s, the velocity with which ODE moved a body in the last step: its new velocity before [damping], which ODE applies after the
+/// move. 0 if damping has taken all of it.
+inline Vector3 velocity_of_move(dBodyID body) {
+  const double kept = 1 - dBodyGetLinearDamping(body);
+  return kept > 0 ? Vector3(to_vector(dBodyGetLinearVel(body)) / kept) : Vector3(Vector3::Zero());
+}
+
+/// rad/s, the same of the angular velocity.
+inline Vector3 spin_of_move(dBodyID body) {
+  const double kept = 1 - dBodyGetAngularDamping(body);
+  return kept > 0 ? Vector3(to_vector(dBodyGetAngularVel(body)) / kept) : Vector3(Vector3::Zero());
+}
+
 }  // namespace falling_particles

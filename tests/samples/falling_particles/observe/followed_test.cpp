@@ -198,6 +198,28 @@ TEST_CASE("wear: each triangle has the wear of the way across it") {
   CHECK(sum == relative(weight * 0.04).epsilon(0.01));
 }
 
+TEST_CASE("wear: in a periodic cell the area and centroid of a triangle belong to its part in the cell") {
+  const TemporaryFolder folder;
+  // 80 mm along x; along y 30 mm longer than the cell at both ends. The diagonal is at x = 20 mm in the middle.
+  // Meshes have numbers of single precision.
+  const std::string mesh =
+      folder.write("strip.obj", "v -0.02 -0.03 0\nv 0.06 -0.03 0\nv 0.06 0.13 0\nv -0.02 0.13 0\nf 1 2 3\nf 1 3 4\n");
+  const std::string strip =
+      "\n[periodic]\ny = [0, 0.1]\n[[part]]\nname = \"strip\"\nshape = \"mesh\"\nunit = \"m\"\nfile = \"" + mesh + "\"\n";
+  const Scene scene = with_grains(open_scene(strip + wear_every(0.1, "per = \"triangle\"\n"), 0.1, kGravity, kNoFriction),
+                                  {moving(kPea, {0, 0.05, kPeaRadius - 1e-6}, {0.4, 0, 0})});
+  const MeasuredTable table = run(scene, "wear");
+  REQUIRE(table.rows.size() == 2);
+  for (std::size_t row = 0; row < 2; ++row) {
+    // A trapezium: 80 mm x 100 mm cut by a diagonal from 15 to 65 mm of x, whose halves are alike.
+    const double sign = table.number("triangle", row) == 0 ? 1 : -1;
+    CHECK(table.number("area_m2", row) == relative(4e-3).epsilon(1e-6));
+    const double shift_y = 0.1 * (0.065 - 0.015) / (6 * (0.065 + 0.015));
+    CHECK(table.number("y_m", row) == relative(0.05 - sign * shift_y).epsilon(1e-6));
+    CHECK(table.number("worn_depth_m", row) == relative(table.number("worn_volume_m3", row) / 4e-3).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("residence: grains that fly through a region stay for its length over their speed, with mean and deviation") {
   const std::string region = R"(
 [[measurement]]
@@ -329,6 +351,42 @@ interval = 0.1
   CHECK(grains.number("time_s", 1) == relative(0.0301 / 0.2).epsilon(1e-6));
 }
 
+TEST_CASE("passage: grains that land on the plane at the end of a step pass it once, whatever the rounding") {
+  const std::string plane = "[[measurement]]\nkind = \"passage\"\naxis = \"x\"\nat = 0.3\ninterval = 0.1\n";
+  for (const double sign : {1.0, -1.0}) {
+    CAPTURE(sign);
+    std::vector<StartGrain> grains;
+    for (int i = 0; i < 60; ++i) {
+      for (int steps = 20; steps < 25; ++steps) {
+        const double speed = sign * (0.1 + 0.01 * i);
+        grains.push_back(moving(kPea, {0.3 - speed * 5e-4 * (i + steps), 0.01 * i, 0.01 * steps}, {speed, 0, 0}));
+      }
+    }
+    const MeasuredTable table = run(with_grains(open_scene(kFarFloor + plane, 0.1, 0), grains), "passage");
+    CHECK(table.number("forward", 2) == (sign > 0 ? 300 : 0));
+    CHECK(table.number("backward", 2) == (sign > 0 ? 0 : 300));
+  }
+}
+
+TEST_CASE("damping takes neither passages nor wear: ODE damps velocities after it has moved the bodies") {
+  // A damped velocity v falls by exp(-damping t), and the grain goes on by the sum of step v over the steps.
+  constexpr double kDamping = 200;  // 1/s, a tenth in each step
+  constexpr double kStep = 5e-4;
+  constexpr double kSpeed = 4;
+  const double whole = kSpeed * kStep / -std::expm1(-kDamping * kStep);  // m, to rest
+  const std::string damping = "[damping]\nlinear = 200\nangular = 200\n";
+  const std::string plane = "[[measurement]]\nkind = \"passage\"\naxis = \"x\"\nat = 0\ninterval = 0.1\n";
+  std::vector<StartGrain> grains;
+  for (int i = 0; i < 200; ++i) grains.push_back(moving(kPea, {-0.9 * whole * (i + 1) / 200, 0.01 * i, 0}, {kSpeed, 0, 0}));
+  const MeasuredTable passages = run(with_grains(open_scene(kFarFloor + plane + damping, 0.1, 0), grains), "passage");
+  CHECK(passages.number("forward", 2) == 200);
+
+  const Scene slide = with_grains(open_scene(kFloor + wear_every(0.1) + damping, 0.1, kGravity, kNoFriction),
+                                  {moving(kDie, {0, 0, 6e-3 - 1e-6}, {kSpeed / 10, 0, 0})});
+  CHECK(run(slide, "wear").number("force_times_distance_Nm") ==
+        relative(grain_mass(slide, kDie) * kGravity * whole / 10).epsilon(0.01));
+}
+
 TEST_CASE("mixing: halves that change places stay apart by Lacey's index, and grains that interleave are mixed") {
   const std::string section = R"(
 [[measurement]]
@@ -359,6 +417,41 @@ interval = 0.1
     CHECK(table.number("variance", 1) == doctest::Approx(interleave ? 0 : 0.25));
     CHECK(table.number("lacey", 1) == doctest::Approx(interleave ? 0.25 / (0.25 - 0.25 * 3 / 31) : 0));
   }
+}
+
+TEST_CASE("a grain of a feeder counts from where it is inserted, also if it is elsewhere after its first step") {
+  // The grains enter at x = 3 to 9 mm, and move by 20 mm in a step.
+  const std::string sections = R"(
+[[feeder]]
+name = "f"
+corner = [0, 0, 0.2]
+size = [0.012, 0.1, 0.05]
+velocity = [40, 0, 0]
+grains_per_second = 200
+[[feeder.grain]]
+name = "pea"
+fraction = 1
+[[measurement]]
+kind = "mixing"
+axis = "x"
+at = 0.0125
+lower = [-9, -9, -9]
+upper = [9, 9, 9]
+cells = [1, 1, 1]
+interval = 0.05
+[[measurement]]
+kind = "passage"
+axis = "x"
+at = 0.0125
+interval = 0.05
+)";
+  const Scene scene = with_grains(open_scene(kFarFloor + sections, 0.05, 0),
+                                  {moving(kDie, {0.05, 0.02, 0}, {0, 0, 0}), moving(kDie, {0.05, 0.06, 0}, {0, 0, 0})});
+  const MeasuredTable passages = run(scene, "passage");
+  CHECK(passages.number("forward", 2) == 10);
+  const MeasuredTable mixed = run(scene, "mixing");
+  CHECK(mixed.number("grains", 1) == 12);
+  CHECK(mixed.number("fraction", 1) == relative(10.0 / 12).epsilon(1e-12));
 }
 
 TEST_CASE("measurements that follow a run resume to the bit") {
@@ -404,6 +497,8 @@ TEST_CASE("measurements that follow a run: mistakes are told with what is allowe
       {"kind = \"wear\"\ncoefficient = 2\nhardness = 1e9\n", {"measurement.coefficient is 2", "(0, 1]"}},
       {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 0\n", {"measurement.hardness is 0", "(0, 1e+12] Pa"}},
       {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 1e9\nsurfaces = [\"flor\"]\n", {"surfaces[0]", "did you mean \"floor\"?"}},
+      {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 1e9\nsurfaces = [\"floor\", \"floor\"]\n",
+       {"surfaces[1] is the string \"floor\" for the second time; allowed"}},
       {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 1e9\nper = \"grain\"\n",
        {"measurement.per is \"grain\"", "wall, triangle"}},
       {"kind = \"residence\"\n", {"measurement.lower is missing"}},
@@ -415,5 +510,13 @@ TEST_CASE("measurements that follow a run: mistakes are told with what is allowe
       {"kind = \"mixing\"\naxis = \"x\"\nat = 0\n" + box, {"measurement.cells is missing"}},
   };
   for (const auto& [section, says] : mistakes) check_says(complaint(start + section), says);
+  const std::string plane = "kind = \"passage\"\naxis = \"x\"\nat = 0\n";
+  check_says(complaint(start + plane + "from = 0.032\nuntil = 0.038\n"),
+             {"measurement.interval is 0.01", "no sample", "from 0.032 to 0.038 s"});
+  check_says(complaint(start + plane + "from = 0.0301\nuntil = 0.0304\n"), {"no sample"});
+  check_says(complaint(start + "kind = \"wear\"\ncoefficient = 1e-3\nhardness = 1e9\nuntil = 0.005\n"),
+             {"no sample", "from 5e-04 to 0.005 s"});
+  CHECK(complaint(start + plane + "until = 0.005\n").empty());  // at 0
+  CHECK(complaint(start + plane + "from = 0.025\nuntil = 0.03\n").empty());
   CHECK(complaint(start + "kind = \"mixing\"\naxis = \"x\"\nat = 0\ncells = [2, 2, 2]\n" + box).empty());
 }

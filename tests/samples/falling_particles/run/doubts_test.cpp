@@ -256,3 +256,16 @@ TEST_CASE("doubts: a heavy grain on light ones is compared with the iterations, 
   weightless.effects.clear();
   CHECK(doubts_about(weightless).empty());
 }
+
+TEST_CASE("doubts: of the kinds without grains, those that a feeder brings are compared in mass") {
+  const auto fed = [](const std::string& mixture) {
+    Scene scene =
+        scene_of(replaced(kSceneText, "count = 2", "count = 0") +
+                 "[[feeder]]\nname = \"f\"\ncorner = [0, 0, 0.1]\nsize = [0.05, 0.06, 0.05]\ngrains_per_second = 100\n" + mixture);
+    scene.kinds[1].kind.density *= 600;
+    return scene;
+  };
+  CHECK(doubts_about(fed("[[feeder.grain]]\nname = \"pea\"\nfraction = 1\n")).empty());
+  const std::string half = "\"\nfraction = 0.5\n[[feeder.grain]]\nname = \"";
+  check_one_doubt(fed("[[feeder.grain]]\nname = \"pea" + half + "die\"\nfraction = 0.5\n"), {"the heaviest grain (\"die\")"});
+}
