@@ -8,6 +8,7 @@
 #include "ode/geom/convert.hpp"
 #include "ode/geom/moved.hpp"
 #include "ode/runtime/warm_start.hpp"
+#include "ode/support/private_geom.hpp"
 
 namespace supernormal::ode {
 namespace {
@@ -35,7 +36,7 @@ bool is_finite(const Bounds& box) { return box.min().allFinite() && box.max().al
 
 ConvexVertices::ConvexVertices() : plane_(dCreatePlane(nullptr, 1, 0, 0, 0)), contacts_(kFirstContacts) {}
 
-ConvexVertices::~ConvexVertices() { dGeomDestroy(plane_); }
+ConvexVertices::~ConvexVertices() { destroy_private_geom(plane_); }
 
 // The plane, and with it the order of the vertices, depends on the bounding box. Inside a dGeomTransform this box may belong to an
 // earlier pose. The first list, if it succeeds, then serves to find the right box.

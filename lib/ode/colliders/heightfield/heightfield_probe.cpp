@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "ode/geom/convert.hpp"
+#include "ode/support/private_geom.hpp"
 
 namespace supernormal::ode {
 namespace {
@@ -48,7 +49,7 @@ HeightfieldProbe::HeightfieldProbe()
 }
 
 HeightfieldProbe::~HeightfieldProbe() {
-  for (const dGeomID geom : {heightfield_, ray_, capsule_}) dGeomDestroy(geom);
+  for (const dGeomID geom : {heightfield_, ray_, capsule_}) destroy_private_geom(geom);
 }
 
 bool HeightfieldProbe::is_infinite() const { return std::isinf(half_width_); }

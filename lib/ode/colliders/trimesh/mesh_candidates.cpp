@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ode/geom/convert.hpp"
+#include "ode/support/private_geom.hpp"
 
 namespace supernormal::ode {
 namespace {
@@ -56,7 +57,7 @@ class Interception {
 
 MeshCandidates::MeshCandidates() : query_box_(dCreateBox(nullptr, 1, 1, 1)) { dGeomSetData(query_box_, &indices_); }
 
-MeshCandidates::~MeshCandidates() { dGeomDestroy(query_box_); }
+MeshCandidates::~MeshCandidates() { destroy_private_geom(query_box_); }
 
 std::span<const MeshTriangle> MeshCandidates::find(dGeomID mesh, dGeomID geom, const BodyBox& box, const Pose& pose,
                                                    bool is_collision) {
