@@ -327,6 +327,8 @@ void Bonds::before_step() {
     if (dBodyIsEnabled(joints.first) == 0 && dBodyIsEnabled(joints.second) == 0) continue;
     const Strain strain = strain_of(state_.bonds[i], joints);
     const Vector3 force = strain.frame * strain.force, moment = strain.frame * strain.moment;
+    // Both bodies at one point: a pair that turns as a whole has no velocity there, and the joint keeps its angular momentum.
+    dJointSetBallAnchor(joints.linear, strain.middle.x(), strain.middle.y(), strain.middle.z());
     apply(joints.first, -force, -moment, strain.middle);
     apply(joints.second, force, moment, strain.middle);
   }

@@ -405,6 +405,50 @@ TEST_CASE("bonds: energy is neither gained nor lost but by damping of the step")
   CHECK((momentum - run.grain(0).mass.mass * Vector3(0, 0.05, 0.02)).norm() < 1e-6 * momentum.norm());
 }
 
+TEST_CASE("bonds: a pair that spins keeps its momentum and its angular momentum") {
+  // The bond stretches by up to 2 % of its length, and a step turns it by up to 0.1 rad.
+  struct Case {
+    const char* kind;
+    double spin, modulus, step;  // rad/s, Pa, s
+  };
+  for (const auto& [kind, spin, modulus, step] :
+       {Case{"beam", 100, 1e5, 1e-4}, Case{"beam", 100, 1e7, 1e-3}, Case{"beam", 1000, 1e7, 1e-4}, Case{"ball", 1000, 1e7, 1e-4}}) {
+    CAPTURE(kind);
+    CAPTURE(modulus);
+    CAPTURE(step);
+    std::string glue = bond("glue", "touching = 0.01\n");
+    if (std::string(kind) == "ball") {
+      glue = "[[bond]]\nname = \"glue\"\nkind = \"ball\"\nmodulus = 2e8\nradius = 2e-3\ntouching = 0.01\n";
+    }
+    Run run(grain_at("ball", -3e-3, 0, 0) + grain_at("ball", 3e-3, 0, 0), glue,
+            {"gravity.acceleration=[0, 0, 0]", "bond[glue].modulus=" + shortest(modulus), "time.step=" + shortest(step)});
+    const Vector3 velocity(0.1, 0, 0.05);  // m/s
+    for (const std::size_t i : {0U, 1U}) {
+      const dBodyID body = run.grain(i).body;
+      dBodySetLinearVel(body, velocity.x(), spin * run.grain(i).position()[0], velocity.z());
+      dBodySetAngularVel(body, 0, 0, spin);
+    }
+    const auto momenta = [&] {
+      const Vector3 centre = (Vector3(run.grain(0).position().data()) + Vector3(run.grain(1).position().data())) / 2;
+      Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();  // N s, N m s
+      for (const std::size_t i : {0U, 1U}) {
+        const dReal* turning = dBodyGetAngularVel(run.grain(i).body);
+        const Vector3 momentum = run.grain(i).mass.mass * Vector3(run.grain(i).velocity().data());
+        linear += momentum;
+        angular += (Vector3(run.grain(i).position().data()) - centre).cross(momentum) +
+                   run.grain(i).mass.I[0] * Vector3(turning[0], turning[1], turning[2]);
+      }
+      return std::pair(linear, angular);
+    };
+    const auto [linear, angular] = momenta();
+    run.advance(0.2);
+    const auto [linear_now, angular_now] = momenta();
+    CHECK((linear_now - linear).norm() < 1e-10 * linear.norm());
+    CHECK((angular_now - angular).norm() < 1e-10 * angular.norm());
+    CHECK(run.bonds().intact() == 1);
+  }
+}
+
 TEST_CASE("bonds: a grain follows the part that it is bonded to") {
   Run run(grain_at("cube", 0.05, 0, 0),
           "[[part]]\nname = \"arm\"\nshape = \"box\"\nsize = [0.094, 0.01, 0.01]\n[[part.motion]]\nkind = \"rotation\"\naxis = [0, "
