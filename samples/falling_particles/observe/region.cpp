@@ -43,7 +43,11 @@ Bounds bounds_between(const std::vector<FacingWalls>& pairs, const World& world)
     const FacingFaces faces = world.walls().faces_between(pairs[static_cast<std::size_t>(axis)]);
     if (std::abs(faces.normal[axis]) < 1 - kAlong) {  // motions may change during a run
       const auto& [first, second] = pairs[static_cast<std::size_t>(axis)];
-      throw std::runtime_error("walls \"" + first + "\" and \"" + second + "\" have rotated, and are no longer across x, y or z");
+      throw std::runtime_error(std::string("walls \"")
+                                   .append(first)
+                                   .append("\" and \"")
+                                   .append(second)
+                                   .append("\" have rotated, and are no longer across x, y or z"));
     }
     const double sign = faces.normal[axis] < 0 ? -1 : 1;
     bounds.lower[axis] = std::min(sign * faces.first, sign * faces.second);
