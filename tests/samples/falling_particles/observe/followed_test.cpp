@@ -377,6 +377,7 @@ TEST_CASE("damping takes neither passages nor wear: ODE damps velocities after i
   const std::string damping = "[damping]\nlinear = 200\nangular = 200\n";
   const std::string plane = "[[measurement]]\nkind = \"passage\"\naxis = \"x\"\nat = 0\ninterval = 0.1\n";
   std::vector<StartGrain> grains;
+  grains.reserve(200);
   for (int i = 0; i < 200; ++i) grains.push_back(moving(kPea, {-0.9 * whole * (i + 1) / 200, 0.01 * i, 0}, {kSpeed, 0, 0}));
   const MeasuredTable passages = run(with_grains(open_scene(kFarFloor + plane + damping, 0.1, 0), grains), "passage");
   CHECK(passages.number("forward", 2) == 200);

@@ -348,7 +348,7 @@ TEST_CASE("bonds: grains that overlap when their bond breaks come apart without 
   const std::string bonds =
       bond("held", "part = \"ceiling\"\ntouching = 0.01\n") + bond("weak", "chain = [0, 1]\ntensile_strength = 1\n");
   for (const std::string contacts : {"", "[speculative_contacts]\n"}) {
-    Run run("rod,0,0,-6e-3,1,0,0,0\nrod,0,0,-14e-3,1,0,0,0\n", ceiling + bonds + contacts);
+    Run run("rod,0,0,-6e-3,1,0,0,0\nrod,0,0,-14e-3,1,0,0,0\n", std::string(ceiling).append(bonds).append(contacts));
     CHECK(measure_overlap(run.simulation.world).pairs == 0);  // bonded grains do not count
     double fastest = 0;
     for (int i = 0; i < 400; ++i) {
@@ -411,22 +411,22 @@ TEST_CASE("bonds: a pair that spins keeps its momentum and its angular momentum"
     const char* kind;
     double spin, modulus, step;  // rad/s, Pa, s
   };
-  for (const auto& [kind, spin, modulus, step] :
+  for (const Case& one :
        {Case{"beam", 100, 1e5, 1e-4}, Case{"beam", 100, 1e7, 1e-3}, Case{"beam", 1000, 1e7, 1e-4}, Case{"ball", 1000, 1e7, 1e-4}}) {
-    CAPTURE(kind);
-    CAPTURE(modulus);
-    CAPTURE(step);
+    CAPTURE(one.kind);
+    CAPTURE(one.modulus);
+    CAPTURE(one.step);
     std::string glue = bond("glue", "touching = 0.01\n");
-    if (std::string(kind) == "ball") {
+    if (std::string(one.kind) == "ball") {
       glue = "[[bond]]\nname = \"glue\"\nkind = \"ball\"\nmodulus = 2e8\nradius = 2e-3\ntouching = 0.01\n";
     }
     Run run(grain_at("ball", -3e-3, 0, 0) + grain_at("ball", 3e-3, 0, 0), glue,
-            {"gravity.acceleration=[0, 0, 0]", "bond[glue].modulus=" + shortest(modulus), "time.step=" + shortest(step)});
+            {"gravity.acceleration=[0, 0, 0]", "bond[glue].modulus=" + shortest(one.modulus), "time.step=" + shortest(one.step)});
     const Vector3 velocity(0.1, 0, 0.05);  // m/s
     for (const std::size_t i : {0U, 1U}) {
       const dBodyID body = run.grain(i).body;
-      dBodySetLinearVel(body, velocity.x(), spin * run.grain(i).position()[0], velocity.z());
-      dBodySetAngularVel(body, 0, 0, spin);
+      dBodySetLinearVel(body, velocity.x(), one.spin * run.grain(i).position()[0], velocity.z());
+      dBodySetAngularVel(body, 0, 0, one.spin);
     }
     const auto momenta = [&] {
       const Vector3 centre = (Vector3(run.grain(0).position().data()) + Vector3(run.grain(1).position().data())) / 2;
