@@ -146,7 +146,7 @@ FacingFaces WallBodies::faces_between(const FacingWalls& pair) const {
   const auto faces = facing_faces(first.wall->shape, first.wall_pose(), second.wall->shape, second.wall_pose());
   if (faces && faces->distance() > 0) return *faces;
   throw std::runtime_error("walls \"" + pair[0] + "\" and \"" + pair[1] +
-                           "\", which a key \"between\" names, no longer face each other, or have met, after " +
+                           R"(", which a key "between" names, no longer face each other, or have met, after )" +
                            rounded(static_cast<double>(steps_) * step_) +
                            " s; part.drive.travel or until of a motion would keep them apart");
 }

@@ -166,7 +166,7 @@ TEST_CASE("a servo has an area, its own or that between four walls that face eac
   CHECK(servo.gain == 1e-5);
   CHECK(servo.largest_speed == 0.1);
   CHECK(servo.between == std::vector<FacingWalls>{{"x_low", "x_high"}, {"y_low", "y_high"}});
-  const std::string between = "between = [\"x_low\", \"x_high\", \"y_low\", \"y_high\"]";
+  const std::string between = R"(between = ["x_low", "x_high", "y_low", "y_high"])";
   CHECK(scene_of(with_part(replaced(lid, between, "area = 0.02"))).walls.back().drive->servo->area == 0.02);
   const std::vector<Mistake> mistakes = {
       {"stress = 1000", "stress = -1", {"part.drive.stress is -1", "(0, 1e+09] Pa"}},
@@ -176,9 +176,9 @@ TEST_CASE("a servo has an area, its own or that between four walls that face eac
       {"stress = 1000", "stress = 1000\nmass = 1", {"unknown key \"mass\"", "gain"}},
       {"stress = 1000", "stress = 1000\narea = 1", {"unknown key \"area\"", "between"}},
       {"\"x_high\"", "\"x_hig\"", {"part.drive.between[1] is the string \"x_hig\"", "did you mean \"x_high\""}},
-      {", \"y_low\", \"y_high\"", "", {"part.drive.between has 2 walls", "2 pairs of planes or boxes"}},
-      {"\"y_low\", \"y_high\"", "\"floor\", \"lid\"", {"has \"floor\" and \"lid\", which do not", "part.drive.axis"}},
-      {"\"x_high\", \"y_low\"", "\"y_low\", \"x_high\"", {"has \"x_low\" and \"y_low\", which do not"}},
+      {R"(, "y_low", "y_high")", "", {"part.drive.between has 2 walls", "2 pairs of planes or boxes"}},
+      {R"("y_low", "y_high")", R"("floor", "lid")", {R"(has "floor" and "lid", which do not)", "part.drive.axis"}},
+      {R"("x_high", "y_low")", R"("y_low", "x_high")", {R"(has "x_low" and "y_low", which do not)"}},
   };
   for (const Mistake& mistake : mistakes) {
     CAPTURE(mistake.to);

@@ -206,8 +206,10 @@ TEST_CASE(
   const Scene scene =
       scene_with("kind = \"stress\"\nbetween = [\"y_high\", \"y_low\", \"x_low\", \"x_high\", \"floor\", \"top\"]\n", text);
   std::vector<Placement> peas;
+  peas.reserve(27);
   for (int i = 0; i < 27; ++i) {
-    peas.push_back(upright(kPea, 0.005 + 0.01 * (i % 3), 0.005 + 0.01 * (i / 3 % 3), 0.004 + 0.012 * (i / 9) + 1e-3 * (i % 2)));
+    const int row = i / 3 % 3, layer = i / 9;
+    peas.push_back(upright(kPea, 0.005 + 0.01 * (i % 3), 0.005 + 0.01 * row, 0.004 + 0.012 * layer + 1e-3 * (i % 2)));
   }
   const World world(scene, peas);
   Stepper stepper(world, scene);
@@ -238,7 +240,7 @@ TEST_CASE("measurements: a box between walls needs three pairs across the axes, 
   const auto says = [](const std::string& keys) {
     return complaint(std::string(kSceneText) + "[[measurement]]\nkind = \"stress\"\ninterval = 0.01\n" + keys);
   };
-  const std::string four = "\"x_low\", \"x_high\", \"y_low\", \"y_high\"";
+  const std::string four = R"("x_low", "x_high", "y_low", "y_high")";
   check_says(says("between = [" + four + "]\n"), {"measurement.between has 4 walls", "3 pairs"});
   check_says(says("between = [" + four + ", \"floor\", \"x_low\"]\n"),
              {"measurement.between[5] is the string \"x_low\"", "different words"});
@@ -263,8 +265,8 @@ TEST_CASE("measurements: the walls of a box between walls may rotate about their
   const std::string torque = "[part.drive]\ntorque = 1\nmoment = 1\npoint = [0, 0, 1]\n";
   const std::string measurement = std::string("[[measurement]]\ninterval = 0.01\n") + kBetweenAll;
   for (const std::string& keys : {rotation, torque}) {
-    CHECK(complaint(box_with_lid(keys + "axis = [0, 0, -1]\n") + measurement).empty());
-    check_says(complaint(box_with_lid(keys + "axis = [1, 0, 1]\n") + measurement),
+    CHECK(complaint(box_with_lid(keys + "axis = [0, 0, -1]\n").append(measurement)).empty());
+    check_says(complaint(box_with_lid(keys + "axis = [1, 0, 1]\n").append(measurement)),
                {"measurement.between has \"top\", which rotates"});
   }
 }

@@ -237,7 +237,7 @@ TEST_CASE("doubts: a heavy grain on light ones is compared with the iterations, 
   CHECK(doubts_about(scene_with(125, 40, 5e-4)).empty());
   // f / (1 - f) with f = (2000 / 2001)^40 is 49.5: the correction of overlaps would need 0.24 m/s, and 0.05 m/s are allowed.
   check_one_doubt(scene_with(8000, 40, 5e-4),
-                  {"\"boulder\") has 8e+03 times the mass of the lightest (\"pea\")", "solver.iterations = 40",
+                  {R"("boulder") has 8e+03 times the mass of the lightest ("pea"))", "solver.iterations = 40",
                    "it sinks into such grains until more than 4 bear it", "time.step up to", "grains.md"});
   // f / (1 - f) = 5.776 with f = (250 / 251)^40: 9.81 m/s^2 (0.5 ms)^2 / 0.2 of it are 71 um.
   check_one_doubt(scene_with(1000, 40, 5e-4),
