@@ -34,6 +34,7 @@ if(NOT supernormal_precisions)
   set(supernormal_precisions dDOUBLE dSINGLE)
 endif()
 set(SUPERNORMAL_ODE_PRECISION "")
+set(supernormal_required ${CMAKE_REQUIRED_LIBRARIES})  # of the project that looks for us
 set(CMAKE_REQUIRED_LIBRARIES ${supernormal_ode_target})
 foreach(precision ${supernormal_precisions})
   check_source_compiles(
@@ -50,7 +51,7 @@ foreach(precision ${supernormal_precisions})
   endif()
   unset(SUPERNORMAL_ODE_HEADERS_ARE_${precision} CACHE)  # another ODE may be found next time
 endforeach()
-unset(CMAKE_REQUIRED_LIBRARIES)
+set(CMAKE_REQUIRED_LIBRARIES ${supernormal_required})
 if(NOT SUPERNORMAL_ODE_PRECISION)
   list(JOIN supernormal_precisions " or " supernormal_precisions)
   set(SUPERNORMAL_ODE_PROBLEM "the library is of ODE with ${supernormal_precisions}, but the <ode/ode.h> that the compiler finds is not, or does not "
