@@ -158,7 +158,7 @@ Vector3 image_in_cell(const Vector3& place, const World& world) {
   return to_vector(world.cell()->wrapped({place[0], place[1], place[2]}).data());
 }
 
-Vector3 place_of(const Grain& grain, const World& world) { return image_in_cell(to_vector(dBodyGetPosition(grain.body)), world); }
+Vector3 place_of(const Grain& grain, const World& world) { return to_vector(world.place_of(grain).data()); }
 
 Vector3 place_before(const Grain& grain, const World& world) {
   const double step = world.scene().time.step;

@@ -249,8 +249,7 @@ Vector3 WallBodies::surface_velocity(dGeomID geom, const Vector3& point, const V
     const WallVelocity drive = entry->driven->velocity_on(before, {});
     surface += drive.linear + drive.angular.cross(point - entry->driven->pose_on(before).position);
   }
-  if (entry->excess) surface += entry->excess->at(centre - entry->lever_base, velocity);
-  return surface;
+  return surface + chord_excess(geom, centre, velocity);
 }
 
 WallState WallBodies::state(std::size_t index) const { return {entries_[index].wall_pose(), entries_[index].wall_velocity()}; }
