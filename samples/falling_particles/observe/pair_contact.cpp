@@ -35,10 +35,7 @@ class WallNumbers {
 };
 
 /// The centre before the step.
-Vector3 centre_before(dGeomID geom, double step) {
-  dBodyID body = dGeomGetBody(geom);
-  return to_vector(dBodyGetPosition(body)) - step * velocity_of_move(body);
-}
+Vector3 centre_before(dGeomID geom, double step) { return position_before(dGeomGetBody(geom), step); }
 
 ContactPoint point_of(const MeasuredContact& contact, const World& world, WallNumbers& walls, double step) {
   dGeomID geom1 = contact.geom.g1;

@@ -161,8 +161,7 @@ Vector3 image_in_cell(const Vector3& place, const World& world) {
 Vector3 place_of(const Grain& grain, const World& world) { return to_vector(world.place_of(grain).data()); }
 
 Vector3 place_before(const Grain& grain, const World& world) {
-  const double step = world.scene().time.step;
-  return image_in_cell(to_vector(dBodyGetPosition(grain.body)) - step * velocity_of_move(grain.body), world);
+  return image_in_cell(position_before(grain.body, world.scene().time.step), world);
 }
 
 double share_of_images(const Bounds& bounds, const Vector3& a, const Vector3& b, const Vector3& periods) {

@@ -16,7 +16,12 @@ inline Vector3 velocity_of_move(dBodyID body) {
   return kept > 0 ? Vector3(to_vector(dBodyGetLinearVel(body)) / kept) : Vector3(Vector3::Zero());
 }
 
-/// rad/s, the same of the angular velocity.
+/// m, of a body before the last step (s).
+inline Vector3 position_before(dBodyID body, double step) {
+  return to_vector(dBodyGetPosition(body)) - step * velocity_of_move(body);
+}
+
+/// rad/s, as velocity_of_move() of the angular velocity.
 inline Vector3 spin_of_move(dBodyID body) {
   const double kept = 1 - dBodyGetAngularDamping(body);
   return kept > 0 ? Vector3(to_vector(dBodyGetAngularVel(body)) / kept) : Vector3(Vector3::Zero());
