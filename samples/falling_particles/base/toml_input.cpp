@@ -163,6 +163,7 @@ std::int64_t TomlTable::integer(std::string_view key, std::int64_t lowest, std::
   const toml::node* value = node_->table->get(key);
   if (value == nullptr) fail_missing(key, allowed);
   const auto number = value->value_exact<std::int64_t>();
+  if (value->is_floating_point()) fail_value(key, allowed + ", without a point and an exponent");
   if (!number || *number < lowest || *number > highest) fail_value(key, allowed);
   return *number;
 }

@@ -145,8 +145,9 @@ std::string read_name(const TomlTable& table, const std::vector<Wall>& walls) {
   if (!std::ranges::all_of(name, is_allowed)) {
     table.fail("name", table.full_name("name") + " is \"" + name + "\"; allowed: letters, digits, _, - and .");
   }
-  if (std::ranges::any_of(walls, [&](const Wall& other) { return other.is_part() && other.name == name; })) {
-    table.fail("name", table.full_name("name") + " is \"" + name + "\", which another part has; allowed: a name of its own");
+  if (const auto other = std::ranges::find(walls, name, &Wall::name); other != walls.end()) {
+    const char* const owner = other->is_part() ? "another part" : "a wall of the container";
+    table.fail("name", table.full_name("name") + " is \"" + name + "\", which " + owner + " has; allowed: a name of its own");
   }
   return name;
 }

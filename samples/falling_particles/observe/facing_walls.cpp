@@ -40,7 +40,7 @@ std::vector<FacingWalls> read_facing_walls(const TomlTable& table, const char* k
     const std::optional<FacingFaces> faces = find_faces(pair, walls);
     const auto is_along = [&](const Vector3& other) { return std::abs(other.dot(faces->normal)) > kAcross; };
     if (!faces || faces->distance() <= 0 || std::ranges::any_of(directions, is_along)) {
-      table.fail(key, table.full_name(key) + " has \"" + pair[0] + "\" and \"" + pair[1] + "\", which do not" + allowed);
+      table.fail(key, table.full_name(key) + " has \"" + pair[0] + "\" and \"" + pair[1] + "\", which are no such pair" + allowed);
     }
     directions.push_back(faces->normal);
     pairs.push_back(pair);

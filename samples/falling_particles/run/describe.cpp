@@ -6,6 +6,7 @@
 #include "doubts.hpp"
 #include "forecast.hpp"
 #include "model/container.hpp"
+#include "model/material.hpp"
 
 namespace falling_particles {
 namespace {
@@ -63,9 +64,9 @@ std::string describe(const Feeder& feeder) {
          from_until(feeder.from, feeder.until);
 }
 
-std::string describe(const BondRule& rule, const Scene& scene) {
-  std::string text = rule.name + (rule.kind == BondKind::Beam ? ": beams of " : ": balls of ") + rounded(rule.modulus) + " Pa, ";
-  text += rule.touching ? "of all pairs that touch" : std::to_string(rule.pairs.size());
+std::string describe(const BondRule& rule, std::uint64_t count, const Scene& scene) {
+  std::string text = rule.name + ": " + std::to_string(count) + (rule.kind == BondKind::Beam ? " beams of " : " balls of ") +
+                     rounded(rule.modulus) + " Pa";
   if (rule.wall) text += ", to part \"" + scene.walls[*rule.wall].name + '"';
   return text;
 }
@@ -98,6 +99,16 @@ std::string describe(const StartState& start) {
                                       : "; it has no velocities: all grains start at rest");
 }
 
+/// Whether an effect is of grains on walls alone.
+bool is_on_walls(const supernormal::effects::Effect& effect) {
+  return std::visit(
+      [](const auto& one) {
+        if constexpr (requires { one.on; }) return one.on == kGrainOnWall;
+        return false;
+      },
+      effect);
+}
+
 void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   std::string place = kind_of(scene.container);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -125,12 +136,14 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   }
   for (const Feeder& feeder : scene.feeders) lines.add("feeders", describe(feeder));
   for (const Sink& sink : scene.sinks) lines.add("sinks", sink.name);
-  for (const BondRule& rule : scene.bonds) lines.add("bonds", describe(rule, scene));
+  for (std::size_t i = 0; i < scene.bonds.size(); ++i) {
+    lines.add("bonds", describe(scene.bonds[i], forecast.bonds[i], scene));
+  }
   for (const Wall& wall : scene.parts()) lines.add("parts", describe(wall));
   for (const supernormal::effects::Effect& effect : scene.effects) {
     const supernormal::effects::Description& description = supernormal::effects::descriptions()[effect.index()];
-    lines.add("effects",
-              std::string(description.name) + ": " + std::to_string(description.rows) + " rows a contact; " + description.passes);
+    lines.add("effects", std::string(description.name) + (is_on_walls(effect) ? " on walls: " : ": ") +
+                             std::to_string(description.rows) + " rows a contact; " + description.passes);
   }
   for (std::size_t i = 0; i < scene.measurements.size(); ++i) {
     lines.add("measurements", scene.measurements[i].name + ": " + scene.measurements[i].kind + ", " +

@@ -78,6 +78,18 @@ std::string moves_too_far(const std::string& who, double way, const Scene& scene
   return who + " " + rounded(way) + " m in a step, " + in_half_axes(way, scene) + ": it may pass through what is in its way; ";
 }
 
+/// Adds a doubt about a time that is no multiple of the step.
+void add_rounded_times(const Time& time, std::vector<std::string>& doubts) {
+  constexpr double kRounding = 1e-6;  // of a step, for typed numbers
+  const auto add = [&](const char* key, double value, int steps) {
+    if (std::abs(value - steps * time.step) <= kRounding * time.step) return;
+    doubts.push_back(std::string(key) + " is " + shortest(value) + " s, no multiple of time.step: it is rounded to " +
+                     std::to_string(steps) + " steps; a multiple of " + shortest(time.step) + " s would do");
+  };
+  add("time.duration", time.duration, time.steps());
+  add("time.frame", time.frame, time.steps_per_frame());
+}
+
 // Adds a doubt about the height of the start. Grains that look ahead are exempt, since they do not pass through what they fall
 // onto.
 void add_fall(const Scene& scene, std::vector<std::string>& doubts) {
@@ -359,6 +371,7 @@ double normal_way_of(const Wall& wall, const Scene& scene) {
 
 std::vector<std::string> doubts_about(const Scene& scene) {
   std::vector<std::string> doubts;
+  add_rounded_times(scene.time, doubts);
   add_fall(scene, doubts);
   add_speed(scene, doubts);
   add_solver(scene, doubts);

@@ -72,6 +72,10 @@ Forecast forecast(const Scene& scene) {
       result.samples.push_back(samples_of(request));
       result.table_bytes += static_cast<double>(result.samples.back()) * bytes_of_sample(request, simulation, result.most_grains);
     }
+    result.bonds.resize(scene.bonds.size());
+    if (!scene.bonds.empty()) {
+      for (const Bond& bond : simulation.world.bonds()->all()) ++result.bonds[bond.rule];
+    }
     result.start_step = time_start(simulation);
   }
   constexpr int kEnough = 2000;  // grains: enough to exceed the processor's caches

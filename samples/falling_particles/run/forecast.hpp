@@ -29,6 +29,7 @@ struct Forecast {
   int steps = 0;
   int frames = 0;
   std::vector<std::uint64_t> samples;  ///< of each measurement
+  std::vector<std::uint64_t> bonds;    ///< of each section [[bond]] at the start
   double memory = 0;                   ///< bytes
   double table_bytes = 0;              ///< bytes, measurements included
   double picture_bytes = 0;

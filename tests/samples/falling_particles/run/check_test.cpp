@@ -101,6 +101,13 @@ TEST_CASE("check: a forecast counts steps, frames, grains and samples") {
   }
 }
 
+TEST_CASE("check: friction of grains on walls is told from friction among grains") {
+  const Scene scene = load(replaced(kSceneText, "[friction]\ncoefficient = 0.4", "[friction]\ncoefficient = 0.4\nwalls = 0.1"));
+  const std::string text = describe(scene, forecast(scene));
+  CHECK(text.find("friction: 2 rows") != std::string::npos);
+  CHECK(text.find("friction on walls: 2 rows") != std::string::npos);
+}
+
 TEST_CASE("check: the files of a run are as large as forecast") {
   const Scene scene = load_scene(std::string(SUPERNORMAL_SAMPLES) + "/scenes/short.toml");
   const Forecast result = forecast(scene);

@@ -59,6 +59,13 @@ TEST_CASE("doubts: a scene that means what it says has none") {
   refuse_overlapping_start(scene_of(std::string(kSceneText)));
 }
 
+TEST_CASE("doubts: a duration and a frame that are no multiples of the step are rounded, and said to be") {
+  check_one_doubt(scene_of(replaced(kSceneText, "duration = 0.1", "duration = 0.1003")),
+                  {"time.duration is 0.1003 s", "rounded to 201 steps", "a multiple of 5e-04 s"});
+  check_one_doubt(scene_of(replaced(kSceneText, "frame = 0.01", "frame = 0.0013")),
+                  {"time.frame is 0.0013 s", "rounded to 3 steps"});
+}
+
 TEST_CASE("doubts: the fall from the start is compared with the step") {
   Scene scene = scene_of(std::string(kSceneText));
   const std::optional<Fall> low = fall_from_start(scene);
@@ -231,7 +238,7 @@ TEST_CASE("doubts: a heavy grain on light ones is compared with the iterations, 
     scene.kinds[1].kind.name = "boulder";
     scene.kinds[1].kind.density *= ratio;
     scene.solver.iterations = iterations;
-    scene.time.step = step;
+    scene.time = {200 * step, step, 20 * step};
     return scene;
   };
   CHECK(doubts_about(scene_with(125, 40, 5e-4)).empty());

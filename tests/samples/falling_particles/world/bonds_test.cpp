@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "observe/table_text.hpp"
 #include "output/lammps_input.hpp"
 #include "run/doubts.hpp"
+#include "run/forecast.hpp"
 #include "scene_text.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -508,6 +510,14 @@ TEST_CASE("bonds: a scene without them has none") {
   const Run run(rods(1), "");
   CHECK(run.simulation.world.bonds() == nullptr);
   CHECK(!find_measurement_kind("bonds")->is_on(run.scene));
+}
+
+TEST_CASE("bonds: the forecast counts them by section") {
+  const TemporaryFolder folder;
+  const Scene scene = scene_with(folder, rods(4), clamped_beam());
+  const Forecast found = forecast(scene);
+  CHECK(found.bonds == std::vector<std::uint64_t>{1, 3});
+  CHECK(describe(scene, found).find("clamped: 1 beams of ") != std::string::npos);
 }
 
 TEST_CASE("bonds: LAMMPS' input refuses them") {
