@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <locale>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -23,6 +25,25 @@ void append_three(std::string& out, const Append& append) {
     append(k);
   }
   out += ")";
+}
+
+/// The number of characters of the finite number that `text` begins with, or 0.
+std::size_t read_number(std::string_view text, double& value) {
+#ifdef __cpp_lib_to_chars
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  // It also reads "inf" and "nan".
+  return error == std::errc() && std::isfinite(value) ? static_cast<std::size_t>(end - text.data()) : 0;
+#else  // libc++, whose from_chars reads integers alone before version 20
+  const std::string_view word = text.substr(0, text.find_first_not_of("+-.0123456789eE"));
+  std::istringstream stream{std::string(word)};
+  stream.imbue(std::locale::classic());  // a program may have set another, whose numbers have commas
+  value = 0;
+  const bool is_read = !word.starts_with('+') && (stream >> value || std::fpclassify(value) == FP_SUBNORMAL);  // these fail there
+  const bool at_end = stream.eof();
+  stream.clear();
+  if (!is_read) return 0;
+  return at_end ? word.size() : static_cast<std::size_t>(stream.tellg());
+#endif
 }
 
 }  // namespace
@@ -76,10 +97,9 @@ std::string_view DescriptionReader::name(const char* expected) {
 double DescriptionReader::number() {
   skip_spaces();
   double value = 0;
-  const auto [end, error] = std::from_chars(rest().data(), rest().data() + rest().size(), value);
-  // It also reads "inf" and "nan".
-  if (error != std::errc() || !std::isfinite(value)) refuse(next_ + 1, "a finite number");
-  next_ += static_cast<std::size_t>(end - rest().data());
+  const std::size_t length = read_number(rest(), value);
+  if (length == 0) refuse(next_ + 1, "a finite number");
+  next_ += length;
   return value;
 }
 

@@ -5,6 +5,8 @@
 
 #include <bit>
 #include <cstdint>
+#include <limits>
+#include <locale>
 #include <memory>
 #include <random>
 #include <string>
@@ -122,6 +124,22 @@ TEST_CASE("description: the texts are what the page says") {
   CHECK(describe(LinearImage(std::make_shared<Sphere>(1), Vector3(1, 2, 3).asDiagonal().toDenseMatrix())) ==
         "LinearImage(shape=Sphere(radius=1), matrix=((1, 0, 0), (0, 2, 0), (0, 0, 3)))");
   CHECK(*read_shape(" Rounded ( core=\n Sphere( radius =1.0 ) ,\tradius= 2 )\n") == Rounded(std::make_shared<Sphere>(1), 2));
+}
+
+TEST_CASE("description: numbers of every size read back, also in a program whose locale has commas") {
+  struct Comma : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+  };
+  const std::locale before = std::locale::global(std::locale(std::locale::classic(), new Comma));
+  using Limits = std::numeric_limits<double>;
+  for (const double number : {Limits::denorm_min(), 4.07935020697694e-309, Limits::min(), 0.1, 1.5, 1e150}) {
+    const Pose pose{Vector3(number, -number, 1), Matrix3::Identity()};
+    CHECK(same_bits(read_pose(describe(pose)).position, pose.position));
+  }
+  for (const std::string number : {"+1", "1e-999", "-", "1.2.3", "1,5"}) {
+    CHECK(refusal_of("Sphere(radius=" + number + ")") != "accepted");
+  }
+  std::locale::global(before);
 }
 
 TEST_CASE("description: what is no description is refused with the place and what must be there") {

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <future>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
@@ -110,8 +111,8 @@ void parallel_for_ranges(std::ptrdiff_t count, int threads, const Body& body) {
   const WithoutTheLock unlocked;
   Loop loop(count, used, body);
   {
-    std::vector<std::jthread> helpers;
-    for (int k = 1; k < used; ++k) helpers.emplace_back([&loop] { loop.work(); });
+    std::vector<std::future<void>> helpers;  // each waits for its thread, as std::jthread does, which libc++ lacks
+    for (int k = 1; k < used; ++k) helpers.push_back(std::async(std::launch::async, [&loop] { loop.work(); }));
     SignalWatch watch;
     loop.work([&watch] { watch.look(); });
   }
