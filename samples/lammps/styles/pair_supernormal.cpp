@@ -28,6 +28,18 @@ namespace {
 
 constexpr double kProofMargin = 1e-9;  // of the bounding radii; covers the rounding of a gap
 
+// LAMMPS renamed both in 2022, after the version of Debian 12.
+#ifdef SUPERNORMAL_LAMMPS_2022
+void request_history(Neighbor& neighbor, Pair& pair, int /*instance*/) { neighbor.add_request(&pair, NeighConst::REQ_HISTORY); }
+void forward(Comm& comm, Pair& pair) { comm.forward_comm(&pair); }
+#else
+void request_history(Neighbor& neighbor, Pair& pair, int instance) {
+  const int request = neighbor.request(&pair, instance);  // moves `requests`
+  neighbor.requests[request]->history = 1;
+}
+void forward(Comm& comm, Pair& pair) { comm.forward_comm_pair(&pair); }
+#endif
+
 }  // namespace
 
 PairSupernormal::PairSupernormal(LAMMPS* lammps) : Pair(lammps) {
@@ -144,8 +156,7 @@ void PairSupernormal::init_style() {
   if (force->ftm2v != 1)
     error->all(FLERR, "pair_style supernormal takes units in which force is mass times acceleration: si, cgs, lj");
   if (atom->tag_enable == 0) error->all(FLERR, "pair_style supernormal takes atoms with tags");
-  const int request = neighbor->request(this, instance_me);
-  neighbor->requests[request]->history = 1;
+  request_history(*neighbor, *this, instance_me);
   if (history_ == nullptr) {
     const std::string number = std::to_string(instance_me);
     const std::string made = "SUPERNORMAL_HISTORY_" + number + " all NEIGH_HISTORY " + std::to_string(ContactHistory::kSize);
@@ -171,7 +182,7 @@ void PairSupernormal::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   sums_.fill(0);
   if (neighbor->ago == 0) {
-    if (has_particle_exponents_) comm->forward_comm_pair(this);
+    if (has_particle_exponents_) forward(*comm, *this);
     bodies_->assign_shapes();
     forget_proofs();
   }
@@ -348,8 +359,6 @@ double PairSupernormal::single(int i, int j, int /*itype*/, int /*jtype*/, doubl
   force_over_distance = force_i.dot(Vector3::Map(atom->x[i]) - Vector3::Map(atom->x[j])) / square;
   return pair.force.energy;
 }
-
-void PairSupernormal::transfer_history(double* from, double* to) { std::copy_n(from, ContactHistory::kSize, to); }
 
 int PairSupernormal::pack_forward_comm(int count, int* indices, double* buffer, int /*pbc_flag*/, int* /*pbc*/) {
   for (int k = 0; k < count; ++k) {
