@@ -172,8 +172,13 @@ void PairSupernormal::init_style() {
 }
 
 double PairSupernormal::init_one(int i, int j) {
+  // LAMMPS has made sure that each type has a law with itself.
   if (setflag[std::min(i, j)][std::max(i, j)] == 0) {
-    error->all(FLERR, "pair_coeff: no contact law for types " + std::to_string(i) + " and " + std::to_string(j));
+    try {
+      materials_[index(i, j)] = materials_[index(j, i)] = mixed(material(i, i), material(j, j));
+    } catch (const std::invalid_argument& refusal) {
+      error->all(FLERR, fmt::format("pair_coeff: no contact law for types {} and {}: {}", i, j, refusal.what()));
+    }
   }
   return largest_radii_[static_cast<std::size_t>(i)] + largest_radii_[static_cast<std::size_t>(j)];
 }
@@ -408,7 +413,7 @@ void PairSupernormal::exchange_coefficients(FILE* file, bool write) {
       ContactMaterial material = materials_[index(i, j)];
       double law = material.law == NormalLaw::Hertz ? 1 : 0;
       for (double* value : {&law, &material.stiffness, &material.restitution, &material.friction, &material.tangential_ratio,
-                            &material.rolling_length, &material.damping_ratio}) {
+                            &material.rolling_length, &material.spinning_length, &material.adhesion, &material.damping_ratio}) {
         exchange(*value);
       }
       material.law = law != 0 ? NormalLaw::Hertz : NormalLaw::Hooke;
