@@ -1,40 +1,42 @@
-// LAMMPS with pair_style supernormal. Takes the arguments of lmp.
+// LAMMPS with the plugin of this folder. Takes the arguments of lmp. Debian's LAMMPS has no command `plugin`.
+#include <dlfcn.h>
 #include <mpi.h>
 
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <stdexcept>
+#include <string_view>
 
 #include "force.h"
 #include "input.h"
 #include "lammps.h"
+#include "lammpsplugin.h"
 #include "modify.h"
-#include "styles/fix_nve_supernormal.hpp"
-#include "styles/fix_wall_supernormal.hpp"
-#include "styles/pair_supernormal.hpp"
 
 namespace {
 
-using LAMMPS_NS::Fix;
+using LAMMPS_NS::Force;
 using LAMMPS_NS::LAMMPS;
-using LAMMPS_NS::Pair;
+using LAMMPS_NS::Modify;
 
-// LAMMPS takes raw pointers and owns the objects.
-template <typename Style>
-Pair* create_pair(LAMMPS* lammps) {
-  return new Style(lammps);
+/// Adds a style of a plugin to an instance of LAMMPS.
+void add_style(lammpsplugin_t* style, void* instance) {
+  const LAMMPS& lammps = *static_cast<LAMMPS*>(instance);
+  if (style->style == std::string_view("pair")) {
+    (*lammps.force->pair_map)[style->name] = reinterpret_cast<Force::PairCreator>(style->creator.v1);
+  } else {
+    (*lammps.modify->fix_map)[style->name] = reinterpret_cast<Modify::FixCreator>(style->creator.v2);
+  }
 }
 
-template <typename Style>
-Fix* create_fix(LAMMPS* lammps, int count, char** words) {
-  return new Style(lammps, count, words);
-}
-
-/// Call it before LAMMPS reads its input.
-void register_styles(LAMMPS& lammps) {
-  (*lammps.force->pair_map)["supernormal"] = &create_pair<granular::PairSupernormal>;
-  (*lammps.modify->fix_map)["nve/supernormal"] = &create_fix<granular::FixNveSupernormal>;
-  (*lammps.modify->fix_map)["wall/supernormal"] = &create_fix<granular::FixWallSupernormal>;
+/// Call it before LAMMPS reads its input. The plugin is in the folder of the program, which is its RUNPATH.
+void load_plugin(LAMMPS& lammps) {
+  void* const plugin = dlopen("supernormalplugin.so", RTLD_NOW);
+  if (plugin == nullptr) throw std::runtime_error(dlerror());
+  const auto init = reinterpret_cast<lammpsplugin_initfunc>(dlsym(plugin, "lammpsplugin_init"));
+  if (init == nullptr) throw std::runtime_error(dlerror());
+  init(&lammps, plugin, reinterpret_cast<void*>(&add_style));
 }
 
 }  // namespace
@@ -43,8 +45,8 @@ int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
   int failed = 0;
   try {
-    const auto lammps = std::make_unique<LAMMPS_NS::LAMMPS>(argc, argv, MPI_COMM_WORLD);
-    register_styles(*lammps);
+    const auto lammps = std::make_unique<LAMMPS>(argc, argv, MPI_COMM_WORLD);
+    load_plugin(*lammps);
     lammps->input->file();
   } catch (const std::exception& failure) {
     std::fprintf(stderr, "supernormal_lammps: %s\n", failure.what());

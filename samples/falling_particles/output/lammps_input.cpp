@@ -33,7 +33,7 @@ constexpr double kHertzImpact = 2.9432675;  // duration of an impact of two ball
 
 /// The contact law of all surfaces, collected from the effects.
 struct Law {
-  double friction = 0, rolling = 0, restitution = kRigidRestitution;
+  double friction = 0, rolling = 0, spinning = 0, adhesion = 0, restitution = kRigidRestitution;
   const fx::Hertz* hertz = nullptr;
   const fx::Compliance* compliance = nullptr;
 };
@@ -52,8 +52,8 @@ struct LawReader {
   }
   void operator()(const fx::RollingResistance& resistance) {
     require_all(resistance.on, "rolling_resistance");
-    if (resistance.spinning > 0) refuse(scene, "rolling_resistance.spinning");
     law.rolling = resistance.rolling;
+    law.spinning = resistance.spinning;
   }
   void operator()(const fx::Restitution& restitution) {
     require_all(restitution.on, "restitution");
@@ -69,13 +69,16 @@ struct LawReader {
     law.compliance = &compliance;
     if (compliance.damping == 0) law.restitution = 1;
   }
+  void operator()(const fx::Adhesion& adhesion) {
+    require_all(adhesion.on, "adhesion");
+    law.adhesion = adhesion.pull_off;
+  }
   void operator()(const fx::Gravity& /*gravity*/) {}
   void operator()(const fx::AutoDisable& /*solver*/) {}
   void operator()(const fx::MaxCorrectingVelocity& /*solver*/) {}
   void operator()(const fx::SurfaceLayer& /*solver*/) {}
   void operator()(const fx::SpeculativeContacts& /*solver*/) {}
   void operator()(const fx::AnisotropicFriction& /*effect*/) { refuse(scene, "anisotropic_friction"); }
-  void operator()(const fx::Adhesion& /*effect*/) { refuse(scene, "adhesion"); }
   void operator()(const fx::QuadraticDrag& /*effect*/) { refuse(scene, "quadratic_drag"); }
   void operator()(const fx::StokesDrag& /*effect*/) { refuse(scene, "stokes_drag"); }
   void operator()(const fx::Buoyancy& /*effect*/) { refuse(scene, "buoyancy"); }
@@ -135,6 +138,8 @@ Contacts find_contacts(const Scene& scene, const Law& law, const Extremes& extre
   words << " restitution " << law.restitution;
   if (law.friction > 0) words << " friction " << law.friction;
   if (law.rolling > 0) words << " rolling " << law.rolling;
+  if (law.spinning > 0) words << " spinning " << law.spinning;
+  if (law.adhesion > 0) words << " adhesion " << law.adhesion;
   return {words.str(), impact / kStepsPerImpact};
 }
 

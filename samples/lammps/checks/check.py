@@ -9,10 +9,11 @@ import bricks
 import collision
 import gas
 import ranks
+import surfaces
 import walls
 from driver import Driver
 
-CHECKS = {"bricks": bricks.check, "collision": collision.check, "gas": gas.check, "ranks": ranks.check, "walls": walls.check}
+CHECKS = {"bricks": bricks.check, "collision": collision.check, "gas": gas.check, "ranks": ranks.check, "surfaces": surfaces.check, "walls": walls.check}
 
 
 def main():

@@ -39,8 +39,11 @@ def hertz_stiffness(curvature1, curvature2):
 
 def collide(driver, ranks, timestep, time, **variables):
     """The time in contact (s), the largest overlap (m), and the final state of the first body."""
-    defaults = dict(a=0.01, b=0.01, c=0.01, slip=0, spin=0, newton="on", speed=SPEED)
+    defaults = dict(a=0.01, b=0.01, c=0.01, slip=0, spin=0, newton="on", speed=SPEED, type1=1, type2=1)
     settings = {**defaults, **variables}
+    law = settings.pop("law", None)
+    if law:
+        settings.update(law1=law, law2=law)
     (table,) = driver.run("collision", ranks, timestep=timestep, steps=int(1.2 * time / timestep), **settings)
     touching = [row for row in table if row["c_pair[1]"] > 0]
     overlap = max(2 * settings["a"] - (row["v_x2"] - row["v_x1"]) for row in table)
@@ -83,6 +86,28 @@ def check_oblique(driver, ranks):
     yield "oblique, sliding: spin", abs(end["v_spin1"] / inertia - (spin - 2.5 * impulse / radius)) / (2.5 * impulse / radius), 0.01
 
 
+def check_materials(driver):
+    """Two materials, and what they mix to: springs in series, geometric means of the other parameters."""
+    radius = 0.01  # m
+    moduli, ratios = (1e8, 4e7), (0.3, 0.45)
+    laws = [f"hertz {E} {nu}" for E, nu in zip(moduli, ratios)]
+    for type1, type2 in ((1, 1), (2, 2), (1, 2)):
+        pair = f"types {type1} and {type2}"
+        both = dict(type1=type1, type2=type2)
+        compliance = sum((1 - ratios[t - 1] ** 2) / moduli[t - 1] for t in (type1, type2))  # 1/E*, Johnson, eq. 4.22
+        k = 4 / 3 / compliance * math.sqrt(radius / 2)
+        expected = (1.25 * REDUCED * (2 * SPEED) ** 2 / k) ** 0.4
+        time = 2.9432675 * expected / (2 * SPEED)
+        _, overlap, _ = collide(driver, 1, time / 1000, time, law1=laws[0], law2=laws[1], **both)
+        yield f"{pair}: overlap by Hertz's theory", abs(overlap / expected - 1), 0.01
+        *_, end = collide(driver, 1, time / 1000, 2 * time, law1=laws[0] + " restitution 0.9", law2=laws[1] + " restitution 0.4", **both)
+        yield f"{pair}: restitution", abs(end["v_vx"] / -SPEED / math.sqrt((0.9, 0.4)[type1 - 1] * (0.9, 0.4)[type2 - 1]) - 1), 0.01
+        # Sliding: the friction impulse is mu times the normal impulse.
+        friction = math.sqrt((0.1, 0.4)[type1 - 1] * (0.1, 0.4)[type2 - 1])
+        *_, end = collide(driver, 1, 1e-9, 2.5e-6, law1="hooke 1e10 friction 0.1", law2="hooke 1e10 friction 0.4", slip=1, **both)
+        yield f"{pair}: friction", abs((1 - end["v_vy"]) / (friction * 2 * SPEED) - 1), 0.01
+
+
 def check(driver):
     """Yields the name, the relative error and the limit of each comparison."""
     yield from check_hertz(driver, 1, "balls", (0.01, 0.01, 0.01))
@@ -90,3 +115,4 @@ def check(driver):
     yield from check_hertz(driver, 2, "ellipsoids, newton off", (0.012, 0.01, 0.005), newton="off")
     yield from check_restitution(driver, 1)
     yield from check_oblique(driver, 2)
+    yield from check_materials(driver)

@@ -47,7 +47,7 @@ def read_tables(text):
     """The thermo_style tables in the output of LAMMPS."""
     tables, columns = [], None
     for line in text.splitlines():
-        if line.startswith("Step "):
+        if line.split()[:1] == ["Step"]:
             columns = line.split()
             tables.append([])
         elif line.startswith("Loop time"):

@@ -89,6 +89,7 @@ struct Grip {
 struct Rates {
   Vector3 sliding;  // m/s; along the normal: of the twist, times its lever arm
   Vector3 rolling;  // rad/s
+  double spinning;  // rad/s; relative, about the normal; 0 without resistance to it
   double spin;      // rad/s; mean of both bodies about the normal
 };
 
@@ -101,7 +102,9 @@ void advance(const Vector3& normal, const Rates& rates, const Grip& grip, double
   if (grip.spread > 0) history.release_twist();
   history.sliding = kept * turn(history.sliding) + step * rates.sliding;
   if (grip.spread > 0) history.sliding += kept * twist * normal;
-  history.rolling = kept * turn(history.rolling) + step * rates.rolling;
+  const double spun = history.rolling.dot(history.normal);
+  history.rolling =
+      kept * (turn(history.rolling - spun * history.normal) + spun * normal) + step * (rates.rolling + rates.spinning * normal);
   history.stiffness = stiffness;
 }
 
@@ -124,11 +127,11 @@ Mobility find_mobility(const Contact& contact, const Body& body1, const Body& bo
 /// Adds friction and rolling resistance to a normal force.
 void add_sliders(const Contact& contact, const Grip& grip, const ContactMaterial& material, const Body& body1, const Body& body2,
                  double step, ContactHistory& history, ContactForce& found) {
-  if (material.friction == 0 && material.rolling_length == 0) return;
+  if (material.friction == 0 && material.rolling_length == 0 && material.spinning_length == 0) return;
   const Vector3& n = contact.normal;
   const Vector3 velocity = body1.velocity_at(contact.arm1) - body2.velocity_at(contact.arm2);
   const Vector3 turning = body1.angular_velocity - body2.angular_velocity;
-  Rates rates{velocity - velocity.dot(n) * n, turning - turning.dot(n) * n,
+  Rates rates{velocity - velocity.dot(n) * n, turning - turning.dot(n) * n, material.spinning_length > 0 ? turning.dot(n) : 0,
               0.5 * (body1.angular_velocity + body2.angular_velocity).dot(n)};
   if (grip.spread > 0) rates.sliding += grip.spread * turning.dot(n) * n;
   const double stiffness = material.tangential_ratio * grip.stiffness;
@@ -146,15 +149,21 @@ void add_sliders(const Contact& contact, const Grip& grip, const ContactMaterial
     found.energy += 0.5 * stiffness * friction.spring.squaredNorm();
     found.slips = friction.slips;
   }
-  if (material.rolling_length > 0 && grip.stiffness > 0) {
-    const double k = kRollingStiffness * grip.stiffness * material.rolling_length * material.rolling_length;
+  if (!(grip.stiffness > 0)) return;
+  // Both resist the rotation: `length` is a lever arm of the normal force, `part` what there is of the spring.
+  const auto resist = [&](double length, const Vector3& part, const Vector3& rate) -> Vector3 {
+    if (length == 0) return part;
+    const double k = kRollingStiffness * grip.stiffness * length * length;
     const double mean_mobility = (body1.inverse_inertia + body2.inverse_inertia).trace() / 3;
-    const SliderForce rolling =
-        slide(history.rolling, rates.rolling, k, damper(material, k, mean_mobility), material.rolling_length * found.normal);
-    write(rolling, history.rolling);
-    found.torque += rolling.force;
-    found.energy += 0.5 * k * rolling.spring.squaredNorm();
-  }
+    const SliderForce slider = slide(part, rate, k, damper(material, k, mean_mobility), length * found.normal);
+    found.torque += slider.force;
+    found.energy += 0.5 * k * slider.spring.squaredNorm();
+    return slider.spring;
+  };
+  const Vector3 spun = history.rolling.dot(n) * n;
+  const Vector3 rolling = resist(material.rolling_length, history.rolling - spun, rates.rolling);
+  const Vector3 spinning = resist(material.spinning_length, spun, rates.spinning * n);
+  if (step > 0) history.rolling = rolling + spinning;
 }
 
 /// A spring of a face contact: a corner, or the deepest point.
@@ -162,6 +171,7 @@ struct PointForce {
   Vector3 point;  // m
   Vector3 normal, lateral;
   double force;      // N; elastic
+  double pull;       // N; of adhesion
   double stiffness;  // N/m; of the damper
 };
 
@@ -172,13 +182,14 @@ class Pressure {
            const ContactMaterial& material, const Vector3& origin) {
     const double rest = 1 - faces.share;
     if (rest > 0 && deepest.depth > 0) {
-      add({origin + deepest.arm1, deepest.normal, Vector3::Zero(), rest * elastic.force,
+      add({origin + deepest.arm1, deepest.normal, Vector3::Zero(), rest * elastic.force, rest * material.adhesion,
            rest * damped_stiffness(material, elastic.stiffness)});
     }
     for (int k = 0; k < faces.count; ++k) {
       const FaceCorner& corner = faces.corners[static_cast<std::size_t>(k)];
       const double stiffness = faces.share * face_stiffness * corner.weight;
-      add({corner.point, faces.normal, corner.lateral, stiffness * corner.depth, stiffness});
+      add({corner.point, faces.normal, corner.lateral, stiffness * corner.depth, faces.share * corner.weight * material.adhesion,
+           stiffness});
     }
   }
 
@@ -209,7 +220,7 @@ class Pressure {
       const Vector3 velocity =
           body1.velocity_at(one.point - body1.pose.position) - body2.velocity_at(one.point - body2.pose.position);
       const double normal = std::max(0.0, one.force + damping * one.stiffness * velocity.dot(one.normal));
-      const Vector3 force = -normal * one.normal - one.force * one.lateral;
+      const Vector3 force = (one.pull - normal) * one.normal + (one.pull - one.force) * one.lateral;
       found.normal += normal;
       found.force += force;
       found.torque += (one.point - centre).cross(force);
@@ -238,8 +249,8 @@ ContactForce contact_force(const Contact& contact, const NormalForce& elastic, c
   const double damped = damped_stiffness(material, elastic.stiffness);
   ContactForce found;
   found.normal = std::max(0.0, elastic.force + damper(material, damped, mobility.normal) * approach);
-  found.force = -found.normal * n;
-  found.energy = elastic.energy;
+  found.force = (material.adhesion - found.normal) * n;
+  found.energy = elastic.energy - material.adhesion * contact.depth;
   add_sliders(contact, {elastic.stiffness, 0, mobility}, material, body1, body2, step, history, found);
   return found;
 }
@@ -260,12 +271,13 @@ ContactForce face_contact_force(const FaceContact& faces, double face_stiffness,
   pressure.apply(stiffness > 0 ? damper(material, stiffness, mobility.normal) / stiffness : 0, centre, body1, body2, found);
 
   // The forces by the weights, which depend on the poses, too.
-  const double energy = 0.5 * face_stiffness * faces.mean_square;
-  const Vector3 by_share = (elastic.energy - energy) * faces.share_by_way;
+  const double of_faces = 0.5 * face_stiffness * faces.mean_square - material.adhesion * faces.mean;
+  const double of_point = elastic.energy - material.adhesion * contact.depth;
+  const Vector3 by_share = (of_point - of_faces) * faces.share_by_way;
   found.force += by_share;
-  found.torque += (elastic.energy - energy) * faces.share_by_turn + (faces.origin - centre).cross(by_share) -
-                  0.5 * faces.share * face_stiffness * faces.turning;
-  found.energy = faces.share * energy + (1 - faces.share) * elastic.energy;
+  found.torque += (of_point - of_faces) * faces.share_by_turn + (faces.origin - centre).cross(by_share) -
+                  faces.share * (0.5 * face_stiffness * faces.turning - material.adhesion * faces.turning_of_mean);
+  found.energy = faces.share * of_faces + (1 - faces.share) * of_point;
 
   const double grip = faces.share * face_stiffness + (1 - faces.share) * elastic.stiffness;
   const double spread = pressure.force() > 0 ? pressure.spread(centre, contact.normal) : 0;

@@ -1,4 +1,5 @@
-// The contact force between two overlapping bodies: an elastic normal force, friction and rolling resistance.
+// The contact force between two overlapping bodies: an elastic normal force, adhesion, friction, and resistance to rolling and
+// spinning.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,7 +27,7 @@ SliderForce slide(const Vector3& spring, const Vector3& rate, double stiffness, 
 struct ContactHistory {
   Vector3 normal = Vector3::Zero();   ///< of the last query, from body 1 to body 2; zero if there was none
   Vector3 sliding = Vector3::Zero();  ///< m; deflection of the tangential spring; of faces, along the normal: of the twist spring
-  Vector3 rolling = Vector3::Zero();  ///< rad; deflection of the rolling spring
+  Vector3 rolling = Vector3::Zero();  ///< rad; deflection of the rolling spring; along the normal: of the spinning spring
   double stiffness = 0;               ///< N/m; of the tangential spring in the last step
 
   static constexpr int kSize = 10;  ///< how many numbers store one history
@@ -79,15 +80,18 @@ struct Contact {
 struct ContactForce {
   Vector3 force = Vector3::Zero();   ///< N; on body 1, at the contact point; the opposite acts on body 2
   Vector3 torque = Vector3::Zero();  ///< N m; on body 1, in addition to the force's; the opposite acts on body 2
-  double normal = 0;                 ///< N; >= 0
+  double normal = 0;                 ///< N; >= 0; without adhesion
   double energy = 0;                 ///< J; in the springs
   bool slips = false;                ///< whether friction is at its limit
 };
 
 /// The contact force for the elastic normal force `elastic`:
 /// - a damped normal force, which never pulls;
+/// - adhesion, a constant pull. It presses the bodies together, so it raises the limits of friction, rolling and spinning
+/// (Derjaguin,
+///   Muller and Toporov, J. Colloid Interface Sci. 53, 314 (1975));
 /// - Coulomb friction with a tangential spring, which rotates with the contact;
-/// - a rolling spring.
+/// - a rolling spring and a spinning spring.
 /// `history` holds the springs and the normal at `step` (s) earlier, and is advanced. With a step of 0 it is only read.
 ContactForce contact_force(const Contact& contact, const NormalForce& elastic, const ContactMaterial& material, const Body& body1,
                            const Body& body2, double step, ContactHistory& history);
@@ -95,6 +99,7 @@ ContactForce contact_force(const Contact& contact, const NormalForce& elastic, c
 /// The contact force where faces meet:
 /// - the corners share it. Each has its weight in the stiffness `face_stiffness` (N/m), and in the damper;
 /// - the deepest point, with `elastic`, has what FaceContact::share leaves;
+/// - adhesion has the energy of a constant pull over the mean depth, so it acts in the middle of the region, its Steiner point;
 /// - friction acts at the centre of pressure, with the spring of the pair and a twist spring about the normal. The spread of the
 ///   pressure is the lever arm of the twist, and both springs have one common limit.
 /// The contact point of `contact` becomes the centre of pressure.

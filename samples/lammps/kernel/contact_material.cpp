@@ -33,9 +33,28 @@ ContactMaterial prepared(ContactMaterial material) {
   require("friction", material.friction, 0, kLargest, "[0, inf)");
   require("tangential", material.tangential_ratio, std::numeric_limits<double>::min(), 1, "(0, 1]");
   require("rolling", material.rolling_length, 0, kLargest, "[0, inf)");
+  require("spinning", material.spinning_length, 0, kLargest, "[0, inf)");
+  require("adhesion", material.adhesion, 0, kLargest, "[0, inf)");
   material.damping_ratio =
       is_hertz ? supernormal::hertz_damping_ratio(material.restitution) : hooke_damping_ratio(material.restitution);
   return material;
+}
+
+ContactMaterial mixed(const ContactMaterial& a, const ContactMaterial& b) {
+  if (a.law != b.law) throw std::invalid_argument("hooke and hertz do not mix");
+  // Each spring is half of the contact of a material with itself.
+  const auto in_series = [](double one, double other) { return 2 / (1 / one + 1 / other); };
+  const auto geometric = [](double one, double other) { return std::sqrt(one) * std::sqrt(other); };
+  ContactMaterial found;
+  found.law = a.law;
+  found.stiffness = in_series(a.stiffness, b.stiffness);
+  found.tangential_ratio = in_series(a.tangential_ratio * a.stiffness, b.tangential_ratio * b.stiffness) / found.stiffness;
+  found.restitution = geometric(a.restitution, b.restitution);
+  found.friction = geometric(a.friction, b.friction);
+  found.rolling_length = geometric(a.rolling_length, b.rolling_length);
+  found.spinning_length = geometric(a.spinning_length, b.spinning_length);
+  found.adhesion = geometric(a.adhesion, b.adhesion);
+  return prepared(found);
 }
 
 double effective_modulus(double youngs_modulus, double poisson_ratio) {

@@ -17,12 +17,19 @@ struct ContactMaterial {
   double friction = 0;               ///< Coulomb coefficient, >= 0; 0: no tangential spring
   double tangential_ratio = 2 / 7.;  ///< tangential over normal stiffness, in (0, 1]
   double rolling_length = 0;         ///< m; largest rolling torque over the normal force, >= 0; 0: no rolling resistance
+  double spinning_length = 0;  ///< m; largest torque about the normal over the normal force, >= 0; 0: no resistance to spinning
+  double adhesion = 0;         ///< N; pull-off force, >= 0
 
   double damping_ratio = 0;  ///< computed by prepared()
 };
 
 /// Validates the parameters and sets damping_ratio. Throws std::invalid_argument with the parameter, its value and the valid range.
 ContactMaterial prepared(ContactMaterial material);
+
+/// The contact of two materials. Normal and tangential springs are in series; for Hertz's law this is the exact modulus E* and
+/// Mindlin's tangential stiffness of two materials. Other parameters have their geometric mean. Throws std::invalid_argument if the
+/// laws differ.
+ContactMaterial mixed(const ContactMaterial& a, const ContactMaterial& b);
 
 /// The effective modulus (Pa) of two equal bodies with Young's modulus (Pa) and Poisson's ratio, and Mindlin's ratio of tangential
 /// to normal stiffness.

@@ -92,9 +92,9 @@ class Region {
     return 0.5 * twice;
   }
 
-  /// Adds corners, mean_square and turning.
+  /// Adds corners, means and their derivatives.
   void add_corners(FaceContact& contact) const {
-    Vector3 turning = Vector3::Zero();
+    Vector3 turning = Vector3::Zero(), turning_of_mean = Vector3::Zero();
     for (int k = 0; k < count_; ++k) {
       const Corner& corner = at(corners_, k);
       const double depth = depth_at(corner.place);
@@ -102,9 +102,13 @@ class Region {
       const double weight = turning_angle(corner) / kTurn;
       at(contact.corners, contact.count++) = {lift(corner.place), frame_ * lateral(corner), depth, weight};
       contact.mean_square += weight * depth * depth;
-      turning += depth * depth / kTurn * (rotation_of(corner.out) - rotation_of(corner.in));
+      contact.mean += weight * depth;
+      const Vector3 growth = (rotation_of(corner.out) - rotation_of(corner.in)) / kTurn;  // of the weight
+      turning += depth * depth * growth;
+      turning_of_mean += depth * growth;
     }
     contact.turning = frame_ * turning;
+    contact.turning_of_mean = frame_ * turning_of_mean;
   }
 
   /// The derivatives of the area by a displacement and a rotation (about the origin) of body 1.
@@ -209,6 +213,7 @@ std::optional<FacePose> find_face(const Body& body, const Vector3& direction) {
 void exchange(FaceContact& contact) {
   contact.normal = -contact.normal;
   contact.turning = -contact.turning;
+  contact.turning_of_mean = -contact.turning_of_mean;
   contact.share_by_way = -contact.share_by_way;
   contact.share_by_turn = -contact.share_by_turn;
   for (int k = 0; k < contact.count; ++k) {

@@ -31,14 +31,16 @@ struct FaceContact {
   static constexpr int kMostCorners = 4 * Face::kMostVertices;
 
   std::array<FaceCorner, kMostCorners> corners;
-  int count = 0;                            ///< the first `count` are valid; the others of the region are not in contact
-  Vector3 normal;                           ///< unit, from body 1 to body 2
-  double mean_square = 0;                   ///< m^2; the mean of the squared depths
-  Vector3 turning = Vector3::Zero();        ///< m^2; d(mean_square) by a rotation of body 1, with depths and points fixed
-  double share = 0;                         ///< in [0, 1]
-  Vector3 share_by_way = Vector3::Zero();   ///< 1/m; d(share) by a displacement of body 1
-  Vector3 share_by_turn = Vector3::Zero();  ///< d(share) by a rotation of body 1 about `origin`
-  Vector3 origin;                           ///< m
+  int count = 0;                              ///< the first `count` are valid; the others of the region are not in contact
+  Vector3 normal;                             ///< unit, from body 1 to body 2
+  double mean_square = 0;                     ///< m^2; the mean of the squared depths
+  Vector3 turning = Vector3::Zero();          ///< m^2; d(mean_square) by a rotation of body 1, with depths and points fixed
+  double mean = 0;                            ///< m; the mean of the depths, where corners that are not in contact have none
+  Vector3 turning_of_mean = Vector3::Zero();  ///< m; d(mean) by a rotation of body 1, with depths and points fixed
+  double share = 0;                           ///< in [0, 1]
+  Vector3 share_by_way = Vector3::Zero();     ///< 1/m; d(share) by a displacement of body 1
+  Vector3 share_by_turn = Vector3::Zero();    ///< d(share) by a rotation of body 1 about `origin`
+  Vector3 origin;                             ///< m
 };
 
 /// The contact of the faces of two bodies that face each other along `normal` (unit, from body 1 to body 2). Nothing if one of the

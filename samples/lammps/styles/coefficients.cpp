@@ -44,9 +44,12 @@ Coefficients read_coefficients(Words words) {
                                 : keyword == "friction"   ? &material.friction
                                 : keyword == "tangential" ? &tangential
                                 : keyword == "rolling"    ? &material.rolling_length
+                                : keyword == "spinning"   ? &material.spinning_length
+                                : keyword == "adhesion"   ? &material.adhesion
                                                           : nullptr;
       if (parameter == nullptr) {
-        throw std::invalid_argument(keyword + " is none of hooke, hertz, restitution, friction, tangential, rolling, exponents");
+        throw std::invalid_argument(
+            keyword + " is none of hooke, hertz, restitution, friction, tangential, rolling, spinning, adhesion, exponents");
       }
       *parameter = words.number(keyword);
       has_parameters = true;

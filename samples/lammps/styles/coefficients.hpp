@@ -16,7 +16,7 @@ struct Coefficients {
 
 /// Parses, in any order,
 ///     hooke STIFFNESS | hertz YOUNGS_MODULUS POISSON_RATIO, restitution E, friction MU, tangential RATIO, rolling LENGTH,
-///     exponents DELTA EPSILON
+///     spinning LENGTH, adhesion FORCE, exponents DELTA EPSILON
 /// All have defaults except the law. Throws std::invalid_argument with the error.
 Coefficients read_coefficients(Words words);
 

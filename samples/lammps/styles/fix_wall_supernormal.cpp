@@ -7,7 +7,6 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "styles/pair_supernormal.hpp"
 #include "update.h"
 
 namespace granular {
@@ -41,7 +40,16 @@ FixWallSupernormal::~FixWallSupernormal() {
 
 int FixWallSupernormal::setmask() { return FixConst::POST_FORCE; }
 
-void FixWallSupernormal::init() { bodies_ = &PairSupernormal::require(lmp, "fix wall/supernormal").bodies(); }
+void FixWallSupernormal::init() {
+  pair_ = &PairSupernormal::require(lmp, "fix wall/supernormal");
+  if (command_.type && (*command_.type < 1 || *command_.type > atom->ntypes)) {
+    error->all(FLERR, fmt::format("fix wall/supernormal: type = {} is outside [1, {}]", *command_.type, atom->ntypes));
+  }
+}
+
+const ContactMaterial& FixWallSupernormal::material(int type) const {
+  return command_.type ? pair_->material(type, *command_.type) : command_.material;
+}
 
 // A run continues with the wall where it is. The snapshots of a `rerun` have no previous step: there the step counter gives the
 // time.
@@ -73,10 +81,11 @@ void FixWallSupernormal::post_force(int /*vflag*/) {
   const double step = update->setupflag != 0 ? 0 : update->dt;
   if (step > 0) clock_.advance(step);
   const Body wall = wall_body(update->dt);
+  const BodyTable& bodies = pair_->bodies();
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & groupbit) == 0) continue;
     const WallForce found =
-        find_wall_force(*command_.wall, wall, bodies_->shape(i), bodies_->body(i), command_.material, step, history(i), scratch_);
+        find_wall_force(*command_.wall, wall, bodies.shape(i), bodies.body(i), material(atom->type[i]), step, history(i), scratch_);
     if (found.contacts == 0) continue;
     Vector3::Map(atom->f[i]) += found.force;
     Vector3::Map(atom->torque[i]) += found.torque;

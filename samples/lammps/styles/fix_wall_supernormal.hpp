@@ -7,7 +7,7 @@
 #include "fix.h"
 #include "kernel/clock.hpp"
 #include "kernel/walls/wall_contacts.hpp"
-#include "styles/body_table.hpp"
+#include "styles/pair_supernormal.hpp"
 #include "styles/wall_command.hpp"
 
 namespace granular {
@@ -43,11 +43,12 @@ class FixWallSupernormal : public LAMMPS_NS::Fix {
   static constexpr int kSums = 8;  // energy, force, torque, contacts
 
   WallHistory& history(int i) { return histories_[static_cast<std::size_t>(i)]; }
+  const ContactMaterial& material(int type) const;
   Body wall_body(double step) const;
   double total(int index);
 
   WallCommand command_;
-  BodyTable* bodies_ = nullptr;
+  PairSupernormal* pair_ = nullptr;
   Clock clock_;                      // time of the motions since the fix was created
   LAMMPS_NS::bigint first_counter_;  // step counter of LAMMPS when the fix was created
   std::vector<WallHistory> histories_;

@@ -28,6 +28,18 @@ namespace {
 
 constexpr double kProofMargin = 1e-9;  // of the bounding radii; covers the rounding of a gap
 
+// LAMMPS renamed both in 2022, after the version of Debian 12.
+#ifdef SUPERNORMAL_LAMMPS_2022
+void request_history(Neighbor& neighbor, Pair& pair, int /*instance*/) { neighbor.add_request(&pair, NeighConst::REQ_HISTORY); }
+void forward(Comm& comm, Pair& pair) { comm.forward_comm(&pair); }
+#else
+void request_history(Neighbor& neighbor, Pair& pair, int instance) {
+  const int request = neighbor.request(&pair, instance);  // moves `requests`
+  neighbor.requests[request]->history = 1;
+}
+void forward(Comm& comm, Pair& pair) { comm.forward_comm_pair(&pair); }
+#endif
+
 }  // namespace
 
 PairSupernormal::PairSupernormal(LAMMPS* lammps) : Pair(lammps) {
@@ -144,8 +156,7 @@ void PairSupernormal::init_style() {
   if (force->ftm2v != 1)
     error->all(FLERR, "pair_style supernormal takes units in which force is mass times acceleration: si, cgs, lj");
   if (atom->tag_enable == 0) error->all(FLERR, "pair_style supernormal takes atoms with tags");
-  const int request = neighbor->request(this, instance_me);
-  neighbor->requests[request]->history = 1;
+  request_history(*neighbor, *this, instance_me);
   if (history_ == nullptr) {
     const std::string number = std::to_string(instance_me);
     const std::string made = "SUPERNORMAL_HISTORY_" + number + " all NEIGH_HISTORY " + std::to_string(ContactHistory::kSize);
@@ -161,8 +172,13 @@ void PairSupernormal::init_style() {
 }
 
 double PairSupernormal::init_one(int i, int j) {
+  // LAMMPS has made sure that each type has a law with itself.
   if (setflag[std::min(i, j)][std::max(i, j)] == 0) {
-    error->all(FLERR, "pair_coeff: no contact law for types " + std::to_string(i) + " and " + std::to_string(j));
+    try {
+      materials_[index(i, j)] = materials_[index(j, i)] = mixed(material(i, i), material(j, j));
+    } catch (const std::invalid_argument& refusal) {
+      error->all(FLERR, fmt::format("pair_coeff: no contact law for types {} and {}: {}", i, j, refusal.what()));
+    }
   }
   return largest_radii_[static_cast<std::size_t>(i)] + largest_radii_[static_cast<std::size_t>(j)];
 }
@@ -171,7 +187,7 @@ void PairSupernormal::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   sums_.fill(0);
   if (neighbor->ago == 0) {
-    if (has_particle_exponents_) comm->forward_comm_pair(this);
+    if (has_particle_exponents_) forward(*comm, *this);
     bodies_->assign_shapes();
     forget_proofs();
   }
@@ -349,8 +365,6 @@ double PairSupernormal::single(int i, int j, int /*itype*/, int /*jtype*/, doubl
   return pair.force.energy;
 }
 
-void PairSupernormal::transfer_history(double* from, double* to) { std::copy_n(from, ContactHistory::kSize, to); }
-
 int PairSupernormal::pack_forward_comm(int count, int* indices, double* buffer, int /*pbc_flag*/, int* /*pbc*/) {
   for (int k = 0; k < count; ++k) {
     buffer[2 * k] = bodies_->delta(indices[k]);
@@ -399,7 +413,7 @@ void PairSupernormal::exchange_coefficients(FILE* file, bool write) {
       ContactMaterial material = materials_[index(i, j)];
       double law = material.law == NormalLaw::Hertz ? 1 : 0;
       for (double* value : {&law, &material.stiffness, &material.restitution, &material.friction, &material.tangential_ratio,
-                            &material.rolling_length, &material.damping_ratio}) {
+                            &material.rolling_length, &material.spinning_length, &material.adhesion, &material.damping_ratio}) {
         exchange(*value);
       }
       material.law = law != 0 ? NormalLaw::Hertz : NormalLaw::Hooke;

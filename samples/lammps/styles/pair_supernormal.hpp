@@ -1,6 +1,7 @@
 // pair_style supernormal: superellipsoids in contact.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -28,7 +29,11 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   double init_one(int i, int j) override;
   void compute(int eflag, int vflag) override;
   double single(int i, int j, int itype, int jtype, double square, double coul, double lj, double& force_over_distance) override;
-  void transfer_history(double* from, double* to) override;
+#ifdef SUPERNORMAL_LAMMPS_HISTORY_OF_TYPES
+  void transfer_history(double* from, double* to, int /*type*/, int /*other*/) override { copy_history(from, to); }
+#else
+  void transfer_history(double* from, double* to) override { copy_history(from, to); }
+#endif
   /// Copies the exponents of particles to their ghosts.
   int pack_forward_comm(int count, int* indices, double* buffer, int pbc_flag, int* pbc) override;
   void unpack_forward_comm(int count, int first, double* buffer) override;
@@ -48,6 +53,7 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   enum Sum { Contacts, Slipping, Queries, Evaluations, Faces, SumCount };  // compute pair
   static constexpr int kSingles = 12;                                      // compute pair/local
 
+  static void copy_history(const double* from, double* to) { std::copy_n(from, ContactHistory::kSize, to); }
   void allocate();
   void report_volumes() const;
   std::size_t index(int i, int j) const;

@@ -74,10 +74,14 @@ falling_particles::WallMotion read_motion(Words& words) {
 WallCommand read_wall_command(Words words) {
   WallCommand command;
   read_shape(words, command);
-  const Coefficients coefficients = read_coefficients(words.take_until("move"));
-  if (!coefficients.has_material) throw std::invalid_argument("the law is missing: hooke or hertz");
-  if (coefficients.has_exponents) throw std::invalid_argument("exponents belong to the particles' types: pair_coeff");
-  command.material = coefficients.material;
+  if (words.accept("type")) {
+    command.type = words.integer("type");
+  } else {
+    const Coefficients coefficients = read_coefficients(words.take_until("move"));
+    if (!coefficients.has_material) throw std::invalid_argument("the law is missing: hooke, hertz or type");
+    if (coefficients.has_exponents) throw std::invalid_argument("exponents belong to the particles' types: pair_coeff");
+    command.material = coefficients.material;
+  }
   while (!words.is_empty()) {
     words.next("move");
     command.motions.push_back(read_motion(words));

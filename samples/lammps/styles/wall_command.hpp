@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "kernel/contact_material.hpp"
@@ -15,13 +16,15 @@ namespace granular {
 struct WallCommand {
   std::unique_ptr<Wall> wall;
   Vector3 anchor = Vector3::Zero();  ///< m; initial origin of the wall's frame
-  ContactMaterial material;
+  ContactMaterial material;          ///< unless `type` is set
+  std::optional<int> type;           ///< the wall has the material of this atom type
   std::vector<falling_particles::WallMotion> motions;
 };
 
 /// Parses
 ///     plane POINT NORMAL | box LOW HIGH | cylinder POINT AXIS RADIUS | mesh FILE UNIT
-/// Each takes three numbers, except RADIUS and UNIT (m). Then follow the contact law of pair_coeff, and any number of
+/// Each takes three numbers, except RADIUS and UNIT (m). Then follow the contact law of pair_coeff, or `type` and an atom type, and
+/// any number of
 ///     move linear VELOCITY | rotate AXIS POINT RPM | vibrate AMPLITUDE FREQUENCY PHASE | conveyor VELOCITY
 /// each with optional `from SECONDS` and `until SECONDS`.
 /// Throws std::invalid_argument or std::runtime_error with the error.

@@ -23,6 +23,8 @@ bool Words::accept(const std::string& word) {
 
 double Words::number(const std::string& keyword) { return LAMMPS_NS::utils::numeric(FLERR, next(keyword).c_str(), false, lammps_); }
 
+int Words::integer(const std::string& keyword) { return LAMMPS_NS::utils::inumeric(FLERR, next(keyword).c_str(), false, lammps_); }
+
 Vector3 Words::vector(const std::string& keyword) {
   const double x = number(keyword), y = number(keyword), z = number(keyword);
   return {x, y, z};

@@ -24,6 +24,7 @@ class Words {
 
   /// The next number, or the next three. LAMMPS ends the program on any other word.
   double number(const std::string& keyword);
+  int integer(const std::string& keyword);
   Vector3 vector(const std::string& keyword);
 
   /// The words before the first `separator`. Leaves the separator and the rest.

@@ -55,7 +55,30 @@ TEST_CASE("lammps: an invalid material is refused with name, value and range") {
   CHECK(refusal({.stiffness = 1, .friction = std::nan("")}) == "friction = nan is outside [0, inf)");
   CHECK(refusal({.stiffness = 1, .tangential_ratio = 2}) == "tangential = 2 is outside (0, 1]");
   CHECK(refusal({.stiffness = 1, .rolling_length = -1}) == "rolling = -1 is outside [0, inf)");
+  CHECK(refusal({.stiffness = 1, .spinning_length = -1}) == "spinning = -1 is outside [0, inf)");
+  CHECK(refusal({.stiffness = 1, .adhesion = -1}) == "adhesion = -1 is outside [0, inf)");
   CHECK(refusal({.stiffness = 1}).empty());
+}
+
+TEST_CASE("lammps: two materials have springs in series, and Mindlin's stiffness of two materials") {
+  const double E1 = 1e8, nu1 = 0.3, E2 = 4e7, nu2 = 0.45;
+  const auto of = [](double E, double nu, double friction) {
+    return prepared({.law = NormalLaw::Hertz,
+                     .stiffness = effective_modulus(E, nu),
+                     .restitution = 0.5,
+                     .friction = friction,
+                     .tangential_ratio = mindlin_ratio(nu)});
+  };
+  const ContactMaterial both = mixed(of(E1, nu1, 0.1), of(E2, nu2, 0.4));
+  // Johnson, Contact Mechanics: E* of eq. 4.22, and the tangential over the normal stiffness, 8 a G* / (2 a E*), of section 7.2.
+  const double modulus = 1 / ((1 - nu1 * nu1) / E1 + (1 - nu2 * nu2) / E2);
+  const double G1 = E1 / 2 / (1 + nu1), G2 = E2 / 2 / (1 + nu2);
+  const double shear = 1 / ((2 - nu1) / G1 + (2 - nu2) / G2);
+  CHECK(both.stiffness == relative(modulus).epsilon(1e-12));
+  CHECK(both.tangential_ratio == relative(4 * shear / modulus).epsilon(1e-12));
+  CHECK(both.friction == relative(0.2).epsilon(1e-12));
+  CHECK(both.damping_ratio == of(E1, nu1, 0).damping_ratio);
+  CHECK_THROWS_WITH_AS(mixed(of(E1, nu1, 0), prepared({.stiffness = 1})), "hooke and hertz do not mix", std::invalid_argument);
 }
 
 TEST_CASE("lammps: damping and restitution are inverse functions on both sides of critical damping") {
@@ -89,7 +112,7 @@ TEST_CASE("lammps: Hertz's force becomes the force of a flat punch without a jum
 TEST_CASE("lammps: elastic forces and torques are the derivatives of the energy") {
   std::mt19937 random(7);
   for (int i = 0; i < 50; ++i) {
-    TwoBodies pair = overlapping(random, {.stiffness = 1e5});
+    TwoBodies pair = overlapping(random, {.stiffness = 1e5, .adhesion = i % 2 == 0 ? 0 : 2.0});
     const PairContact contact = pair.find(0);
     for (int axis = 0; axis < 3; ++axis) {
       // `contact` belongs to body 1.
@@ -102,7 +125,8 @@ TEST_CASE("lammps: elastic forces and torques are the derivatives of the energy"
 
 TEST_CASE("lammps: a contact changes neither momentum nor angular momentum") {
   std::mt19937 random(8);
-  const ContactMaterial material{.stiffness = 1e5, .restitution = 0.5, .friction = 0.4, .rolling_length = 1e-3};
+  const ContactMaterial material{
+      .stiffness = 1e5, .restitution = 0.5, .friction = 0.4, .rolling_length = 1e-3, .spinning_length = 2e-3, .adhesion = 2};
   for (int i = 0; i < 50; ++i) {
     TwoBodies pair = overlapping(random, material);
     for (int step = 0; step < 3; ++step) {
@@ -116,7 +140,8 @@ TEST_CASE("lammps: a contact changes neither momentum nor angular momentum") {
 
 TEST_CASE("lammps: friction stays in Coulomb's cone and rotates with the pair") {
   std::mt19937 random(9);
-  const ContactMaterial material{.stiffness = 1e5, .restitution = 0.7, .friction = 0.4, .rolling_length = 1e-3};
+  const ContactMaterial material{
+      .stiffness = 1e5, .restitution = 0.7, .friction = 0.4, .rolling_length = 1e-3, .spinning_length = 2e-3};
   for (int i = 0; i < 50; ++i) {
     TwoBodies pair = overlapping(random, material);
     const PairContact before = [&] {
@@ -126,7 +151,9 @@ TEST_CASE("lammps: friction stays in Coulomb's cone and rotates with the pair") 
     }();
     const double friction = (before.force.force - before.force.force.dot(before.contact.normal) * before.contact.normal).norm();
     CHECK(friction <= 0.4 * before.force.normal * (1 + 1e-12));
-    CHECK(before.force.torque.norm() <= 1e-3 * before.force.normal * (1 + 1e-12));
+    const double spinning = before.force.torque.dot(before.contact.normal);
+    CHECK((before.force.torque - spinning * before.contact.normal).norm() <= 1e-3 * before.force.normal * (1 + 1e-12));
+    CHECK(std::abs(spinning) <= 2e-3 * before.force.normal * (1 + 1e-12));
     // Both bodies rotate by half a revolution as one, and the springs rotate with them.
     const Vector3 spin = 30 * Vector3(1, -2, 0.5).normalized();
     pair.first.set_velocity(Vector3::Zero(), Vector3::Zero());

@@ -138,6 +138,9 @@ TEST_CASE("to LAMMPS: the springs of a scene are kept") {
   Scene scene = scene_of("short");
   scene.effects.emplace_back(fx::Hertz{1e8, 0.3, 0.7, {}});
   CHECK(has(lammps_input(scene).commands, "hertz 100000000 0.3 restitution 0.7 friction 0.4"));
+  scene.effects.emplace_back(fx::RollingResistance{1e-4, 2e-4, {}});
+  scene.effects.emplace_back(fx::Adhesion{0.001, {}});
+  CHECK(has(lammps_input(scene).commands, "friction 0.4 rolling 0.0001 spinning 0.0002 adhesion 0.001"));
 }
 
 TEST_CASE("to LAMMPS: a setting without a counterpart is refused by name") {
