@@ -328,6 +328,21 @@ class FallingParticles(RunTest):
         self.assertEqual(self.ensemble("collect").returncode, 0)
         self.assertEqual(self.tables(), expected)
 
+    def test_points_keep_the_bonds_of_their_start(self):
+        # Bonds anew would be unstrained, and broken ones whole again.
+        scene = self.folder / "bonded.toml"
+        text = (SCENES / "beam.toml").read_text().replace('"../data', f'"{SCENES.parent}/data')
+        scene.write_text(text)
+        times = '"time.duration" = 0.02\n"time.frame" = 0.01\n'
+        self.write(f"seeds = 1\nkeep = true\n[start.set]\n{times}[set]\n{times}", scene)
+        done = self.ensemble("point", 0, program=PROGRAM)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        tables = [path.read_text().splitlines() for path in (self.out / "runs").glob("*/bonded/bonds.csv")]
+        self.assertEqual(len(tables), 2)
+        unstrained, strained = sorted(tables, key=lambda lines: float(lines[1].split(",")[-1]))
+        self.assertLess(float(unstrained[1].split(",")[-1]), 1e-20)
+        self.assertAlmostEqual(float(strained[1].split(",")[-1]) / float(unstrained[-1].split(",")[-1]), 1, 6)
+
     def test_a_misspelt_column_or_table_is_refused_before_the_first_run(self):
         for collect, says in (
             ('table = "energies.csv"\ncolumn = "kinetik_J"', 'energies.csv has no column kinetik_J; did you mean "kinetic_J"?; there are: time_s, '),

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 import time
+import tomllib
 
 from .quantity import NoValue
 from .toml_text import toml_text
@@ -63,9 +64,20 @@ def _simulate_point(sweep, point, store, run, program, lock):
             failure = _simulate(sweep, sweep.start.scene, sweep.start_assignments(point), store, start, program, start_lock)
         if failure is not None:
             return f"its start: {failure}"
-        state = _results_folder(sweep.start.scene, store, start).absolute() / "final_state.csv"
-        assignments = [*assignments, f"start.file={toml_text(str(state))}"]
+        results = _results_folder(sweep.start.scene, store, start).absolute()
+        bonds = f".file={toml_text(str(results / 'final_bonds.csv'))}"
+        of_start = _bonds_in(sweep.start.scene)
+        assignments = [f"bond[{name}]{bonds}" for name in _bonds_in(sweep.scene) if name in of_start] + assignments
+        assignments += [f"start.file={toml_text(str(results / 'final_state.csv'))}"]
     return _simulate(sweep, sweep.scene, assignments, store, run, program, lock)
+
+
+def _bonds_in(scene):
+    """The names of its sections [[bond]]; none of a scene that falling_particles refuses."""
+    try:
+        return [bond["name"] for bond in tomllib.loads(scene.read_text(encoding="utf-8")).get("bond", [])]
+    except (tomllib.TOMLDecodeError, AttributeError, KeyError, TypeError):
+        return []
 
 
 def _simulate(sweep, scene, assignments, store, run, program, lock):
