@@ -172,6 +172,13 @@ std::string list_walls() {
   parameters  direction; amplitude: m, in (0, 1000]; frequency: Hz, at least ten steps a period; phase: degrees, 0 without it
 [[part.motion]] kind = "conveyor"
   parameters  velocity: m/s, or axis, point, rpm: of the surface of a part that stands
+[part.free]
+  is          a part that flies: its weight and contacts move it in all directions; it meets grains and other walls
+  parameters  mass: kg, in [1e-12, 1e6]
+              inertia: kg m^2, three moments about the centre of mass, along the part's axes; those of its solid without it
+              centre: m, of mass, in the part's frame; that of its solid without it
+              velocity: m/s, each in [-1000, 1000]; angular_velocity: rad/s, three, up to a tenth of a revolution in a step; 0
+              from: s; the part is held before; 0 without it
 [part.drive]
   parameters  axis: along or about which it pushes, and the only way it can go; one of force, pressure, torque, power and stress
               from, until: s; it is held before, and only its weight is left after; travel: least and most way, m, or degrees in [-170, 170]

@@ -167,8 +167,9 @@ std::size_t read_part(const TomlTable& section, const Scene& scene) {
     section.fail("part", "bond.part is \"" + name + "\"" + did_you_mean(name, names) + "; allowed: a part of the scene" +
                              (names.empty() ? ", which has none" : ": " + join(names)));
   }
-  if (found->drive) {
-    section.fail("part", "bond.part is \"" + name + "\", which a force drives; allowed: a part that stands or has motions");
+  if (found->drive || found->flight) {
+    section.fail("part", "bond.part is \"" + name + "\", which " + (found->drive ? "a force drives" : "is free") +
+                             "; allowed: a part that stands or has motions");
   }
   return static_cast<std::size_t>(found - scene.walls.begin());
 }

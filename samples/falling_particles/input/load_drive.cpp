@@ -14,10 +14,7 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kLargest = 1e9;   // N, N m, Pa, W, N s/m or N m s
-constexpr double kHeaviest = 1e6;  // kg or kg m^2
-// ODE squares the moment of inertia, a thousand times mass times radius squared. Far smaller masses give NaN.
-constexpr double kLightest = 1e-12;
+constexpr double kLargest = 1e9;  // N, N m, Pa, W, N s/m or N m s
 constexpr double kRadians = std::numbers::pi / 180;
 
 const std::vector<std::string> kLaws = {"force", "pressure", "torque", "power", "stress"};

@@ -8,6 +8,10 @@
 
 namespace falling_particles {
 
+inline constexpr double kHeaviest = 1e6;  // kg or kg m^2
+// ODE squares the moment of inertia, a thousand times mass times radius squared. Far smaller masses give NaN.
+inline constexpr double kLightest = 1e-12;
+
 /// Reads `drive` of a part, if it has one, but the walls between which a servo is. The part's shape, pose and motions must have
 /// been read. Throws InputError.
 std::optional<Drive> read_drive(const TomlTable& part, const Wall& wall);

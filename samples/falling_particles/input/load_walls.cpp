@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "load_drive.hpp"
+#include "load_flight.hpp"
 #include "load_mesh.hpp"
 #include "load_motion.hpp"
 #include "load_sections.hpp"
@@ -33,7 +34,7 @@ std::vector<std::string> keys_of_shape(const std::string& shape) {
 }
 
 std::vector<std::string> with_common_keys(std::vector<std::string> keys) {
-  for (const char* key : {"name", "shape", "position", "axis", "angle", "friction", "restitution", "motion", "drive"})
+  for (const char* key : {"name", "shape", "position", "axis", "angle", "friction", "restitution", "motion", "drive", "free"})
     keys.emplace_back(key);
   return keys;
 }
@@ -156,6 +157,7 @@ Wall read_wall(const TomlTable& table, const std::vector<Wall>& walls, const Tim
   wall.start = read_pose(table);
   if (table.has("motion")) wall.motions = read_motions(table, time);
   wall.drive = read_drive(table, wall);
+  wall.flight = read_flight(table, wall, time);
   if (table.has("friction")) wall.friction = table.number("friction", Interval::positive(100, ""));
   if (table.has("restitution")) wall.restitution = table.number("restitution", Interval::positive(1, ""));
   return wall;

@@ -174,6 +174,7 @@ std::optional<std::string> find_end(const Wall& wall, std::size_t axis, const Pe
   for (const WallMotion& motion : wall.motions) {
     if (std::optional<std::string> end = find_end_of_motion(wall, motion, axis, way)) return end;
   }
+  if (wall.flight) return "it is free";
   if (wall.drive && wall.drive->turns() && !is_along(wall.drive->axis, axis)) return "its drive does not turn it about the axis";
   if (wall.drive && !wall.drive->turns() && !is_across(wall.drive->axis, axis)) return "its drive takes it along the axis";
   const Ends ends = ends_of(wall, axis);

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <supernormal/shapes/box.hpp>
+#include <supernormal/shapes/cylinder.hpp>
+#include <supernormal/shapes/superovoid.hpp>
+#include <utility>
 
 namespace falling_particles {
 namespace {
@@ -18,6 +23,37 @@ double radius_of(const MeshShape& mesh) {
   double radius = 0;
   for (const auto& [x, y, z] : mesh.vertices) radius = std::max(radius, Vector3(x, y, z).norm());
   return radius;
+}
+
+/// Whether each edge of each triangle is the edge of one other triangle, in the other direction.
+bool is_closed(const Mesh& mesh) {
+  std::map<std::pair<unsigned int, unsigned int>, int> edges;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    for (const auto& edge : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) ++edges[edge];
+  }
+  return std::ranges::all_of(edges, [&](const auto& entry) {
+    const auto back = edges.find({entry.first.second, entry.first.first});
+    return entry.second == 1 && back != edges.end();
+  });
+}
+
+/// The sum over the tetrahedra from the origin to the triangles.
+supernormal::MassProperties sum_of(const Mesh& mesh) {
+  supernormal::MassProperties sum;
+  const auto corner = [&](unsigned int index) {
+    const auto& [x, y, z] = mesh.vertices[index];
+    return Vector3(x, y, z);
+  };
+  Vector3 first_moment = Vector3::Zero();
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vector3 a = corner(i), b = corner(j), c = corner(k), s = a + b + c;
+    const double volume = a.dot(b.cross(c)) / 6;
+    sum.volume += volume;
+    first_moment += volume / 4 * s;
+    sum.second_moment += volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());
+  }
+  sum.centroid = first_moment / sum.volume;
+  return sum;
 }
 
 /// A face and its unit normal, towards the grains.
@@ -42,6 +78,20 @@ std::vector<Face> faces_of(const WallShape& shape, const WallPose& pose) {
 
 double bounding_radius(const WallShape& shape) {
   return std::visit([](const auto& kind) { return radius_of(kind); }, shape);
+}
+
+std::optional<supernormal::MassProperties> solid_of(const WallShape& shape) {
+  if (const auto* box = std::get_if<BoxShape>(&shape)) return supernormal::Box(box->size / 2).mass_properties();
+  if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) {
+    return supernormal::Cylinder(cylinder->radius, cylinder->length / 2).mass_properties();
+  }
+  if (const auto* body = std::get_if<SmoothShape>(&shape)) {
+    return supernormal::Superovoid(body->half_axes, body->delta, body->epsilon, body->taper_x, body->taper_y).mass_properties();
+  }
+  const auto* mesh = std::get_if<MeshShape>(&shape);
+  if (mesh == nullptr || mesh->two_sided || !is_closed(*mesh)) return std::nullopt;
+  const supernormal::MassProperties solid = sum_of(*mesh);
+  return solid.volume > 0 ? std::optional(solid) : std::nullopt;
 }
 
 std::optional<FacingFaces> facing_faces(const WallShape& first, const WallPose& at_first, const WallShape& second,

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <supernormal/shapes/shape.hpp>
 #include <variant>
 #include <vector>
 
 #include "drive.hpp"
+#include "flight.hpp"
 #include "geometry.hpp"
 #include "motion.hpp"
 
@@ -68,16 +70,21 @@ struct Wall {
   WallPose start = {};
   std::vector<WallMotion> motions = {};
   std::optional<Drive> drive = {};
+  std::optional<Flight> flight = {};       ///< of a free wall, which has neither motions nor a drive
   std::optional<double> friction = {};     ///< coefficient of grains on it; as on other walls if empty
   std::optional<double> restitution = {};  ///< of grains on it; as on other walls if empty
   WallRole role = WallRole::Part;
 
   bool is_part() const { return role == WallRole::Part; }
-  bool moves() const { return !motions.empty() || drive.has_value(); }
+  bool moves() const { return !motions.empty() || drive || flight; }
 };
 
 /// m, radius of a sphere around the wall's position that contains the wall; infinite for a plane and a ground.
 double bounding_radius(const WallShape& shape);
+
+/// The volume, centroid and moments of a wall's solid, in its frame; empty for walls without a finite volume: planes, grounds,
+/// two-sided meshes, and meshes whose triangles do not close with their fronts outside.
+std::optional<supernormal::MassProperties> solid_of(const WallShape& shape);
 
 /// Two parallel faces that face each other, of planes or boxes.
 struct FacingFaces {

@@ -33,7 +33,8 @@ bool keeps(const Wall& wall, const Vector3& direction) {
     const auto* const rotation = std::get_if<Rotation>(&motion.kind);
     return rotation != nullptr && tilts(rotation->axis);
   };
-  return std::ranges::none_of(wall.motions, is_tilted_by) && !(wall.drive && wall.drive->turns() && tilts(wall.drive->axis));
+  return !wall.flight && std::ranges::none_of(wall.motions, is_tilted_by) &&
+         !(wall.drive && wall.drive->turns() && tilts(wall.drive->axis));
 }
 
 /// `pairs`: along x, y and z.

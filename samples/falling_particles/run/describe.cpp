@@ -87,6 +87,7 @@ std::string describe(const Wall& wall) {
   std::string text = wall.name + ": " + shape_of(wall);
   for (const WallMotion& motion : wall.motions)
     text += std::string(", ") + kMotions[motion.kind.index()] + from_until(motion.from, motion.until);
+  if (wall.flight) text += ", free, " + rounded(wall.flight->mass) + " kg" + from_until(wall.flight->from, INFINITY);
   if (wall.drive) text += ", " + describe(*wall.drive) + from_until(wall.drive->from, wall.drive->until);
   return text;
 }

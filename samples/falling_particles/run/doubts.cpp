@@ -214,14 +214,19 @@ void add_layer(const Scene& scene, std::vector<std::string>& doubts) {
   }
 }
 
-/// Adds a doubt about a motion or drive that starts at the end of the run or later.
+/// m, the displacement of a free wall in the first step of its flight; of its farthest point if it turns.
+double first_way_of(const Wall& wall, const Flight& flight, double step) {
+  return step * (flight.velocity.linear.norm() + flight.velocity.angular.norm() * bounding_radius(wall.shape));
+}
+
+/// Adds a doubt about a motion, drive or flight that starts at the end of the run or later.
 void add_late(const Scene& scene, const Wall& wall, std::vector<std::string>& doubts) {
   const auto is_late = [&](double from) { return from >= scene.time.duration; };
   if (std::ranges::none_of(wall.motions, [&](const WallMotion& motion) { return is_late(motion.from); }) &&
-      !(wall.drive && is_late(wall.drive->from))) {
+      !(wall.drive && is_late(wall.drive->from)) && !(wall.flight && is_late(wall.flight->from))) {
     return;
   }
-  doubts.push_back("part \"" + wall.name + "\" has a motion or a drive that starts at the end of the run, after " +
+  doubts.push_back("part \"" + wall.name + "\" has a motion, a drive or a flight that starts at the end of the run, after " +
                    shortest(scene.time.duration) + " s, or later");
 }
 
@@ -262,6 +267,13 @@ void add_walls(const Scene& scene, std::vector<std::string>& doubts) {
     if (way > size) {
       doubts.push_back(moves_too_far("part \"" + wall.name + "\" moves", way, scene) + "time.step up to " +
                        rounded(scene.time.step * size / way) + " s would do");
+    }
+    if (wall.flight) {
+      const double first = first_way_of(wall, *wall.flight, scene.time.step);
+      if (first > size) {
+        doubts.push_back(moves_too_far("part \"" + wall.name + "\" flies", first, scene) + "time.step up to " +
+                         rounded(scene.time.step * size / first) + " s would do");
+      }
     }
     if (!wall.drive) continue;
     if (wall.drive->servo) add_gain(scene, wall, doubts);
@@ -373,6 +385,7 @@ std::vector<std::string> doubts_about(const Scene& scene) {
 void refuse_overlapping_start(const Scene& scene) {
   scene.start ? refuse_bad_state(scene) : refuse_start_in_parts(scene);
   if (!scene.bonds.empty()) refuse_bad_bonds(scene);
+  if (std::ranges::any_of(scene.walls, [](const Wall& wall) { return wall.flight.has_value(); })) refuse_bad_flights(scene);
 }
 
 }  // namespace falling_particles

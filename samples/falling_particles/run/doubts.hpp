@@ -44,4 +44,7 @@ void refuse_bad_state(const Scene& scene);
 /// solver. The scene has bonds.
 void refuse_bad_bonds(const Scene& scene);
 
+/// Throws InputError if a free wall overlaps another wall at the start. Both would be pushed apart.
+void refuse_bad_flights(const Scene& scene);
+
 }  // namespace falling_particles

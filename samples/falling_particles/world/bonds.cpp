@@ -30,11 +30,6 @@ Vector3 rotation_vector(Quaterniond rotation) {
   return sine < kSmall ? Vector3(2 * rotation.vec()) : Vector3(2 * std::atan2(sine, rotation.w()) / sine * rotation.vec());
 }
 
-Quaterniond rotation_by(const Vector3& vector) {
-  const double angle = vector.norm();
-  return angle > 0 ? Quaterniond(Eigen::AngleAxisd(angle, vector / angle)) : Quaterniond::Identity();
-}
-
 /// The response of one body to a force or torque of 1 N or 1 N m.
 class Response {
  public:

@@ -33,6 +33,8 @@ void set_relative_velocity(dContact& contact, const Vector3& velocity) {
   contact.surface.motionN = asked + normal.dot(velocity);
 }
 
+bool are_walls(dGeomID g1, dGeomID g2) { return grain_of(g1) == nullptr && grain_of(g2) == nullptr; }
+
 bool is_same_pair(const dContactGeom& a, const dContactGeom& b) { return a.g1 == b.g1 && a.g2 == b.g2; }
 
 }  // namespace
@@ -61,9 +63,14 @@ void ContactJoints::attach(std::span<const dContactGeom> pair, bool measures) {
   const auto contacts = std::span(room).first(pair.size());
   for (std::size_t i = 0; i < pair.size(); ++i) contacts[i].geom = pair[i];
   const auto [geom1, geom2] = std::pair{pair[0].g1, pair[0].g2};
-  const Side side1 = side_of(geom1), side2 = side_of(geom2);
-  if (is_moving_wall(geom1, side1)) dBodyEnable(side2.body);
-  if (is_moving_wall(geom2, side2)) dBodyEnable(side1.body);
+  Side side1 = side_of(geom1);
+  const Side side2 = side_of(geom2);
+  if (are_walls(geom1, geom2)) {
+    side1.material = kGrainMaterial;  // a free wall meets the other one as grains do
+  } else {
+    if (is_moving_wall(geom1, side1)) dBodyEnable(side2.body);
+    if (is_moving_wall(geom2, side2)) dBodyEnable(side1.body);
+  }
   const int count = world_.effects().set_up_contacts(contacts, side1, side2);
   const auto kept = contacts.first(static_cast<std::size_t>(count));
   follow_chords(kept, side1, side2);
@@ -83,6 +90,7 @@ void ContactJoints::follow_chords(std::span<dContact> contacts, const Side& side
   if (contacts.empty()) return;
   const dContactGeom& geom = contacts.front().geom;
   const bool is_wall_first = grain_of(geom.g1) == nullptr;
+  if (are_walls(geom.g1, geom.g2)) return;
   if ((is_wall_first ? side1 : side2).body == nullptr || (!is_wall_first && grain_of(geom.g2) != nullptr)) return;
   const dBodyID grain = (is_wall_first ? side2 : side1).body;
   const Vector3 excess = world_.walls().chord_excess(is_wall_first ? geom.g1 : geom.g2, to_vector(dBodyGetPosition(grain)),

@@ -34,7 +34,8 @@ class ContactJoints {
   ContactJoints& operator=(ContactJoints&&) = delete;
 
   /// Replaces the joints of the last step by joints for `contacts`, as the effects of the world set them up. The contacts of a
-  /// pair, at most kContactsPerPair, must be consecutive. If `measures`, measured() has their forces after the next step.
+  /// pair, at most kContactsPerPair, must be consecutive. Of two walls the first is free; it has the friction and restitution of
+  /// grains on the second. If `measures`, measured() has their forces after the next step.
   void replace(std::span<const dContactGeom> contacts, bool measures = false);
 
   /// The contacts that the effects have kept, in the order of their pairs. Empty if `measures` was false.

@@ -2,12 +2,37 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <stdexcept>
+#include <utility>
 #include <variant>
+
+#include "to_vector.hpp"
 
 namespace falling_particles {
 namespace {
+
+/// The contacts of two walls that are asked for. ODE finds those of a mesh in the order of its vertices, and the first few may be
+/// on one side of a large face.
+constexpr int kContactsOfWalls = 256;
+
+/// Moves the deepest contact to the front and behind it, one after the other, those farthest from the contacts before them. Returns
+/// the first `most`.
+std::span<dContactGeom> spread_contacts(std::span<dContactGeom> contacts, std::size_t most) {
+  const auto distance = [](const dContactGeom& a, const dContactGeom& b) { return (to_vector(a.pos) - to_vector(b.pos)).norm(); };
+  const std::size_t count = std::min(most, contacts.size());
+  for (std::size_t kept = 0; kept < count; ++kept) {
+    const auto rank = [&](const dContactGeom& contact) -> double {
+      if (kept == 0) return contact.depth;
+      double nearest = INFINITY;
+      for (const dContactGeom& other : contacts.first(kept)) nearest = std::min(nearest, distance(contact, other));
+      return nearest;
+    };
+    std::swap(contacts[kept], *std::ranges::max_element(contacts.subspan(kept), {}, rank));
+  }
+  return contacts.first(count);
+}
 
 bool is_awake(dGeomID geom) {
   const dBodyID body = dGeomGetBody(geom);
@@ -22,7 +47,12 @@ bool may_sleep(const Scene& scene) {
 }  // namespace
 
 Stepper::Stepper(const World& world, const Scene& scene, int threads)
-    : world_(world), step_(scene.time.step), may_sleep_(may_sleep(scene)), joints_(world), batch_(snBatchCreate(threads)) {
+    : world_(world),
+      step_(scene.time.step),
+      may_sleep_(may_sleep(scene)),
+      joints_(world),
+      joints_of_walls_(world),
+      batch_(snBatchCreate(threads)) {
   if (batch_ == nullptr) throw std::runtime_error(snLastError());
   world_.effects().measure();
 }
@@ -39,11 +69,13 @@ void Stepper::step(bool measures) {
     collide_grains();
     sort_contacts();
     collide_with_walls();
+    collide_free_walls();
     if (Bonds* bonds = world_.bonds()) bonds->reduce(contacts_);
   }
   {
     const Stopwatch::Lap lap(costs_.contact_setup);
     joints_.replace(contacts_, measures);
+    joints_of_walls_.replace(contacts_of_walls_);
     world_.effects().apply_forces();
     if (Bonds* bonds = world_.bonds()) bonds->before_step();
     if (PeriodicCell* cell = world_.cell(); cell != nullptr && world_.scene().looks_ahead()) cell->share_ways();
@@ -77,6 +109,16 @@ void Stepper::collide_with_walls() {
   for (const auto& [grain, wall] : wall_pairs_) {
     std::array<dContactGeom, kContactsPerPair> found;
     add_contacts(this, grain, wall, found.data(), dCollide(grain, wall, kContactsPerPair, found.data(), sizeof(dContactGeom)));
+  }
+}
+
+void Stepper::collide_free_walls() {
+  contacts_of_walls_.clear();
+  for (const auto& [g1, g2] : world_.walls().pairs_of_free()) {
+    std::array<dContactGeom, kContactsOfWalls> found;
+    const auto count = static_cast<std::size_t>(dCollide(g1, g2, kContactsOfWalls, found.data(), sizeof(dContactGeom)));
+    const auto spread = spread_contacts(std::span(found).first(count), kContactsPerPair);
+    contacts_of_walls_.insert(contacts_of_walls_.end(), spread.begin(), spread.end());
   }
 }
 

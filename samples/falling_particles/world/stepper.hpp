@@ -58,6 +58,7 @@ class Stepper {
  private:
   void collide_grains();
   void collide_with_walls();
+  void collide_free_walls();
   void sort_contacts();
   static int name_pair(void* self, dGeomID g1, dGeomID g2);
   static void add_contacts(void* self, dGeomID g1, dGeomID g2, const dContactGeom* contacts, int count);
@@ -66,9 +67,11 @@ class Stepper {
   double step_;
   bool may_sleep_;  // if true, pairs without an awake body are skipped
   ContactJoints joints_;
+  ContactJoints joints_of_walls_;  // between free walls and other walls, which no measurement counts
   snBatchID batch_;
   std::vector<std::pair<dGeomID, dGeomID>> wall_pairs_;
   std::vector<dContactGeom> contacts_;
+  std::vector<dContactGeom> contacts_of_walls_;
   double deepest_contact_ = 0;
   StepCosts costs_;
 };

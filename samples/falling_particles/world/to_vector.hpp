@@ -1,4 +1,4 @@
-// Vectors of ODE.
+// Vectors of ODE, and rotations by vectors.
 #pragma once
 
 #include <ode/ode.h>
@@ -8,6 +8,12 @@
 namespace falling_particles {
 
 inline Vector3 to_vector(const dReal* v) { return {v[0], v[1], v[2]}; }
+
+/// `vector`: rad, along the axis.
+inline Eigen::Quaterniond rotation_by(const Vector3& vector) {
+  const double angle = vector.norm();
+  return angle > 0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle)) : Eigen::Quaterniond::Identity();
+}
 
 /// m/s, the velocity with which ODE moved a body in the last step: its new velocity before [damping], which ODE applies after the
 /// move. 0 if damping has taken all of it.

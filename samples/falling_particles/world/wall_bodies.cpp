@@ -33,6 +33,16 @@ std::vector<double> rows_along_z(const GroundShape& ground) {
   return heights;
 }
 
+bool boxes_meet(dGeomID g1, dGeomID g2) {
+  dReal first[6], second[6];
+  dGeomGetAABB(g1, first);
+  dGeomGetAABB(g2, second);
+  for (int i = 0; i < 6; i += 2) {
+    if (first[i] > second[i + 1] || second[i] > first[i + 1]) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 WallPose WallBodies::Entry::wall_pose() const { return driven == nullptr ? pose : driven->pose_on(pose); }
@@ -61,12 +71,16 @@ WallBodies::WallBodies(dWorldID world, const std::vector<Wall>& walls, double st
     set_pose(entry.carrier, entry.pose);
     dBodyDisable(entry.carrier);
     if (wall.drive) entry.driven = std::make_unique<DrivenBody>(world, entry.carrier, wall, step);
+    if (!wall.flight) continue;
+    entry.flying = std::make_unique<FlyingBody>(world, wall, step);
+    if (wall.flight->from == 0) entry.velocity = mean_velocity(entry.pose, entry.flying->next(entry.pose), step);
   }
 }
 
 WallBodies::~WallBodies() {
   for (Entry& entry : entries_) {
     entry.driven.reset();
+    entry.flying.reset();
     if (entry.carrier != nullptr) dBodyDestroy(entry.carrier);
     dGeomDestroy(entry.geom);
   }
@@ -164,6 +178,10 @@ void WallBodies::before_step() {
   const double then = static_cast<double>(steps_ + 1) * step_;
   for (Entry& entry : entries_) {
     if (entry.carrier == nullptr) continue;
+    if (entry.flying != nullptr) {
+      prepare_flight(entry, now, then);
+      continue;
+    }
     const std::span<const WallMotion> motions = entry.wall->motions;
     entry.next = pose_at(entry.wall->start, motions, then);
     entry.velocity = mean_velocity(entry.pose, entry.next, step_);
@@ -182,6 +200,24 @@ void WallBodies::before_step() {
   }
 }
 
+// The end of the step is unknown, as that of a driven turn below.
+void WallBodies::prepare_flight(Entry& entry, double now, double then) {
+  FlyingBody& body = *entry.flying;
+  body.before_step(now);
+  entry.is_moving = !body.is_held();
+  if (!entry.is_moving) return;
+  const WallPose from = body.centred(entry.pose);
+  entry.lever_base = from.position;
+  entry.excess = falling_particles::chord_excess(entry.wall->start, from, body.centred(body.next(entry.pose)), {}, now, then);
+}
+
+void WallBodies::fly(Entry& entry) const {
+  const WallPose next = entry.flying->read(entry.pose);
+  entry.velocity = mean_velocity(entry.pose, next, step_);
+  set_velocity(entry.carrier, entry.velocity);
+  entry.pose = next;
+}
+
 // The end of a driven turn is unknown before the step. With the speed of the step before, the excess is exact to first order.
 void WallBodies::find_excess(Entry& entry, double now, double then) const {
   const bool turns = entry.driven != nullptr && entry.wall->drive->turns();
@@ -195,8 +231,12 @@ void WallBodies::after_step() {
   ++steps_;
   for (Entry& entry : entries_) {
     if (entry.carrier == nullptr || !(entry.is_moving || entry.driven != nullptr)) continue;
-    if (entry.driven != nullptr) entry.driven->read(entry.pose, entry.velocity);
-    entry.pose = entry.next;
+    if (entry.flying != nullptr) {
+      fly(entry);
+    } else {
+      if (entry.driven != nullptr) entry.driven->read(entry.pose, entry.velocity);
+      entry.pose = entry.next;
+    }
     put(entry);
   }
 }
@@ -204,6 +244,7 @@ void WallBodies::after_step() {
 void WallBodies::put(const Entry& entry) {
   set_pose(entry.carrier, entry.pose);
   if (entry.driven != nullptr) entry.driven->put(entry.pose, entry.velocity);
+  if (entry.flying != nullptr) entry.flying->put(entry.pose);
   place(entry);
 }
 
@@ -228,7 +269,9 @@ bool WallBodies::is_moving(dGeomID geom) const {
 supernormal::effects::Side WallBodies::side_of(dGeomID geom) const {
   const Entry* entry = find(geom);
   if (entry == nullptr) return {kWallMaterial, dGeomGetBody(geom)};
-  const dBodyID body = entry->driven != nullptr && !entry->driven->is_held() ? entry->driven->id() : entry->carrier;
+  dBodyID body = entry->carrier;
+  if (entry->driven != nullptr && !entry->driven->is_held()) body = entry->driven->id();
+  if (entry->flies()) body = entry->flying->id();
   return {entry->material, entry->is_moving ? body : nullptr};
 }
 
@@ -258,6 +301,24 @@ const DrivenState* WallBodies::driven(std::size_t index) const {
   return entries_[index].driven == nullptr ? nullptr : &entries_[index].driven->state();
 }
 
+const FlightState* WallBodies::flying(std::size_t index) const {
+  return entries_[index].flying == nullptr ? nullptr : &entries_[index].flying->state();
+}
+
+std::vector<std::pair<dGeomID, dGeomID>> WallBodies::pairs_of_free() const {
+  std::vector<std::pair<dGeomID, dGeomID>> pairs;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (!entries_[i].flies()) continue;
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+      const Entry& other = entries_[k];
+      const bool is_named = other.flies() && k <= i;
+      if (!is_named && other.is_present && boxes_meet(entries_[i].geom, other.geom))
+        pairs.emplace_back(entries_[i].geom, other.geom);
+    }
+  }
+  return pairs;
+}
+
 std::optional<double> WallBodies::servo_stress(std::size_t index) const {
   const Entry& entry = entries_[index];
   if (entry.driven == nullptr || !entry.wall->drive->servo || entry.driven->is_held()) return std::nullopt;
@@ -268,7 +329,9 @@ WallsState WallBodies::save() const {
   WallsState state{steps_, {}};
   for (const Entry& entry : entries_) {
     if (entry.carrier == nullptr) continue;
-    state.walls.push_back({entry.pose, entry.velocity, entry.driven == nullptr ? DrivenState{} : entry.driven->state()});
+    WallsState::OfWall& saved = state.walls.emplace_back(WallsState::OfWall{entry.pose, entry.velocity});
+    if (entry.driven != nullptr) saved.driven = entry.driven->state();
+    if (entry.flying != nullptr) saved.flight = entry.flying->state();
   }
   return state;
 }
@@ -282,6 +345,7 @@ void WallBodies::restore(const WallsState& state) {
     entry.pose = saved.pose;
     entry.velocity = saved.velocity;
     if (entry.driven != nullptr) entry.driven->restore(saved.driven);
+    if (entry.flying != nullptr) entry.flying->restore(saved.flight);
     put(entry);
   }
 }

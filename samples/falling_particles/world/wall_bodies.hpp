@@ -8,9 +8,11 @@
 #include <span>
 #include <supernormal/effects.hpp>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "driven_body.hpp"
+#include "flying_body.hpp"
 #include "model/two_sided_mesh.hpp"
 #include "model/wall.hpp"
 
@@ -25,13 +27,14 @@ struct WallState {
 /// The state of the moving walls between two steps, as far as it is no function of time.
 struct WallsState {
   struct OfWall {
-    WallPose pose;               ///< of the carrier
+    WallPose pose;               ///< of the carrier, or of a free wall
     WallVelocity velocity = {};  ///< of the carrier in the last step
     DrivenState driven = {};     ///< of a driven wall
+    FlightState flight = {};     ///< of a free wall
 
     template <typename Archive>
     void serialize(Archive& archive) {
-      archive(pose, velocity, driven);
+      archive(pose, velocity, driven, flight);
     }
   };
   long steps = 0;
@@ -46,7 +49,7 @@ struct WallsState {
 /// The geoms of all walls of a scene, and the bodies that give contacts their velocities. The geoms have no bodies, since ODE's
 /// planes can have none. They are in no space. A moving wall has a kinematic body beside its geom, with the mean velocity of the
 /// step. After the step the geom and this body are set to the exact pose. A driven wall has a second body with mass, on a joint to
-/// the kinematic body.
+/// the kinematic body. A free wall has a second body without a joint, whose pose the kinematic body takes.
 class WallBodies {
  public:
   /// The walls and the world must outlive this object. The geoms have `category_bits` and collide with geoms that have a bit of
@@ -87,8 +90,13 @@ class WallBodies {
   const Wall& wall(std::size_t index) const { return *entries_[index].wall; }
   std::size_t count() const { return entries_.size(); }
   WallState state(std::size_t index) const;
+  /// The pairs of a free wall, unless it is held in this step, and another wall, whose bounding boxes meet. Each pair is named
+  /// once.
+  std::vector<std::pair<dGeomID, dGeomID>> pairs_of_free() const;
   /// Null for a wall without a drive.
   const DrivenState* driven(std::size_t index) const;
+  /// Null for a wall that is not free.
+  const FlightState* flying(std::size_t index) const;
   /// Pa, of the grains on a servo in the last step; empty for a wall that is none or was held.
   std::optional<double> servo_stress(std::size_t index) const;
   /// Of two walls that face each other. Throws std::runtime_error if they have met.
@@ -109,11 +117,13 @@ class WallBodies {
     dGeomID geom = nullptr;
     dBodyID carrier = nullptr;                     // kinematic; null for a wall that stands
     std::unique_ptr<DrivenBody> driven = nullptr;  // null for a wall that is not driven
+    std::unique_ptr<FlyingBody> flying = nullptr;  // null for a wall that is not free
     double area = 0;                               // m^2, of a servo in this step
     supernormal::effects::Material material = 0;
     bool is_present = true;  // false for a removed lid
     bool is_moving = false;
 
+    bool flies() const { return flying != nullptr && !flying->is_held(); }
     WallPose wall_pose() const;          // with the displacement of the driven body
     WallVelocity wall_velocity() const;  // with the speed of the driven body; mean of the last step
   };
@@ -124,6 +134,8 @@ class WallBodies {
   const Entry& named(const std::string& name) const;
   double area_of(const Entry& entry) const;
   void find_excess(Entry& entry, double now, double then) const;
+  static void prepare_flight(Entry& entry, double now, double then);
+  void fly(Entry& entry) const;
   static void put(const Entry& entry);
   static void place(const Entry& entry);
 

@@ -45,14 +45,14 @@ double speed(const World& world, int axis) { return dBodyGetLinearVel(world.grai
 Vibration shaking(double amplitude, double frequency) { return {{0, 0, amplitude}, frequency, 0}; }
 
 /// The times when the grain first leaves the plate and when it meets the plate again; NaN if it does not leave.
-struct Flight {
+struct GrainFlight {
   double start = NAN, end = NAN;
 };
-Flight fly(double amplitude, double frequency, double duration) {
+GrainFlight fly(double amplitude, double frequency, double duration) {
   const Scene scene = scene_on({plane({motion(shaking(amplitude, frequency))})}, light_ball(), {fx::SurfaceLayer{1e-7}});
   World world(scene, {at(5e-3)});
   Stepper stepper(world, scene);
-  Flight flight;
+  GrainFlight flight;
   for (int step = 1; step * kStep < duration; ++step) {
     stepper.step();
     const bool touches = stepper.contacts() > 0;
@@ -85,7 +85,7 @@ TEST_CASE(
     double low = take_off + 1e-3;
     double high = take_off + 1 / kFrequency;
     while (high - low > 1e-9) (above((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
-    const Flight flight = fly(amplitude, kFrequency, 0.3);
+    const GrainFlight flight = fly(amplitude, kFrequency, 0.3);
     CHECK(std::abs(flight.start - take_off) < 3 * kStep);
     CHECK(flight.end == relative(low).epsilon(0.01));
   }
