@@ -48,6 +48,10 @@ class Measurement {
   virtual void follow(const Sample& /*sample*/) {}
   /// Called after measure(), with the same sample.
   virtual void forget(const Sample& /*written*/) {}
+  /// Whether events wait for the next sample, of a table that has a line for each event. The end of a run writes them.
+  virtual bool has_unwritten() const { return false; }
+  /// The bytes of a line of such a table; 0 for other tables.
+  virtual double bytes_of_event() const { return 0; }
   /// The memory as bytes, and back.
   virtual std::string save() const { return {}; }
   virtual void restore(const std::string& /*memory*/) {}

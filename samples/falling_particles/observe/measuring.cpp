@@ -120,7 +120,7 @@ void Measuring::sample(Entry& entry, double time, const std::vector<PairContact>
 
 void Measuring::finish(double time) {
   for (Entry& entry : entries_) {
-    if (entry.is_of_end()) sample(entry, time, {});
+    if (entry.is_of_end() || entry.measurement->has_unwritten()) sample(entry, time, {});
     entry.file->close();
   }
 }

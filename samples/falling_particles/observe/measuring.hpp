@@ -86,7 +86,7 @@ class Measuring {
   void after_step(int step, double time, bool is_frame);
   /// Samples the kinds that are on by default, with what the watches have seen.
   void after_watches(int step, double time, bool is_frame);
-  /// Samples the kinds that have one sample at the end, and closes all tables.
+  /// Samples the kinds that have one sample at the end, or events since their last one, and closes all tables.
   void finish(double time);
 
   /// Continues with another simulation of the same scene.

@@ -47,6 +47,8 @@ struct PassedGrain {
   }
 };
 
+constexpr double kLineOfPassage = 170;  // bytes, in feeder.toml
+
 struct PassedPlane {
   std::size_t axis;
   double at;                             // m
@@ -99,6 +101,9 @@ class Passage final : public Measurement {
     }
     sampled_at_ = written.time;
   }
+
+  bool has_unwritten() const override { return !passed_.empty(); }
+  double bytes_of_event() const override { return per_ == Per::Grain ? kLineOfPassage : 0; }
 
   std::string save() const override {
     Writer writer;

@@ -46,6 +46,8 @@ struct Visit {
   }
 };
 
+constexpr double kLineOfVisit = 80;  // bytes, in feeder.toml
+
 constexpr double kOutside = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
@@ -98,6 +100,8 @@ class Residence final : public Measurement {
     per_ == Per::Sample ? write_kinds(sample, table) : write_visits(sample, table);
   }
   void forget(const Sample& /*written*/) override { ended_.clear(); }
+  bool has_unwritten() const override { return !ended_.empty(); }
+  double bytes_of_event() const override { return per_ == Per::Visit ? kLineOfVisit : 0; }
 
   std::string save() const override {
     Writer writer;

@@ -34,12 +34,14 @@ std::uint64_t samples_of(const MeasurementRequest& request) {
   return static_cast<std::uint64_t>(std::max(0, up_to(request.last) - up_to(first - 1)));
 }
 
-/// The bytes of a sample, from a sample of the start and the lines of the expected contacts.
-double bytes_of_sample(const MeasurementRequest& request, const Simulation& simulation, int grains) {
+/// The bytes of a table: samples as long as one of the start, with the lines of the expected contacts, and one event of each grain.
+double bytes_of_table(const MeasurementRequest& request, const Simulation& simulation, int grains) {
   TableText table;
-  request.make(simulation.world)->measure({0, simulation.world, {}, &simulation}, table);
+  const auto measurement = request.make(simulation.world);
+  measurement->measure({0, simulation.world, {}, &simulation}, table);
   const double contacts = request.kind == "contact_forces" ? kContactsPerGrain * grains : 0;
-  return static_cast<double>(table.text().size()) + kLineOfContact * contacts;
+  const double of_sample = static_cast<double>(table.text().size()) + kLineOfContact * contacts;
+  return static_cast<double>(samples_of(request)) * of_sample + grains * measurement->bytes_of_event();
 }
 
 /// s, the mean time of the first steps.
@@ -70,7 +72,7 @@ Forecast forecast(const Scene& scene) {
     Simulation simulation(scene, 1);
     for (const MeasurementRequest& request : scene.measurements) {
       result.samples.push_back(samples_of(request));
-      result.table_bytes += static_cast<double>(result.samples.back()) * bytes_of_sample(request, simulation, result.most_grains);
+      result.table_bytes += bytes_of_table(request, simulation, result.most_grains);
     }
     result.start_step = time_start(simulation);
   }

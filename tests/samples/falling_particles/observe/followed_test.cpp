@@ -310,6 +310,34 @@ from = 0.05
   CHECK(table.number("residences", 4) == 0);
 }
 
+TEST_CASE("tables of events have those after the last sample, too") {
+  const std::string tables = R"(
+[[measurement]]
+kind = "passage"
+name = "grains"
+per = "grain"
+axis = "x"
+at = 0.0301
+interval = 0.15
+[[measurement]]
+kind = "residence"
+name = "visits"
+per = "visit"
+lower = [-0.01, -1, -1]
+upper = [0.0301, 1, 1]
+interval = 0.15
+)";
+  const Scene scene = with_grains(open_scene(kFarFloor + tables, 0.2, 0), {moving(kPea, {0, 0, 0}, {0.4, 0, 0}),        // at 75 ms
+                                                                           moving(kDie, {0, 0.03, 0}, {0.18, 0, 0})});  // at 167 ms
+  for (const bool interrupted : {false, true}) {
+    for (const char* name : {"grains", "visits"}) {
+      const MeasuredTable table = run(scene, name, interrupted);
+      REQUIRE(table.rows.size() == 2);
+      CHECK(table.number(name == std::string("grains") ? "time_s" : "left_s", 1) == relative(0.0301 / 0.18).epsilon(1e-6));
+    }
+  }
+}
+
 TEST_CASE("passage: grains pass a plane when they do in closed form, in both directions and within its window") {
   const std::string planes = R"(
 [[measurement]]

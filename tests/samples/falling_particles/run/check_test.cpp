@@ -108,6 +108,13 @@ TEST_CASE("check: the files of a run are as large as forecast") {
   CHECK(result.picture_bytes == doctest::Approx(1216641).epsilon(0.15));  // view.html, scene.glb
 }
 
+TEST_CASE("check: a table of events is forecast to have a line for each grain") {
+  const auto bytes = [](const std::string& more) { return forecast(load(kSceneText + more)).table_bytes; };
+  const std::string visits =
+      "[[measurement]]\nkind = \"residence\"\nlower = [0, 0, 0]\nupper = [1, 1, 1]\ninterval = 0.1\nper = \"visit\"\n";
+  CHECK(bytes(visits) - bytes("") == doctest::Approx(7 * 80).epsilon(0.2));
+}
+
 TEST_CASE("check: a step of a bed takes as long as forecast, to a factor of two") {
   const Scene scene = load_scene(std::string(SUPERNORMAL_SAMPLES) + "/scenes/short.toml");
   const double forecast_step = forecast(scene).bed_step();
