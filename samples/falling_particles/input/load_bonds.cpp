@@ -81,7 +81,9 @@ class PairReader {
       if (has_rest) pairs.back().rest = read_rest(table, row);
     }
     if (pairs.empty()) {
-      table.fail(1, "no line has \"" + rule_.name + "\" in its column bond; allowed: the name of the section [[bond]]");
+      table.fail(1, "no line has \"" + rule_.name +
+                        "\" in its column bond; allowed: the name of the section [[bond]]; if all its bonds are broken, leave the "
+                        "section out");
     }
     return pairs;
   }

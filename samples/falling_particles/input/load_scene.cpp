@@ -181,7 +181,7 @@ Time read_time(const TomlTable& table) {
 }
 
 Solver read_solver(const TomlTable& table) {
-  return {static_cast<int>(table.integer("iterations", 1, 100000)), table.number("erp", Interval::closed(0, 1, "")),
+  return {static_cast<int>(table.integer("iterations", 1, Solver::kMostIterations)), table.number("erp", Interval::closed(0, 1, "")),
           table.number("cfm", Interval::closed(0, 1, "s/kg"))};
 }
 

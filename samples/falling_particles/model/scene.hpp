@@ -50,6 +50,7 @@ struct Time {
 };
 
 struct Solver {
+  static constexpr int kMostIterations = 100000;
   int iterations;  ///< iterations of quickstep
   double erp;      ///< fraction of an overlap that a step removes
   double cfm;      ///< s/kg: softness of all constraints

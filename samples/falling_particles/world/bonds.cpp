@@ -313,9 +313,30 @@ BondStress Bonds::stress_of(const Bond& bond, const Strain& strain) const {
   return stress;
 }
 
+/// The strain whose elastic forces acted in the step: from the pose at its start by the new velocities. Poses have the curvature of
+/// paths besides: a pair that a step turns by an angle is stretched by half its square. The joint resists the approach of both ends
+/// along the chords of the turn, and the elastic forces outweigh it.
+Bonds::Strain Bonds::in_step(const Joints& joints) const {
+  Strain strain = *joints.before;
+  const Vector3 first_turn = spin_of_move(joints.first), second_turn = spin_of_move(joints.second);
+  const Vector3 velocity = velocity_of_move(joints.second) + second_turn.cross(joints.second_arm) - velocity_of_move(joints.first) -
+                           first_turn.cross(joints.first_arm);
+  const Quaterniond back = strain.frame.conjugate();
+  const Eigen::Map<const Vector3> linear(joints.stiffness.data()), angular(joints.stiffness.data() + 3);
+  const Vector3 turn = (first_turn + second_turn) / 2, branch = joints.first_arm - joints.second_arm;
+  const Vector3 half = step_ / 2 * turn;
+  const Quaterniond rotation = Quaterniond(1, half.x(), half.y(), half.z()).normalized();  // as ODE turns bodies
+  const Vector3 approach = (rotation * branch - branch) / step_ - turn.cross(branch);
+  const double resistance = 1 / dJointGetBallParam(joints.linear, dParamCFM);  // N s/m
+  strain.force -= step_ * linear.cwiseProduct(back * (velocity - approach)) + resistance * (back * approach);
+  strain.moment -= step_ * angular.cwiseProduct(back * (second_turn - first_turn));
+  return strain;
+}
+
 void Bonds::before_step() {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    const Joints& joints = joints_[i];
+    Joints& joints = joints_[i];
+    joints.before.reset();
     if (joints.linear == nullptr) continue;
     if (joints.has_anchor) place_anchor(state_.bonds[i], joints);
     // ODE would keep the forces on sleeping bodies until they wake.
@@ -326,6 +347,9 @@ void Bonds::before_step() {
     dJointSetBallAnchor(joints.linear, strain.middle.x(), strain.middle.y(), strain.middle.z());
     apply(joints.first, -force, -moment, strain.middle);
     apply(joints.second, force, moment, strain.middle);
+    joints.before = strain;
+    joints.first_arm = strain.middle - to_vector(dBodyGetPosition(joints.first));
+    joints.second_arm = strain.middle - to_vector(dBodyGetPosition(joints.second));
   }
 }
 
@@ -336,10 +360,11 @@ void Bonds::after_step() {
     const Joints& joints = joints_[i];
     if (joints.linear == nullptr) continue;
     const Bond& bond = state_.bonds[i];
+    const std::optional<Strain> acted = joints.before ? std::optional(in_step(joints)) : std::nullopt;
     if (joints.has_anchor) place_anchor(bond, joints);
     const Strain strain = strain_of(bond, joints);
     const BondRule& rule = world_.scene().bonds[bond.rule];
-    const BondStress stress = stress_of(bond, strain);
+    const BondStress stress = stress_of(bond, acted.value_or(strain));
     if (stress.tension + stress.bending > rule.tensile_strength || stress.shear + stress.torsion > rule.shear_strength) {
       break_bond(i, strain, stress, false);
     } else {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -123,6 +124,13 @@ class Bonds {
   static constexpr std::size_t kRows = 6;  // along and across the bond, about it and about the axes across
   using Rows = std::array<double, kRows>;
 
+  /// A bond in its present pose. Forces act on the second body.
+  struct Strain {
+    Vector3 middle;            // m
+    Eigen::Quaterniond frame;  // of the bond
+    Vector3 force, moment;     // N, N m, in this frame, at the middle
+    double energy;             // J
+  };
   /// The bodies and joints of an intact bond.
   struct Joints {
     dBodyID first = nullptr, second = nullptr;
@@ -130,13 +138,8 @@ class Bonds {
     Eigen::Quaterniond axes;                       // of the bond in the frame of the first body: x along it
     Rows stiffness = {};                           // N/m, N m
     bool has_anchor = false;                       // whether `first` is a body of its own, for a part
-  };
-  /// A bond in its present pose. Forces act on the second body.
-  struct Strain {
-    Vector3 middle;            // m
-    Eigen::Quaterniond frame;  // of the bond
-    Vector3 force, moment;     // N, N m, in this frame, at the middle
-    double energy;             // J
+    std::optional<Strain> before;                  // at the start of the step; empty if both bodies sleep
+    Vector3 first_arm, second_arm;                 // m, of the same time: from the bodies to the middle
   };
 
   void find_touching(std::size_t rule);
@@ -146,6 +149,7 @@ class Bonds {
   void place_anchor(const Bond& bond, const Joints& joints) const;
   std::array<Rows, 2> inverse_masses(const Bond& bond, const Joints& joints) const;
   Strain strain_of(const Bond& bond, const Joints& joints) const;
+  Strain in_step(const Joints& joints) const;
   BondStress stress_of(const Bond& bond, const Strain& strain) const;
   void break_bond(std::size_t bond, const Strain& strain, const BondStress& stress, bool is_removed);
   void measure_energy();

@@ -221,7 +221,7 @@ TEST_CASE("doubts: gravity of zero is none, and motions that start too late are 
   check_one_doubt(with_part(box + "[[part.motion]]\nkind = \"velocity\"\nvelocity = [0, 0, -1]\nfrom = 7\n"),
                   {"part \"p\" has a motion, a drive or a flight that starts at the end of the run, after 0.1 s"});
   check_one_doubt(with_part(box + "[part.drive]\naxis = [0, 0, -1]\nforce = 1\nmass = 0.1\nfrom = 0.1\n"),
-                  {"part \"p\" has a motion or a drive"});
+                  {"part \"p\" has a motion, a drive or a flight"});
 }
 
 TEST_CASE("doubts: grains that sink by their own weight") {

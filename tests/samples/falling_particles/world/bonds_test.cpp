@@ -451,6 +451,33 @@ TEST_CASE("bonds: a pair that spins keeps its momentum and its angular momentum"
   }
 }
 
+TEST_CASE("bonds: a pair that spins faster and faster breaks when the centripetal force exceeds its strength, for any step") {
+  // At 100 rad/s a step turns the pair by 0.01 rad. Its poses are stretched by half the square, 50 kPa; the force is 2.1 kPa.
+  const double mass = 7800 * 4 / 3.0 * std::numbers::pi * 27e-9;  // kg, of a ball
+  const double strength = mass * 1e4 * 3e-3 / kArea;              // Pa
+  const auto spin_at_break = [&](const std::string& damping) {
+    Run run(grain_at("ball", -3e-3, 0, 0) + grain_at("ball", 3e-3, 0, 0),
+            bond("glue", "touching = 0.01\n" + damping + "tensile_strength = " + shortest(strength) + '\n'),
+            {"gravity.acceleration=[0, 0, 0]", "bond[glue].modulus=1e9", "time.step=1e-4"});
+    constexpr double kSpinUp = 1000;  // rad/s^2
+    while (run.bonds().breaks().empty() && run.steps < 2000) {
+      const Vector3 arm = (Vector3(run.grain(1).position().data()) - Vector3(run.grain(0).position().data())) / 2;
+      const Vector3 force = mass * kSpinUp * Vector3::UnitZ().cross(arm);
+      for (const std::size_t i : {0U, 1U}) {
+        const double sign = i == 0 ? -1 : 1;
+        dBodyAddForce(run.grain(i).body, sign * force.x(), sign * force.y(), 0);
+        dBodyAddTorque(run.grain(i).body, 0, 0, kSpinUp * run.grain(i).mass.I[0]);
+      }
+      run.step();
+    }
+    REQUIRE(run.bonds().breaks().size() == 1);
+    CHECK(run.cause(0) == "tension");
+    return dBodyGetAngularVel(run.grain(0).body)[2];
+  };
+  CHECK(spin_at_break("") == doctest::Approx(100).epsilon(0.02));
+  CHECK(spin_at_break("damping = 1\n") == doctest::Approx(100).epsilon(0.02));
+}
+
 TEST_CASE("bonds: a grain follows the part that it is bonded to") {
   Run run(grain_at("cube", 0.05, 0, 0),
           "[[part]]\nname = \"arm\"\nshape = \"box\"\nsize = [0.094, 0.01, 0.01]\n[[part.motion]]\nkind = \"rotation\"\naxis = [0, "
@@ -581,7 +608,8 @@ TEST_CASE("bonds: mistakes are refused with their name, value and range") {
   check_says(of_file("body_1,body_2\n1,1\n"), {"bonds.csv:2: grain 1 is bonded to itself; allowed: two grains"});
   check_says(of_file("body_1,body_2,start_x_m,start_y_m,start_z_m,x_m,y_m,z_m,qw,qx,qy,qz\n0,1,0,0,0,0,0,0,1,0,0,0\n"),
              {"bonds.csv:2: the length of the bond is 0 m; allowed: above 0"});
-  check_says(of_file("body_1,body_2,bond\n0,1,other\n"), {"no line has \"glue\" in its column bond"});
+  check_says(of_file("body_1,body_2,bond\n0,1,other\n"),
+             {"no line has \"glue\" in its column bond", "if all its bonds are broken, leave the section out"});
 }
 
 TEST_CASE("bonds: a start of grains in one place, and one without a state, are refused") {
@@ -591,6 +619,28 @@ TEST_CASE("bonds: a start of grains in one place, and one without a state, are r
                        InputError);
   check_says(complaint(std::string(kSceneText) + bond("glue", "chain = [0, 1]\n")),
              {"bond.chain without [start]; allowed: with it, since [drop] shuffles the grains"});
+}
+
+TEST_CASE("bonds: bonds that join grains of one place by their touching are refused") {
+  const auto said = [](const std::string& grains, const std::string& sections) -> std::string {
+    const TemporaryFolder folder;
+    try {
+      refuse_overlapping_start(scene_with(folder, grains, sections));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string glue = bond("glue", "touching = 0.01\n");
+  check_says(said(grain_at("ball", 0, 0, 0) + grain_at("ball", 0, 0, 0), glue),
+             {"bond \"glue\": the length from grain 0 to grain 1 (ball) is 0 m; allowed: from 3e-09 m on, between two centres"});
+  check_says(said(grain_at("ball", 0, 0, 0) + grain_at("ball", 1e-12, 0, 0), glue), {"is 1e-12 m; allowed: from 3e-09 m on"});
+  const std::string plane = std::string(kClamp) + bond("glue", "part = \"clamp\"\ntouching = 0.01\n");
+  check_says(said(grain_at("ball", 0, 0, 0), plane), {"the length from part clamp to grain 0 (ball) is", "the surface of a part"});
+  // Short bonds that are not so short are too stiff; of iterations, only as many as a scene may have are offered.
+  const std::string stiff = said(grain_at("ball", 0, 0, 0) + grain_at("ball", 1e-8, 0, 0), glue);
+  check_says(stiff, {"bond \"glue\" is too stiff for grain", "or time.step up to "});
+  CHECK(stiff.find("iterations") == std::string::npos);
 }
 
 TEST_CASE("bonds: bonds that are too stiff for the step are refused with what would do") {
