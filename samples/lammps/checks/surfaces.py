@@ -6,9 +6,10 @@ GRAVITY = 9.81  # m/s^2
 def check_adhesion(driver):
     """A ball and a brick under a ceiling: how deep adhesion pulls them in, and the gravity at which they fall."""
     mass, pull, stiffness, rate, timestep = 0.01, 0.2, 1e4, 10.0, 2e-5  # kg, N, N/m, m/s^3, s
-    law = f"hooke {stiffness} restitution 0.1 friction 0.5 adhesion {pull}"
+    # The springs of both materials in series have this stiffness, and their adhesion has this geometric mean.
+    law, ceiling = (f"hooke {factor * stiffness} restitution 0.1 friction 0.5 adhesion {force}" for factor, force in ((0.8, 0.1), (4 / 3, 0.4)))
     steps = int(1.1 * pull / mass / rate / timestep)
-    (table,) = driver.run("hang", 1, law=law, mass=mass, rate=rate, timestep=timestep, steps=steps, every=steps // 1000)
+    (table,) = driver.run("hang", 1, law=law, ceiling=ceiling, mass=mass, rate=rate, timestep=timestep, steps=steps, every=steps // 1000)
     for body, z, contacts in (("ball", "v_z1", "f_ball[7]"), ("brick", "v_z2", "f_brick[7]")):
         held = [row for row in table if row[contacts] > 0]
         middle = held[len(held) // 2]

@@ -13,7 +13,8 @@ constexpr double kTurn = 2 * std::numbers::pi;  // rad
 // edges only, in two directions, have less: there the nearest face may change.
 constexpr double kFullOverlap = 0.2;
 
-// The sine of the angle between edges that count as parallel: such corners have no weight.
+// The sine of the angle between edges that count as parallel: such corners have no weight, up to rounding, by which their
+// derivative would be divided. 0, a quarter and four times: all tests of faces hold.
 constexpr double kParallel = 1e-9;
 
 double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
