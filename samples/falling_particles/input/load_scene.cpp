@@ -181,8 +181,8 @@ Time read_time(const TomlTable& table) {
 }
 
 Solver read_solver(const TomlTable& table) {
-  return {static_cast<int>(table.integer("iterations", 1, Solver::kMostIterations)), table.number("erp", Interval::closed(0, 1, "")),
-          table.number("cfm", Interval::closed(0, 1, "s/kg"))};
+  return {static_cast<int>(table.integer("iterations", 1, Solver::kMostIterations)),
+          table.number("erp", Interval::closed(0, 1, "")), table.number("cfm", Interval::closed(0, 1, "s/kg"))};
 }
 
 /// Reads [drop] into the scene and returns the table that may have `total`. Grains in a periodic container do not drop. A scene
