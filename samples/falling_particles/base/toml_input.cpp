@@ -114,9 +114,14 @@ std::vector<std::string> TomlTable::choices(std::string_view key, const std::vec
     const bool is_allowed = word && std::ranges::find(allowed, *word) != allowed.end();
     const bool is_repeated = is_allowed && std::ranges::find(result, *word) != result.end();
     if (!is_allowed || is_repeated) {
-      const std::string why = is_repeated ? " for the second time" : word ? did_you_mean(*word, allowed) : "";
-      refuse(node_->file, element.source(),
-             full_name(key) + "[" + std::to_string(result.size()) + "] is " + describe(element) + why + "; allowed: " + all);
+      std::string text = full_name(key);
+      text.append("[").append(std::to_string(result.size())).append("] is ").append(describe(element));
+      text.append(is_repeated ? " for the second time"
+                  : word      ? did_you_mean(*word, allowed)
+                              : "")
+          .append("; allowed: ")
+          .append(all);
+      refuse(node_->file, element.source(), text);
     }
     result.push_back(*word);
   }
