@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/input_error.hpp"
+#include "base/interval.hpp"
 #include "to_vector.hpp"
 #include "world.hpp"
 
@@ -59,6 +61,10 @@ void apply(dBodyID body, const Vector3& force, const Vector3& moment, const Vect
   dBodyAddForceAtPos(body, force.x(), force.y(), force.z(), place.x(), place.y(), place.z());
   dBodyAddTorque(body, moment.x(), moment.y(), moment.z());
 }
+
+/// The least length of a bond, relative to the smallest half-axis. A shorter one has no direction: it is the rounding of centres
+/// that are at one place. Twice, half, none: 1e-12 m of a bead of 1 mm are refused, refused, and too stiff for any step.
+constexpr double kLeastLength = 1e-6;
 
 /// The stiffnesses of a beam about its middle (N/m, N m), or of a ball.
 std::array<double, 6> stiffness_of(const BondRule& rule, double radius, double length) {
@@ -189,10 +195,23 @@ void Bonds::add(std::size_t rule, const BondedPair& pair) {
     bond.rest = pair.rest ? *pair.rest : rest_of(pose, pose.position, second);
     smallest = std::min(smallest, first.smallest_half_axis());
   }
+  refuse_zero_length(bond, kLeastLength * smallest);
   bond.radius = pair.radius.value_or(material.radius.value_or(material.relative_radius * smallest));
   state_.bonds.push_back(bond);
   joints_.emplace_back();
   add_joints(state_.bonds.size() - 1);
+}
+
+/// Bonds by `touching` may join grains whose centres are at one place, or on the surface of a part.
+void Bonds::refuse_zero_length(const Bond& bond, double least) const {
+  if (bond.rest.length() >= least) return;
+  const Scene& scene = world_.scene();
+  const BondRule& rule = scene.bonds[bond.rule];
+  const std::string first = rule.wall ? "part " + scene.walls[*rule.wall].name : "grain " + std::to_string(bond.first);
+  throw InputError(scene.files.front().string() + ": bond \"" + rule.name + "\": the length from " + first + " to grain " +
+                   std::to_string(bond.second) + " (" + world_.grains()[bond.second].kind->name + ") is " +
+                   shortest(bond.rest.length()) + " m; allowed: from " + rounded(least) +
+                   " m on, between two centres, or the centre of a grain and the surface of a part");
 }
 
 void Bonds::add_joints(std::size_t index) {

@@ -144,6 +144,8 @@ class Bonds {
 
   void find_touching(std::size_t rule);
   void add(std::size_t rule, const BondedPair& pair);
+  /// Throws InputError if the bond is shorter than `least` (m).
+  void refuse_zero_length(const Bond& bond, double least) const;
   void add_joints(std::size_t bond);
   void remove_joints(std::size_t bond);
   void place_anchor(const Bond& bond, const Joints& joints) const;
