@@ -6,6 +6,7 @@
 
 #include "proximity/answer.hpp"
 #include "proximity/lanes/lane_query.hpp"
+#include "proximity/limits.hpp"
 #include "proximity/local/first_guess.hpp"
 #include "proximity/solvers.hpp"
 #include "proximity/usable_pose.hpp"
@@ -35,6 +36,17 @@ Proximity solve(GapFunction& gap, const Settings& settings, const Vector3& start
       break;
   }
   return solve_hybrid(gap, settings, start, wanted);
+}
+
+bool is_ball(const Shape& shape) { return shape.rolling_radius() == shape.bounding_radius(); }
+
+/// Whether a query starts from its first normal. Of two balls the first guess is the common normal to rounding. A first normal
+/// would be accepted within the tolerance of the gap, some 4e-5 rad off, and the lever arm would let balls without friction spin.
+bool starts_from(const Vector3* first_normal, const ProximityQuery& pair) {
+  if (first_normal == nullptr || !is_usable(*first_normal)) return false;
+  if (!is_ball(*pair.shape1) || !is_ball(*pair.shape2)) return true;
+  const double reach = pair.shape1->half_extents().norm() + pair.shape2->half_extents().norm();
+  return (pair.pose2->position - pair.pose1->position).norm() <= limits::kConcentric * reach;
 }
 
 // The ascent only knows the faces and edges of body 2. It finds those on body 1 by cuts and, if both bodies have some, at its end
@@ -68,8 +80,9 @@ Proximity find_proximity(const Shape& shape1, const Pose& pose1, const Shape& sh
                          const Vector3* first_normal) {
   check(settings);
   if (!is_usable(pose1) || !is_usable(pose2)) return {};
-  const bool is_warm = first_normal != nullptr && is_usable(*first_normal);
-  const ProximityQuery pair = {&shape1, &pose1, &shape2, &pose2, is_warm ? first_normal : nullptr};
+  ProximityQuery pair = {&shape1, &pose1, &shape2, &pose2, nullptr};
+  const bool is_warm = starts_from(first_normal, pair);
+  if (is_warm) pair.first_normal = first_normal;
   if (is_for_lanes(shape1, shape2, settings)) return find_in_one_lane(pair, settings);
   if (shape1.traits().has_nonsmooth_points && !shape2.traits().has_nonsmooth_points) {
     return find_with_bodies_swapped(shape1, pose1, shape2, pose2, settings, first_normal);
@@ -95,7 +108,7 @@ void find_in_lanes(std::span<const ProximityQuery> queries, const Settings& sett
     ProximityQuery query = queries[k];
     const bool is_usable_pair = is_usable(*query.pose1) && is_usable(*query.pose2);
     if (is_usable_pair && is_for_lanes(*query.shape1, *query.shape2, settings)) {
-      if (query.first_normal != nullptr && !is_usable(*query.first_normal)) query.first_normal = nullptr;
+      if (!starts_from(query.first_normal, query)) query.first_normal = nullptr;
       in_lanes.add(query, k);
     } else {
       results[k] = find_proximity(query, settings);

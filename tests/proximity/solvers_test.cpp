@@ -14,8 +14,10 @@
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/raycast/ray.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
 #include "support/reference_pairs.hpp"
 #include "support/relative.hpp"
 #include "support/shape_samples.hpp"
@@ -76,6 +78,26 @@ void check_contains(const std::string& message, const std::string& part) {
 bool is_smooth(const ReferencePair& pair) { return pair.kind == "sphere" || pair.kind == "ellipsoid" || pair.kind == "moderate"; }
 
 }  // namespace
+
+TEST_CASE("two balls: the normal of a warm query is the line of centres to rounding, unless they are concentric") {
+  const Sphere sphere(0.7);
+  const Ellipsoid equal_axes({0.5, 0.5, 0.5});
+  const Superellipsoid exponents_2({0.6, 0.6, 0.6}, 2, 2);
+  const Vector3 u = Vector3(0.3, -0.2, 0.9).normalized();
+  const Vector3 before = (u + 4e-5 * u.unitOrthogonal()).normalized();
+  for (const Shape* const one : {static_cast<const Shape*>(&sphere), static_cast<const Shape*>(&equal_axes)}) {
+    for (const Shape* const other : {static_cast<const Shape*>(&equal_axes), static_cast<const Shape*>(&exponents_2)}) {
+      const double touch = one->bounding_radius() + other->bounding_radius();
+      for (const double distance : {1.1 * touch, 0.999 * touch, 0.2 * touch}) {
+        const Proximity p = find_proximity(*one, {}, *other, {distance * u, Matrix3::Identity()}, {}, &before);
+        CHECK((p.normal - u).norm() < 1e-15);
+        CHECK(p.contact.cross(u).norm() < 1e-15);
+        CHECK(p.gap == doctest::Approx(distance - touch).epsilon(1e-14));
+      }
+      CHECK(find_proximity(*one, {}, *other, {}, {}, &before).normal == before);
+    }
+  }
+}
 
 TEST_CASE("the three solvers agree on ellipsoids, and where they converge on other smooth bodies") {
   int compared = 0;
