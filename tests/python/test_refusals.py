@@ -42,7 +42,7 @@ REFUSALS = [
     (lambda: sn.Shapes.superellipsoids(np.ones((3, 3)), [2, 2], 2), "delta has 2 entries for 3 shapes"),
     (lambda: sn.Shapes.spheres([1, -1]), "shape 1: radius = -1 m is outside [0, 1e+30] m"),
     (lambda: sn.Pose((NAN, 0, 0)), "position = (nan, 0, 0) m is outside [-1e+150, 1e+150] m"),
-    (lambda: sn.Pose((0, 0, 0), 1.02 * np.eye(3)), "rotation = (1.02, 0, 0, 0, 1.02, 0, 0, 0, 1.02) (by rows), whose columns are not"),
+    (lambda: sn.Pose((0, 0, 0), 1.02 * np.eye(3)), "rotation = (1.02, 0, 0, 0, 1.02, 0, 0, 0, 1.02) (by rows), but must be orthonormal and right-handed to 0.01"),
     (lambda: sn.Pose((0, 0, 0), -np.eye(3)), "right-handed"),
     (lambda: sn.Pose((0, 0, 0), NAN * np.eye(3)), "rotation = (nan"),
     (lambda: sn.Pose((0, 0, 0), quaternion=(1, 1, 0, 0)), "quaternion = (1, 1, 0, 0) (w, x, y, z) has the length 1.41421"),
@@ -118,6 +118,15 @@ def test_a_rotation_that_was_typed_becomes_the_nearest():
     assert used[0, 0] == pytest.approx(np.cos(angle), abs=1e-15)
     exact = sn.Pose((0, 0, 0), quaternion=(0.5, 0.5, 0.5, 0.5)).rotation
     assert (sn.Pose((0, 0, 0), exact).rotation == exact).all()
+    # As in C: the limits of lib/guide.md, by the sum of the errors.
+    nearly = np.diag([1 + 1e-15, 1 + 1e-15, 1])
+    assert (sn.Pose((0, 0, 0), nearly).rotation == nearly).all()
+    beyond = np.diag([1 + 2e-15, 1 + 2e-15, 1])
+    used = sn.Pose((0, 0, 0), beyond).rotation
+    assert (used != beyond).any() and np.abs(used - np.eye(3)).max() < 1e-15
+    assert np.abs(sn.Pose((0, 0, 0), np.diag([1, 1, 1.0099])).rotation - np.eye(3)).max() < 1e-15
+    with pytest.raises(ValueError, match="orthonormal and right-handed to 0.01$"):
+        sn.Pose((0, 0, 0), np.diag([1, 1, 1.0101]))
 
 
 def test_an_index_out_of_range():

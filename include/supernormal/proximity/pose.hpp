@@ -11,8 +11,9 @@ namespace supernormal {
 
 /// x_world = rotation x_body + position. Queries refuse a matrix that is not a rotation, with Status::InvalidInput or an empty
 /// result. It must be orthonormal and right-handed to 1e-5: the sum of the errors of the defining equations. Queries use the matrix
-/// unchanged, so their answers are only as exact as it is. Orthonormalise a product of many rotations from time to time. Of a
-/// quaternion: Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix(), with <Eigen/Geometry>.
+/// unchanged, so their answers are only as exact as it is. Orthonormalise a product of many rotations from time to time. C and
+/// Python repair a matrix (lib/guide.md). Of a quaternion: Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix(), with
+/// <Eigen/Geometry>.
 struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< m
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< orthonormal, right-handed

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "ode/api/two_geoms.hpp"
 #include "ode/colliders/convex/posed_shape.hpp"
-#include "ode/colliders/no_answer.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/geom/geom_class.hpp"
@@ -120,11 +120,10 @@ struct PosedPair {
 };
 
 ProximityDerivatives derivatives_of(const TwoGeoms& geoms, dGeomID g1, dGeomID g2, const snProximity& at) {
-  require_body(geoms.ours);
   const Proximity answer = answer_of(at);
   if (dGeomGetClass(geoms.collider) == dPlaneClass) return plane_derivatives(geoms);
   if (!has_shape(geoms.collider)) {
-    throw std::invalid_argument("the collider is " + geom_class_name(geoms.collider) +
+    throw std::invalid_argument(std::string(geoms.collider_name()) + " is " + geom_class_name(geoms.collider) +
                                 ", but must be a body made by snCreate…, a convex geom of ODE, a dPlane or a dRay");
   }
   const PosedPair pair(g1, g2);
@@ -140,7 +139,6 @@ Clearance clearance_by_query(const TwoGeoms& geoms) {
 /// The answer of `ask` for the shapes, with the normal in the world frame, or of a query.
 template <typename Ask>
 Clearance clearance_of(const TwoGeoms& geoms, dGeomID g1, dGeomID g2, Ask ask) {
-  require_body(geoms.ours);
   Clearance found;
   if (has_shape(geoms.collider)) {
     const PosedPair pair(g1, g2);
@@ -149,7 +147,7 @@ Clearance clearance_of(const TwoGeoms& geoms, dGeomID g1, dGeomID g2, Ask ask) {
   } else {
     found = clearance_by_query(geoms);
   }
-  if (!std::isfinite(found.lower_bound)) refuse_pair(geoms.ours, geoms.collider);
+  if (!std::isfinite(found.lower_bound)) geoms.refuse();
   return found;
 }
 
@@ -163,7 +161,7 @@ int answer_gradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal* gradie
     pose1.position = origin_of(g1);
     pose2.position = origin_of(g2);
     const TwistVector found = find_gap_gradient(pose1, pose2, answer_of(*at));
-    if (!is_usable(pose1) || !is_usable(pose2) || !found.allFinite()) refuse_pair(geoms.ours, geoms.collider);
+    if (!is_usable(pose1) || !is_usable(pose2) || !found.allFinite()) geoms.refuse();
     for (int j = 0; j < kTwist; ++j) gradient[j] = to_real(found[j]);
     return 1;
   });
@@ -174,7 +172,7 @@ int answer_derivatives(dGeomID g1, dGeomID g2, const snProximity* at, snDerivati
     require_not_null("at", at);
     const TwoGeoms geoms(g1, g2, out);
     const ProximityDerivatives found = derivatives_of(geoms, g1, g2, *at);
-    if (found.status == DerivativeStatus::InvalidInput) refuse_pair(geoms.ours, geoms.collider);
+    if (found.status == DerivativeStatus::InvalidInput) geoms.refuse();
     write(found, *out);
     return 1;
   });

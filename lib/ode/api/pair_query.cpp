@@ -47,13 +47,14 @@ void write(const Impact& impact, bool swapped, snImpact& out) {
   out.converged = impact.status == ImpactStatus::NotConverged ? 0 : 1;
 }
 
-void require_velocities_in_range(dGeomID geom, double horizon) {
+/// The names are for messages.
+void require_velocities_in_range(dGeomID geom, const char* linear, const char* angular, double horizon) {
   const dBodyID body = dGeomGetBody(geom);
   if (body == nullptr) return;
   const double max_angular_speed = kMaxMotion / std::max(1.0, horizon);  // the angle of rotation must be in range, too
   for (int axis = 0; axis < 3; ++axis) {
-    require_in("linear velocity", dBodyGetLinearVel(body)[axis], -kMaxMotion, kMaxMotion, "m/s");
-    require_in("angular velocity", dBodyGetAngularVel(body)[axis], -max_angular_speed, max_angular_speed, "rad/s");
+    require_in(linear, dBodyGetLinearVel(body)[axis], -kMaxMotion, kMaxMotion, "m/s");
+    require_in(angular, dBodyGetAngularVel(body)[axis], -max_angular_speed, max_angular_speed, "rad/s");
   }
 }
 
@@ -68,11 +69,12 @@ int answer_query(const char* function, dGeomID g1, dGeomID g2, QueryKind kind, s
 int answer_impact(dGeomID g1, dGeomID g2, double horizon, snImpact* out) {
   return guarded("snGeomTimeOfImpact", 0, [&] {
     const TwoGeoms geoms(g1, g2, out);
+    require_supported(geoms);
     require_in("horizon", horizon, 0, kMaxHorizon, "s");
-    require_velocities_in_range(g1, horizon);
-    require_velocities_in_range(g2, horizon);
+    require_velocities_in_range(g1, "linear velocity of g1", "angular velocity of g1", horizon);
+    require_velocities_in_range(g2, "linear velocity of g2", "angular velocity of g2", horizon);
     const Impact impact = find_impact(geoms.ours, geoms.collider, horizon);
-    if (impact.status == ImpactStatus::InvalidInput) refuse_pair(geoms.ours, geoms.collider);
+    if (impact.status == ImpactStatus::InvalidInput) geoms.refuse();
     write(impact, geoms.is_swapped, *out);
     return 1;
   });
@@ -86,20 +88,25 @@ TwoGeoms::TwoGeoms(dGeomID g1, dGeomID g2, const void* out) : ours(g1), collider
   require_not_null("out", out);
   if (g1 == g2) throw std::invalid_argument("g1 and g2 are the same geom, but must be two");
   is_swapped = find_body(g1) == nullptr;
-  if (is_swapped) std::swap(ours, collider);
+  if (!is_swapped) return;
+  std::swap(ours, collider);
+  if (find_body(ours) != nullptr) return;
+  throw std::invalid_argument("g1 is " + geom_class_name(g1) + " and g2 is " + geom_class_name(g2) +
+                              ", but one of them must be a body made by snCreate…");
 }
 
+void TwoGeoms::refuse() const { refuse_pair(ours, collider, our_name(), collider_name()); }
+
 void require_supported(const TwoGeoms& geoms) {
-  require_body(geoms.ours);
   const int number = dGeomGetClass(geoms.collider);
-  if (find_query(number) == nullptr) refuse_class(geoms.collider);
-  if (number == geom_class()) require_body(geoms.collider);
+  if (find_query(number) == nullptr) refuse_class(geoms.collider, geoms.collider_name());
+  if (number == geom_class()) require_body(geoms.collider, geoms.collider_name());
 }
 
 Proximity find_proximity_of(const TwoGeoms& geoms, QueryKind kind) {
   require_supported(geoms);
   const Proximity result = find_query(dGeomGetClass(geoms.collider))(geoms.ours, geoms.collider, kind).deepest;
-  if (result.status == Status::InvalidInput || !std::isfinite(result.gap)) refuse_pair(geoms.ours, geoms.collider);
+  if (result.status == Status::InvalidInput || !std::isfinite(result.gap)) geoms.refuse();
   return result;
 }
 

@@ -131,11 +131,11 @@ Body* find_body(dGeomID geom) noexcept {
   return static_cast<ClassData*>(dGeomGetClassData(geom))->body;
 }
 
-Body& require_body(dGeomID geom) {
-  if (geom == nullptr) throw std::invalid_argument("geom = 0, but must be a body made by snCreate…");
+Body& require_body(dGeomID geom, const char* name) {
+  if (geom == nullptr) throw std::invalid_argument(std::string(name) + " = 0, but must be a body made by snCreate…");
   Body* const body = find_body(geom);
   if (body != nullptr) return *body;
-  throw std::invalid_argument("geom is " + geom_class_name(geom) + ", but must be a body made by snCreate…");
+  throw std::invalid_argument(std::string(name) + " is " + geom_class_name(geom) + ", but must be a body made by snCreate…");
 }
 
 }  // namespace supernormal::ode

@@ -109,6 +109,6 @@ struct ClassData {
 Body* find_body(dGeomID geom) noexcept;
 
 /// The body of the geom. Throws std::invalid_argument where find_body() returns null.
-Body& require_body(dGeomID geom);
+Body& require_body(dGeomID geom, const char* name = "geom");
 
 }  // namespace supernormal::ode

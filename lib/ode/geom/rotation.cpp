@@ -37,8 +37,7 @@ Matrix3 nearest_rotation(const Matrix3& R, dGeomID geom) {
   const bool is_near = all_within(R, kLargestEntry) && rotation_error(R) <= kNearRotation;
   if (!is_near) {
     throw std::invalid_argument("the rotation of " + geom_class_name(geom) + " is " + matrix_text(R) +
-                                " (rows), whose columns are not, to " + to_text(kNearRotation) +
-                                ", unit vectors at right angles and right-handed");
+                                " (by rows), but must be orthonormal and right-handed to " + to_text(kNearRotation));
   }
   Matrix3 Q = R;
   double error = 0;

@@ -8,6 +8,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -15,6 +16,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "proximity/usable_pose.hpp"
 #include "shapes/validation.hpp"
 #include "values.hpp"
 
@@ -24,7 +26,7 @@ namespace supernormal::python {
 namespace {
 
 // Rotations computed in double precision are within this error, and are used unchanged, bit for bit. Flat faces tolerate no more.
-// The limits equal those in lib/ode/geom/rotation.hpp.
+// The limits and the measure equal those in lib/ode/geom/rotation.hpp.
 constexpr double kRoundedRotation = 1e-14;
 
 // A rotation typed with three decimals is accepted. A scale or shear of one per cent is not.
@@ -33,13 +35,14 @@ constexpr double kNearRotation = 1e-2;
 constexpr double kUnitQuaternion = 1e-6;
 
 Matrix3 require_rotation(Name name, const Matrix3& R) {
-  const double error = (R.transpose() * R - Matrix3::Identity()).cwiseAbs().maxCoeff();
-  if (std::islessequal(error, kRoundedRotation) && R.determinant() > 0) return R;
-  if (!std::islessequal(error, kNearRotation) || R.determinant() < 0) {
+  // The largest entry is tested first, because its square might overflow.
+  const double error = all_within(R, 2) ? rotation_error(R) : std::numeric_limits<double>::infinity();
+  if (error <= kRoundedRotation) return R;
+  if (!(error <= kNearRotation)) {
     std::array<double, 9> rows{};
     write_matrix(R, rows.data());
-    throw std::invalid_argument(name.text() + " = " + vector_text(rows.data(), 9) + " (by rows), whose columns are not, to " +
-                                to_text(kNearRotation) + ", unit vectors at right angles and right-handed");
+    throw std::invalid_argument(name.text() + " = " + vector_text(rows.data(), 9) +
+                                " (by rows), but must be orthonormal and right-handed to " + to_text(kNearRotation));
   }
   // The nearest rotation is the orthogonal factor of the polar decomposition.
   const Eigen::JacobiSVD<Matrix3> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -118,7 +121,8 @@ std::string text_of(const py::object& self) {
 constexpr const char* kPoseDoc = R"(The position and orientation of a body: x_world = rotation @ x_body + position.
 
 position: (3,), m, each coordinate within 1e150.
-rotation: (3, 3), orthonormal and right-handed. Within 1e-14 it is used unchanged. Within 1e-2 the nearest rotation is used.
+rotation: (3, 3), orthonormal and right-handed: the sum of the errors of the defining equations. Within 1e-14 it is used unchanged.
+Within 1e-2 the nearest rotation is used.
 quaternion: (4,), w, x, y, z, of unit length to 1e-6; instead of a rotation.
 
 Raises ValueError when a number is out of range, when the matrix is not a rotation, or when both are given.)";

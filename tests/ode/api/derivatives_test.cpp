@@ -226,7 +226,7 @@ TEST_CASE("derivatives of geoms: a face on a plane says what is not defined, a m
   CHECK(std::abs(gradient[4] - 3.2) < within_rounding(1e-6, 10));
   snDerivatives refused;
   CHECK(snGeomDerivatives(floor, ball, &at, &refused) == 0);
-  CHECK(refused_with("snGeomDerivatives: the collider is a dTriMesh, but must be"));
+  CHECK(refused_with("snGeomDerivatives: g1 is a dTriMesh, but must be"));
   CHECK(snGeomIsFartherThan(floor, ball, dReal(0.6), nullptr) == 1);
   CHECK(snGeomIsFartherThan(ball, floor, dReal(0.8), nullptr) == 0);
 }
@@ -310,13 +310,13 @@ TEST_CASE("derivatives and clearance of geoms: bad input is refused with its nam
   CHECK(refused_with("must be a body made by snCreate"));
   const Geom space(reinterpret_cast<dGeomID>(dSimpleSpaceCreate(nullptr)));
   CHECK(snGeomDerivatives(ours, space, &at, &derivatives) == 0);
-  CHECK(refused_with("must be a body made by snCreate"));
+  CHECK(refused_with("g2 is a space, but must be a body made by snCreate"));
 
   CHECK(snGeomGapGradient(ours, space, &at, gradient) == 0);
-  CHECK(refused_with("snGeomGapGradient: the collider is a space, but must be"));
+  CHECK(refused_with("snGeomGapGradient: g2 is a space, but must be"));
   const Geom without_body(dCreateGeom(snGeomClass()));
   CHECK(snGeomGapGradient(ours, without_body, &at, gradient) == 0);
-  CHECK(refused_with("must be a body made by snCreate"));
+  CHECK(refused_with("g2 is a geom of this library's class, but must be a body made by snCreate"));
   CHECK(snGeomGapGradient(ours, other, nullptr, gradient) == 0);
   CHECK(refused_with("snGeomGapGradient: at = NULL"));
   CHECK(snGeomGapGradient(ours, other, &at, nullptr) == 0);

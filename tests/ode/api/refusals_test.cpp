@@ -186,10 +186,14 @@ TEST_CASE("refusals: mass, support, point and proximity") {
   const Geom sphere(dCreateSphere(nullptr, 1));
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
   CHECK(snGeomProximity(sphere, plane, &answer) == 0);
-  check_error("snGeomProximity", "geom is a dPlane", "must be");
+  check_error("snGeomProximity", "g1 is a dSphere and g2 is a dPlane", "one of them must be a body made by snCreate");
   dGeomSetPosition(other, kNan, 0, 0);
   CHECK(snGeomProximity(geom, other, &answer) == 0);
-  check_error("snGeomProximity", "pose", "not finite");
+  check_error("snGeomProximity", "the pose of g2 (a geom of this library's class)", "not finite");
+  CHECK(snGeomProximity(other, geom, &answer) == 0);
+  check_error("snGeomProximity", "the pose of g1 (a geom of this library's class)", "not finite");
+  CHECK(snGeomProximity(sphere, other, &answer) == 0);
+  check_error("snGeomProximity", "the pose of g2 (", "not finite");
   CHECK(answer.gap == 7);
 }
 
