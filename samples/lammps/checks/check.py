@@ -6,6 +6,7 @@ import sys
 import time
 
 import bricks
+import clusters
 import collision
 import gas
 import ranks
@@ -13,7 +14,7 @@ import surfaces
 import walls
 from driver import Driver
 
-CHECKS = {"bricks": bricks.check, "collision": collision.check, "gas": gas.check, "ranks": ranks.check, "surfaces": surfaces.check, "walls": walls.check}
+CHECKS = {"bricks": bricks.check, "clusters": clusters.check, "collision": collision.check, "gas": gas.check, "ranks": ranks.check, "surfaces": surfaces.check, "walls": walls.check}
 
 
 def main():
