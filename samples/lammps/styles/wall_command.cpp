@@ -77,13 +77,18 @@ WallCommand read_wall_command(Words words) {
   if (words.accept("type")) {
     command.type = words.integer("type");
   } else {
-    const Coefficients coefficients = read_coefficients(words.take_until("move"));
+    const Coefficients coefficients = read_coefficients(words.take_until({"move", "drive"}));
     if (!coefficients.has_material) throw std::invalid_argument("the law is missing: hooke, hertz or type");
     if (coefficients.has_exponents) throw std::invalid_argument("exponents belong to the particles' types: pair_coeff");
     command.material = coefficients.material;
   }
   while (!words.is_empty()) {
-    words.next("move");
+    const std::string keyword = words.next("move");
+    if (keyword == "drive") {
+      command.drive = read_drive(words);
+      break;
+    }
+    if (keyword != "move") throw std::invalid_argument(keyword + " is none of move, drive");
     command.motions.push_back(read_motion(words));
     if (words.accept("from")) command.motions.back().from = words.number("from");
     if (words.accept("until")) command.motions.back().until = words.number("until");
