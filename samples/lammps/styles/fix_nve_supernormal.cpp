@@ -19,7 +19,7 @@ FixNveSupernormal::FixNveSupernormal(LAMMPS* lammps, int count, char** words) : 
   size_vector = static_cast<int>(momentum_.size());
   extscalar = extvector = 1;
   global_freq = 1;
-  restart_peratom = 1;
+  restart_peratom = create_attribute = 1;
   maxexchange = StoredForces::kSize;
   FixNveSupernormal::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);

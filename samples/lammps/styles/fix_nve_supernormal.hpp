@@ -27,6 +27,7 @@ class FixNveSupernormal : public LAMMPS_NS::Fix {
 
   void grow_arrays(int count) override { forces_.grow(count); }
   void copy_arrays(int from, int to, int /*deleted*/) override { forces_.copy(from, to); }
+  void set_arrays(int i) override { forces_.forget(i); }
   int pack_exchange(int i, double* buffer) override { return forces_.pack(i, buffer); }
   int unpack_exchange(int i, double* buffer) override { return forces_.unpack(i, buffer); }
   int pack_restart(int i, double* buffer) override { return forces_.pack_restart(i, buffer); }

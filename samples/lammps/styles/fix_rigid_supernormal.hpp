@@ -71,6 +71,10 @@ class FixRigidSupernormal : public Base, public RigidClusters {
     Base::copy_arrays(from, to, deleted);
     forces_.copy(from, to);
   }
+  void set_arrays(int i) override {
+    Base::set_arrays(i);
+    forces_.forget(i);
+  }
   int pack_exchange(int i, double* buffer) override {
     const int size = Base::pack_exchange(i, buffer);
     return size + forces_.pack(i, buffer + size);

@@ -49,6 +49,8 @@ int FixWallSupernormal::setmask() {
 }
 
 void FixWallSupernormal::init() {
+  constexpr int kMinimization = 2;
+  if (update->whichflag == kMinimization) error->all(FLERR, "fix wall/supernormal: walls do not act in a minimization; use run");
   pair_ = &PairSupernormal::require(lmp, "fix wall/supernormal");
   if (command_.type && (*command_.type < 1 || *command_.type > atom->ntypes)) {
     error->all(FLERR, fmt::format("fix wall/supernormal: type = {} is outside [1, {}]", *command_.type, atom->ntypes));

@@ -165,6 +165,9 @@ void PairSupernormal::init_style() {
     history_->pair = this;
     report_volumes();
   }
+  constexpr int kMinimization = 2;
+  if (update->whichflag == kMinimization && comm->me == 0)
+    error->warning(FLERR, "supernormal: a minimization rotates no particles");
   if (has_particle_exponents_) bodies_->use_particle_exponents();
   find_fixes_of_clusters();
   comm_forward = (has_particle_exponents_ ? 2 : 0) + (fixes_of_clusters_.empty() ? 0 : Cluster::kSize);

@@ -1,6 +1,7 @@
 #include "styles/stored_forces.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace granular {
 
@@ -33,6 +34,7 @@ void StoredForces::store(const LAMMPS_NS::Atom& atom, int i) {
 }
 
 void StoredForces::put_back(LAMMPS_NS::Atom& atom, int i) const {
+  if (std::isnan(at(i)[0])) return;
   std::copy_n(at(i).begin(), 3, atom.f[i]);
   std::copy_n(at(i).begin() + 3, 3, atom.torque[i]);
 }

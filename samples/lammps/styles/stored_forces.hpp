@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "atom.h"
@@ -16,7 +17,8 @@ class StoredForces {
   static constexpr int kSize = 6;                 ///< numbers that store a particle: force and torque
   static constexpr int kRestartSize = kSize + 1;  ///< the same in a restart file
 
-  void grow(int count) { forces_.resize(static_cast<std::size_t>(count)); }
+  void grow(int count) { forces_.resize(static_cast<std::size_t>(count), none()); }
+  void forget(int i) { at(i) = none(); }  ///< of a new particle
   void copy(int from, int to) { at(to) = at(from); }
   int pack(int i, double* buffer) const;
   int unpack(int i, const double* buffer);
@@ -26,7 +28,7 @@ class StoredForces {
 
   /// Stores the present forces on a particle.
   void store(const LAMMPS_NS::Atom& atom, int i);
-  /// Whether the forces come from a restart file. Then put_back() sets them, and the caller resets this.
+  /// Whether the forces come from a restart file. Then put_back() sets those that are known, and the caller resets this.
   bool is_restored = false;
   void put_back(LAMMPS_NS::Atom& atom, int i) const;
 
@@ -34,6 +36,7 @@ class StoredForces {
 
  private:
   using Forces = std::array<double, kSize>;
+  static constexpr Forces none() { return {std::numeric_limits<double>::quiet_NaN()}; }
   Forces& at(int i) { return forces_[static_cast<std::size_t>(i)]; }
   const Forces& at(int i) const { return forces_[static_cast<std::size_t>(i)]; }
 

@@ -1,8 +1,10 @@
 #include "styles/wall_command.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "input/load_mesh.hpp"
 #include "kernel/walls/box_wall.hpp"
@@ -64,6 +66,8 @@ falling_particles::WallMotion read_motion(Words& words) {
   if (kind == "vibrate") {
     const Vector3 amplitude = words.vector(kind);
     const double frequency = words.number(kind);
+    if (!(frequency > 0))
+      throw std::invalid_argument("move vibrate: frequency = " + std::to_string(frequency) + " is outside (0, inf)");
     return {falling_particles::Vibration{amplitude, frequency, words.number(kind)}};
   }
   throw std::invalid_argument("move " + kind + " is none of linear, rotate, vibrate, conveyor");
@@ -92,6 +96,17 @@ WallCommand read_wall_command(Words words) {
     command.motions.push_back(read_motion(words));
     if (words.accept("from")) command.motions.back().from = words.number("from");
     if (words.accept("until")) command.motions.back().until = words.number("until");
+    const auto& [ignored, from, until] = command.motions.back();
+    if (until <= from) {
+      throw std::invalid_argument("move: until = " + std::to_string(until) + " is outside (from = " + std::to_string(from) +
+                                  ", inf)");
+    }
+  }
+  const auto moves_surface = [](const falling_particles::WallMotion& motion) {
+    return std::holds_alternative<falling_particles::Conveyor>(motion.kind);
+  };
+  if (command.drive && std::ranges::any_of(command.motions, moves_surface)) {
+    throw std::invalid_argument("drive besides move conveyor; allowed: with the other motions");
   }
   return command;
 }
