@@ -5,9 +5,9 @@ import math
 STIFFNESS, BALLS, AREA = 1e3, 4, 0.01  # N/m, of each ball and the plane; m^2
 
 
-def press(driver, drive, timestep, time, every=1, ranks=1, save=1000000, out="press", law=f"hooke {STIFFNESS}"):
+def press(driver, drive, timestep, time, every=1, ranks=1, save=1000000, out="press", sides=0, law=f"hooke {STIFFNESS}"):
     steps = round(time / timestep)
-    (table,) = driver.run("press", ranks, drive=drive, law=law, timestep=timestep, steps=steps, every=every, save=save, out=out)
+    (table,) = driver.run("press", ranks, drive=drive, law=law, timestep=timestep, steps=steps, every=every, save=save, out=out, sides=sides)
     return [(row["Step"] * timestep, row) for row in table]
 
 
@@ -71,6 +71,11 @@ def check_servo(driver):
     yield "servo with 1.1 of the largest stable gain rests", 0 if abs(ends[1] / stress - 1) > 0.1 else 1, 0
     yield "servo: stress", abs(rows[-1][1]["f_wall[11]"] / stress - 1), 1e-6
     yield from check_ranks(driver, "servo", drive, 2e-2 / rate)
+    # Walls beside the balls go apart: the force is the stress times the area between them.
+    drive = f"axis 0 0 -1 stress {stress} gain 0.02 between x_low x_high y_low y_high largest_speed 1"
+    rows = press(driver, drive, 1e-5, 0.02, every=10, sides=1)
+    error = max(abs(row["f_wall[3]"] / (stress * 0.12 * (0.12 + 0.5 * time)) - 1) for time, row in rows[50:])
+    yield "servo between walls that go apart: force", error, 2e-3
 
 
 def check_restart(driver):

@@ -16,9 +16,10 @@ constexpr double kLeast = std::numeric_limits<double>::min();
 constexpr double kLargestTurn = 170;  // degrees
 
 const std::map<std::string, std::size_t> kSizes = {
-    {"axis", 3},          {"force", 1},          {"pressure", 1}, {"power", 1},         {"torque", 1},  {"stress", 1}, {"area", 1},
-    {"largest_force", 1}, {"largest_torque", 1}, {"gain", 1},     {"largest_speed", 1}, {"mass", 1},    {"moment", 1}, {"point", 3},
-    {"damping", 1},       {"from", 1},           {"until", 1},    {"travel", 2},        {"gravity", 0},
+    {"axis", 3},          {"force", 1}, {"pressure", 1},      {"power", 1},          {"torque", 1},
+    {"stress", 1},        {"area", 1},  {"largest_force", 1}, {"largest_torque", 1}, {"gain", 1},
+    {"largest_speed", 1}, {"mass", 1},  {"moment", 1},        {"point", 3},          {"damping", 1},
+    {"from", 1},          {"until", 1}, {"travel", 2},        {"gravity", 0},        {"between", 0},
 };
 
 std::string join(const std::vector<std::string>& names) {
@@ -30,14 +31,15 @@ std::string join(const std::vector<std::string>& names) {
 /// The numbers of a drive by keyword.
 class Numbers {
  public:
-  explicit Numbers(Words& words, std::string& gravity) {
+  Numbers(Words& words, DriveCommand& command) {
     while (!words.is_empty()) {
       const std::string keyword = words.next("drive");
       const auto size = kSizes.find(keyword);
       if (size == kSizes.end()) throw std::invalid_argument("drive: " + keyword + " is none of " + names());
       if (has(keyword)) throw std::invalid_argument("drive: " + keyword + " is given twice");
       std::vector<double>& values = values_[keyword];
-      if (keyword == "gravity") gravity = words.next(keyword);
+      if (keyword == "gravity") command.gravity = words.next(keyword);
+      while (keyword == "between" && command.between.size() < 4) command.between.push_back(words.next(keyword));
       while (values.size() < size->second) values.push_back(words.number(keyword));
     }
   }
@@ -128,10 +130,11 @@ void read_turning(const Numbers& numbers, const std::string& law, falling_partic
 }
 
 void read_servo(const Numbers& numbers, falling_particles::Drive& drive) {
-  numbers.refuse_others({"stress", "gain", "largest_speed", "area"});
+  const bool has_walls = numbers.has("between");
+  numbers.refuse_others({"stress", "gain", "largest_speed", has_walls ? "between" : "area"});
   if (numbers.has("gravity")) throw std::invalid_argument("drive: gravity has no meaning with stress: a servo has no mass");
   drive.servo = falling_particles::Servo{numbers.positive("stress"), numbers.positive("gain"), numbers.positive("largest_speed"),
-                                         numbers.positive("area")};
+                                         has_walls ? 0 : numbers.positive("area")};
 }
 
 void read_travel(const Numbers& numbers, falling_particles::Drive& drive) {
@@ -150,7 +153,7 @@ void read_travel(const Numbers& numbers, falling_particles::Drive& drive) {
 
 DriveCommand read_drive(Words& words) {
   DriveCommand command{};
-  const Numbers numbers(words, command.gravity);
+  const Numbers numbers(words, command);
   falling_particles::Drive& drive = command.drive;
   const Vector3 axis = numbers.vector("axis");
   if (!(axis.norm() > 0 && axis.allFinite())) throw std::invalid_argument("drive: axis has no direction");

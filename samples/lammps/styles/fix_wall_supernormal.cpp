@@ -1,5 +1,6 @@
 #include "styles/fix_wall_supernormal.hpp"
 
+#include <cmath>
 #include <cstring>
 #include <exception>
 #include <string>
@@ -55,6 +56,7 @@ void FixWallSupernormal::init() {
   if (command_.type && (*command_.type < 1 || *command_.type > atom->ntypes)) {
     error->all(FLERR, fmt::format("fix wall/supernormal: type = {} is outside [1, {}]", *command_.type, atom->ntypes));
   }
+  if (command_.drive && !command_.drive->between.empty()) find_facing_walls();
   if (command_.drive && !command_.drive->gravity.empty()) {
     const std::string& name = command_.drive->gravity;
     const int found = modify->find_fix(name);
@@ -62,6 +64,34 @@ void FixWallSupernormal::init() {
     gravity_ = found < 0 ? nullptr : static_cast<const double*>(modify->fix[found]->extract("gvec", dimension));
     if (gravity_ == nullptr) error->all(FLERR, "fix wall/supernormal: drive: gravity: there is no fix gravity " + name);
   }
+}
+
+void FixWallSupernormal::find_facing_walls() {
+  constexpr double kRightAngle = 1e-6;  // cosine; above the rounding of an input's digits
+  for (std::size_t k = 0; k < facing_.size(); ++k) {
+    const std::string& name = command_.drive->between[k];
+    const int found = modify->find_fix(name);
+    facing_[k] = found < 0 ? nullptr : dynamic_cast<const FixWallSupernormal*>(modify->fix[found]);
+    if (facing_[k] == nullptr || !facing_[k]->command_.normal) {
+      error->all(FLERR, "fix wall/supernormal: drive: between: there is no fix wall/supernormal with a plane " + name);
+    }
+  }
+  const Vector3 n = facing_[0]->normal(), m = facing_[2]->normal();
+  const Vector3& axis = command_.drive->drive.axis;
+  if ((n + facing_[1]->normal()).norm() > kRightAngle || (m + facing_[3]->normal()).norm() > kRightAngle ||
+      std::abs(n.dot(m)) > kRightAngle || std::abs(n.dot(axis)) > kRightAngle || std::abs(m.dot(axis)) > kRightAngle) {
+    error->all(FLERR,
+               "fix wall/supernormal: drive: between takes planes that face each other, the first two and the last two, at "
+               "right angles to the axis and to each other");
+  }
+  driven_->set_area(area_between());
+}
+
+double FixWallSupernormal::area_between() const {
+  const auto distance = [](const FixWallSupernormal& one, const FixWallSupernormal& other) {
+    return std::abs(one.normal().dot(other.pose().position - one.pose().position));
+  };
+  return distance(*facing_[0], *facing_[1]) * distance(*facing_[2], *facing_[3]);
 }
 
 const ContactMaterial& FixWallSupernormal::material(int type) const {
@@ -83,6 +113,11 @@ void FixWallSupernormal::setup(int vflag) {
 
 falling_particles::WallPose FixWallSupernormal::carrier_at(double time) const {
   return pose_at({command_.anchor, Eigen::Quaterniond::Identity()}, command_.motions, time);
+}
+
+falling_particles::WallPose FixWallSupernormal::pose() const {
+  const falling_particles::WallPose carrier = carrier_at(clock_.now());
+  return driven_ ? driven_->pose_on(carrier) : carrier;
 }
 
 void FixWallSupernormal::kick(double now) {
@@ -136,6 +171,7 @@ void FixWallSupernormal::post_force(int /*vflag*/) {
   totals_step_ = -1;
   if (driven_) {
     total(0);
+    if (facing_[0] != nullptr) driven_->set_area(area_between());
     driven_->load(carrier_at(clock_.now()), Vector3::Map(&totals_[1]), Vector3::Map(&totals_[4]));
   }
 }

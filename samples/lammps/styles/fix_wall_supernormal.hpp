@@ -58,15 +58,20 @@ class FixWallSupernormal : public LAMMPS_NS::Fix {
   const ContactMaterial& material(int type) const;
   /// The wall with its prescribed motions alone.
   falling_particles::WallPose carrier_at(double time) const;
+  falling_particles::WallPose pose() const;
+  Vector3 normal() const { return pose().rotation * *command_.normal; }  ///< of a plane
+  void find_facing_walls();
+  double area_between() const;
   Body wall_body(double step) const;
   void kick(double now);
   double total(int index);
 
   WallCommand command_;
   std::optional<DrivenWall> driven_;
-  bool is_drive_restored_ = false;   // whether the load of driven_ comes from a restart file
-  const double* gravity_ = nullptr;  // m/s^2, in memory of LAMMPS
-  std::vector<int> is_extensive_;    // per number of the vector
+  std::array<const FixWallSupernormal*, 4> facing_{};  // of a servo: planes that face each other two by two
+  bool is_drive_restored_ = false;                     // whether the load of driven_ comes from a restart file
+  const double* gravity_ = nullptr;                    // m/s^2, in memory of LAMMPS
+  std::vector<int> is_extensive_;                      // per number of the vector
   PairSupernormal* pair_ = nullptr;
   Clock clock_;                      // time of the motions since the fix was created
   LAMMPS_NS::bigint first_counter_;  // step counter of LAMMPS when the fix was created

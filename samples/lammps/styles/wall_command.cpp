@@ -37,7 +37,9 @@ void read_shape(Words& words, WallCommand& command) {
   const std::string kind = words.next("wall/supernormal");
   if (kind == "plane") {
     command.anchor = words.vector(kind);
-    command.wall = std::make_unique<PlaneWall>(Vector3::Zero(), words.vector(kind));
+    const Vector3 normal = words.vector(kind);
+    command.wall = std::make_unique<PlaneWall>(Vector3::Zero(), normal);
+    command.normal = normal.normalized();
   } else if (kind == "box") {
     const Vector3 low = words.vector(kind), high = words.vector(kind);
     command.anchor = 0.5 * (low + high);

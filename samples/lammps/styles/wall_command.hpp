@@ -17,6 +17,7 @@ namespace granular {
 struct WallCommand {
   std::unique_ptr<Wall> wall;
   Vector3 anchor = Vector3::Zero();  ///< m; initial origin of the wall's frame
+  std::optional<Vector3> normal;     ///< of a plane, unit; out of the wall
   ContactMaterial material;          ///< unless `type` is set
   std::optional<int> type;           ///< the wall has the material of this atom type
   std::vector<falling_particles::WallMotion> motions;

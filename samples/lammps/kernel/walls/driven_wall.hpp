@@ -33,6 +33,9 @@ class DrivenWall {
   /// Takes the force (N) of the contacts on the wall, and their torque (N m) about the wall's position.
   void load(const falling_particles::WallPose& carrier, const Vector3& force, const Vector3& torque);
 
+  /// Of a servo, m^2.
+  void set_area(double area) { drive_.servo->area = area; }
+
   falling_particles::WallPose pose_on(const falling_particles::WallPose& carrier) const;
   falling_particles::WallVelocity velocity_on(const falling_particles::WallPose& carrier,
                                               const falling_particles::WallVelocity& velocity) const;
