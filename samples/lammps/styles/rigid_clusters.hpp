@@ -11,10 +11,13 @@ class RigidClusters {
   RigidClusters() = default;
   RigidClusters(const RigidClusters&) = delete;
   RigidClusters& operator=(const RigidClusters&) = delete;
-  virtual ~RigidClusters() = default;
 
   /// The cluster of an owned particle. The answer is valid until LAMMPS builds its neighbour lists again.
   virtual Cluster cluster(int i) const = 0;
+
+ protected:
+  // Not virtual: LAMMPS deletes its fixes as such, and their destructors may throw in some versions.
+  ~RigidClusters() = default;
 };
 
 }  // namespace granular
