@@ -2,6 +2,7 @@
 #include "lammps.h"
 #include "lammpsplugin.h"
 #include "styles/fix_nve_supernormal.hpp"
+#include "styles/fix_rigid_supernormal.hpp"
 #include "styles/fix_wall_supernormal.hpp"
 #include "styles/pair_supernormal.hpp"
 #include "version.h"
@@ -9,8 +10,14 @@
 namespace {
 
 using LAMMPS_NS::Fix;
+using LAMMPS_NS::FixRigid;
+using LAMMPS_NS::FixRigidNVE;
+using LAMMPS_NS::FixRigidNVESmall;
+using LAMMPS_NS::FixRigidSmall;
 using LAMMPS_NS::LAMMPS;
 using LAMMPS_NS::Pair;
+
+constexpr const char* kClusters = "rigid clusters of superellipsoids";
 
 // LAMMPS takes raw pointers and owns the objects.
 template <typename Style>
@@ -57,7 +64,11 @@ extern "C" [[gnu::visibility("default")]] void lammpsplugin_init(void* lammps, v
   for (lammpsplugin_t style :
        {pair_style(&create_pair<PairSupernormal>, "supernormal", "contacts of superellipsoids", handle),
         fix_style(&create_fix<FixNveSupernormal>, "nve/supernormal", "motion of superellipsoids", handle),
-        fix_style(&create_fix<FixWallSupernormal>, "wall/supernormal", "walls of superellipsoids", handle)}) {
+        fix_style(&create_fix<FixWallSupernormal>, "wall/supernormal", "walls of superellipsoids", handle),
+        fix_style(&create_fix<FixRigidSupernormal<FixRigid>>, "rigid/supernormal", kClusters, handle),
+        fix_style(&create_fix<FixRigidSupernormal<FixRigidNVE>>, "rigid/nve/supernormal", kClusters, handle),
+        fix_style(&create_fix<FixRigidSupernormal<FixRigidSmall>>, "rigid/small/supernormal", kClusters, handle),
+        fix_style(&create_fix<FixRigidSupernormal<FixRigidNVESmall>>, "rigid/nve/small/supernormal", kClusters, handle)}) {
     reinterpret_cast<lammpsplugin_regfunc>(register_style)(&style, lammps);
   }
 }

@@ -6,14 +6,17 @@ import sys
 import time
 
 import bricks
+import clusters
 import collision
+import driven
 import gas
 import ranks
+import sizes
 import surfaces
 import walls
 from driver import Driver
 
-CHECKS = {"bricks": bricks.check, "collision": collision.check, "gas": gas.check, "ranks": ranks.check, "surfaces": surfaces.check, "walls": walls.check}
+CHECKS = {"bricks": bricks.check, "clusters": clusters.check, "collision": collision.check, "driven": driven.check, "gas": gas.check, "ranks": ranks.check, "sizes": sizes.check, "surfaces": surfaces.check, "walls": walls.check}
 
 
 def main():

@@ -31,7 +31,7 @@ def check_gas(driver, kind, steps, law, limit, **bodies):
 
 
 def check_rigid(driver, steps, limit):
-    """Crosses of two bodies, moved by LAMMPS' fix rigid/nve."""
+    """Crosses of two bodies, moved by fix rigid/nve/supernormal."""
     for kind, exponents in (("ellipsoids", "2 2"), ("bricks", "12 20")):
         (table,) = driver.run("rigid", 1, exponents=exponents, steps=steps, every=steps // 100)
         drift = max(abs(row["v_energy"] / table[0]["v_energy"] - 1) for row in table)

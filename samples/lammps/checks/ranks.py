@@ -1,7 +1,5 @@
 """Forces do not depend on the number of ranks, and a restarted run gives the same bytes."""
 
-import filecmp
-
 BED, BRICKS = "bed.restart", "bricks.restart"
 
 
@@ -37,8 +35,8 @@ def check_restart(driver, bed):
         whole, again = f"whole_{kind}_{ranks}", f"again_{kind}_{ranks}"
         driver.run("dense_restart", ranks, bed=bed, until=4400, every=100, out=whole)
         driver.run("dense_restart", ranks, bed=f"{whole}.4200.restart", until=4400, every=100, out=again)
-        same = filecmp.cmp(driver.folder / f"{whole}.4400.restart", driver.folder / f"{again}.4400.restart", shallow=False)
-        yield f"{kind}, {ranks} ranks: restarted run differs", 0 if same else 1, 0
+        differ = driver.do_restarts_differ(f"{whole}.4400.restart", f"{again}.4400.restart")
+        yield f"{kind}, {ranks} ranks: restarted run differs", 1 if differ else 0, 0
 
 
 def check_particle_exponents(driver):
@@ -53,8 +51,8 @@ def check_particle_exponents(driver):
         whole, again = f"whole_exponents_{ranks}", f"again_exponents_{ranks}"
         driver.run("dense_restart", ranks, bed=BED, until=4400, every=100, out=whole, exponents="spread")
         driver.run("dense_restart", ranks, bed=f"{whole}.4200.restart", until=4400, every=100, out=again, exponents="restored")
-        same = filecmp.cmp(driver.folder / f"{whole}.4400.restart", driver.folder / f"{again}.4400.restart", shallow=False)
-        yield f"exponents of particles, {ranks} ranks: restarted run differs", 0 if same else 1, 0
+        differ = driver.do_restarts_differ(f"{whole}.4400.restart", f"{again}.4400.restart")
+        yield f"exponents of particles, {ranks} ranks: restarted run differs", 1 if differ else 0, 0
 
 
 def check(driver):

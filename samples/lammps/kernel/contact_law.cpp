@@ -46,7 +46,8 @@ struct Mobility {
 };
 
 /// Adds the mobility of one body.
-void add_mobility(const Body& body, const Vector3& arm, const Vector3& n, Mobility& mobility) {
+void add_mobility(const Body& body, const Vector3& from_origin, const Vector3& n, Mobility& mobility) {
+  const Vector3 arm = body.from_centre + from_origin;
   const Vector3 lever = arm.cross(n);
   const double along = lever.dot(body.inverse_inertia * lever);
   // The trace of [arm]^T J [arm], where [arm] x = arm cross x.

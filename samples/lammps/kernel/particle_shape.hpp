@@ -18,6 +18,9 @@ struct ParticleShape {
   Vector3 unit_inertia;    ///< m^2; principal moments of inertia over the mass, along the axes of the body
   std::vector<Face> faces;
   double bulge = 0;  ///< m; no face sticks out of the body by more than this
+
+  /// The half-axes (m) of the ellipsoid with the same mass and inertia.
+  Vector3 equal_ellipsoid() const { return (2.5 * (unit_inertia.sum() - 2 * unit_inertia.array())).sqrt(); }
 };
 
 /// The largest distance of a point of a superellipsoid from its centre, m.

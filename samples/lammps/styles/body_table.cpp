@@ -23,6 +23,8 @@ BodyTable::BodyTable(LAMMPS* lammps, int types)
 
 double* BodyTable::quaternion(int i) const { return ellipsoids_->bonus[lammps_->atom->ellipsoid[i]].quat; }
 
+double* BodyTable::half_axes(int i) const { return ellipsoids_->bonus[lammps_->atom->ellipsoid[i]].shape; }
+
 void BodyTable::use_particle_exponents() {
   const auto find = [&](const char* name) {
     int is_double = 0, columns = 0;
@@ -107,12 +109,14 @@ void BodyTable::read_motion() {
     const Vector3 inverse = (atom.rmass[i] * shape.unit_inertia).cwiseInverse();
     body.inverse_inertia = body.pose.rotation * inverse.asDiagonal() * body.pose.rotation.transpose();
     body.angular_velocity = body.inverse_inertia * Vector3::Map(atom.angmom[i]);
+    body.from_centre.setZero();
+    if (!clusters_.empty() && !clusters_[i].is_none()) clusters_[i].apply(body);
   }
 }
 
 double BodyTable::bytes() const {
-  return static_cast<double>(bodies_.capacity() * (sizeof(Body) + sizeof(Turn)) + shapes_.capacity() * sizeof(void*) +
-                             cache_.size() * (sizeof(ParticleShape) + 100));
+  return static_cast<double>(bodies_.capacity() * (sizeof(Body) + sizeof(Turn)) + clusters_.capacity() * sizeof(Cluster) +
+                             shapes_.capacity() * sizeof(void*) + cache_.size() * (sizeof(ParticleShape) + 100));
 }
 
 }  // namespace granular

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernel/body.hpp"
+#include "kernel/cluster.hpp"
 #include "kernel/shape_cache.hpp"
 #include "lammps.h"
 
@@ -40,6 +41,12 @@ class BodyTable {
   /// Finds the shapes of all particles. Call it whenever their order or number changes.
   void assign_shapes();
 
+  /// The clusters of particles, by their index; those of ghosts are the caller's to copy. Empty if there are none.
+  std::vector<Cluster>& clusters() { return clusters_; }
+  bool are_in_one_cluster(int i, int j) const {
+    return !clusters_.empty() && clusters_[static_cast<std::size_t>(i)].is_same(clusters_[static_cast<std::size_t>(j)]);
+  }
+
   /// Reads poses and velocities of all particles.
   void read_motion();
 
@@ -51,10 +58,12 @@ class BodyTable {
 
   /// The quaternion (w, x, y, z; body to world) of particle i, in memory of LAMMPS.
   double* quaternion(int i) const;
-
- private:
+  /// The three half-axes of particle i, in memory of LAMMPS.
+  double* half_axes(int i) const;
+  /// The shape of an owned particle at any time. shape() is faster.
   const ParticleShape& find_shape(int i);
 
+ private:
   LAMMPS_NS::LAMMPS* lammps_;
   LAMMPS_NS::AtomVecEllipsoid* ellipsoids_;
   std::vector<Exponents> exponents_;  // per type
@@ -63,6 +72,7 @@ class BodyTable {
   ShapeCache cache_;
   std::vector<const ParticleShape*> shapes_;  // per particle
   std::vector<Body> bodies_;
+  std::vector<Cluster> clusters_;
   struct Turn {
     Eigen::Vector4d quaternion = Eigen::Vector4d::Zero();  // when last read
     double way = 0;                                        // m

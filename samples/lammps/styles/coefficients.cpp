@@ -1,5 +1,6 @@
 #include "styles/coefficients.hpp"
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -21,7 +22,7 @@ double exponent(double value) {
 Coefficients read_coefficients(Words words) {
   Coefficients found;
   ContactMaterial& material = found.material;
-  double tangential = 0;
+  std::optional<double> tangential;
   bool has_parameters = false;
   while (!words.is_empty()) {
     const std::string keyword = words.next("");
@@ -42,7 +43,7 @@ Coefficients read_coefficients(Words words) {
     } else {
       double* const parameter = keyword == "restitution"  ? &material.restitution
                                 : keyword == "friction"   ? &material.friction
-                                : keyword == "tangential" ? &tangential
+                                : keyword == "tangential" ? &tangential.emplace()
                                 : keyword == "rolling"    ? &material.rolling_length
                                 : keyword == "spinning"   ? &material.spinning_length
                                 : keyword == "adhesion"   ? &material.adhesion
@@ -56,7 +57,7 @@ Coefficients read_coefficients(Words words) {
     }
   }
   if (has_parameters && !found.has_material) throw std::invalid_argument("the law is missing: hooke or hertz");
-  if (tangential != 0) material.tangential_ratio = tangential;
+  if (tangential) material.tangential_ratio = *tangential;
   if (found.has_material) material = prepared(material);
   return found;
 }

@@ -1,13 +1,11 @@
 #include "styles/fix_nve_supernormal.hpp"
 
-#include <algorithm>
 #include <array>
 
 #include "atom.h"
 #include "domain.h"
 #include "error.h"
 #include "kernel/free_rotation.hpp"
-#include "memory.h"
 #include "update.h"
 
 namespace granular {
@@ -21,8 +19,8 @@ FixNveSupernormal::FixNveSupernormal(LAMMPS* lammps, int count, char** words) : 
   size_vector = static_cast<int>(momentum_.size());
   extscalar = extvector = 1;
   global_freq = 1;
-  restart_peratom = 1;
-  maxexchange = kForces;
+  restart_peratom = create_attribute = 1;
+  maxexchange = StoredForces::kSize;
   FixNveSupernormal::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
@@ -31,7 +29,6 @@ FixNveSupernormal::FixNveSupernormal(LAMMPS* lammps, int count, char** words) : 
 FixNveSupernormal::~FixNveSupernormal() {
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
-  memory->destroy(forces_);
 }
 
 int FixNveSupernormal::setmask() { return FixConst::INITIAL_INTEGRATE | FixConst::FINAL_INTEGRATE; }
@@ -47,10 +44,7 @@ void FixNveSupernormal::kick(int i) {
 void FixNveSupernormal::initial_integrate(int /*vflag*/) {
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & groupbit) == 0) continue;
-    if (restored_) {
-      std::copy_n(forces_[i], 3, atom->f[i]);
-      std::copy_n(forces_[i] + 3, 3, atom->torque[i]);
-    }
+    if (forces_.is_restored) forces_.put_back(*atom, i);
     kick(i);
     Vector3::Map(atom->x[i]) += update->dt * Vector3::Map(atom->v[i]);
     double* q = bodies_->quaternion(i);
@@ -59,15 +53,14 @@ void FixNveSupernormal::initial_integrate(int /*vflag*/) {
     q[0] = turned.w();
     Vector3::Map(q + 1) = turned.vec();
   }
-  restored_ = false;
+  forces_.is_restored = false;
 }
 
 void FixNveSupernormal::final_integrate() {
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & groupbit) == 0) continue;
     kick(i);
-    std::copy_n(atom->f[i], 3, forces_[i]);
-    std::copy_n(atom->torque[i], 3, forces_[i] + 3);
+    forces_.store(*atom, i);
   }
 }
 
@@ -102,37 +95,5 @@ double FixNveSupernormal::compute_vector(int index) {
   if (index == 0 || momentum_step_ != update->ntimestep) find_momentum();
   return momentum_[static_cast<std::size_t>(index)];
 }
-
-void FixNveSupernormal::grow_arrays(int count) { memory->grow(forces_, count, kForces, "nve/supernormal:forces"); }
-
-void FixNveSupernormal::copy_arrays(int from, int to, int /*deleted*/) { std::copy_n(forces_[from], kForces, forces_[to]); }
-
-int FixNveSupernormal::pack_exchange(int i, double* buffer) {
-  std::copy_n(forces_[i], kForces, buffer);
-  return kForces;
-}
-
-int FixNveSupernormal::unpack_exchange(int i, double* buffer) {
-  std::copy_n(buffer, kForces, forces_[i]);
-  return kForces;
-}
-
-// In a restart file, the first number of a fix is the count of its numbers.
-int FixNveSupernormal::pack_restart(int i, double* buffer) {
-  buffer[0] = kForces + 1;
-  std::copy_n(forces_[i], kForces, buffer + 1);
-  return kForces + 1;
-}
-
-void FixNveSupernormal::unpack_restart(int i, int set) {
-  const double* numbers = atom->extra[i];
-  for (int k = 0; k < set; ++k) numbers += static_cast<int>(*numbers);
-  std::copy_n(numbers + 1, kForces, forces_[i]);
-  restored_ = true;
-}
-
-int FixNveSupernormal::size_restart(int /*i*/) { return kForces + 1; }
-int FixNveSupernormal::maxsize_restart() { return kForces + 1; }
-double FixNveSupernormal::memory_usage() { return static_cast<double>(atom->nmax) * kForces * sizeof(double); }
 
 }  // namespace granular

@@ -1,5 +1,6 @@
 #include "styles/fix_wall_supernormal.hpp"
 
+#include <cmath>
 #include <cstring>
 #include <exception>
 #include <string>
@@ -7,6 +8,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "modify.h"
 #include "update.h"
 
 namespace granular {
@@ -20,9 +22,14 @@ FixWallSupernormal::FixWallSupernormal(LAMMPS* lammps, int count, char** words)
   } catch (const std::exception& refusal) {
     error->all(FLERR, std::string("fix wall/supernormal: ") + refusal.what());
   }
+  if (command_.drive) driven_.emplace(command_.drive->drive, falling_particles::WallPose{command_.anchor});
   scalar_flag = vector_flag = 1;
-  size_vector = kSums - 1;
-  extscalar = extvector = 1;
+  is_extensive_.assign(kSums - 1, 1);
+  if (driven_) is_extensive_.resize(is_extensive_.size() + kDriveValues, 0);
+  size_vector = static_cast<int>(is_extensive_.size());
+  extscalar = 1;
+  extvector = -1;
+  extlist = is_extensive_.data();
   global_freq = 1;
   energy_global_flag = 1;
   create_attribute = 1;
@@ -38,13 +45,53 @@ FixWallSupernormal::~FixWallSupernormal() {
   atom->delete_callback(id, Atom::RESTART);
 }
 
-int FixWallSupernormal::setmask() { return FixConst::POST_FORCE; }
+int FixWallSupernormal::setmask() {
+  return FixConst::POST_FORCE | (driven_ ? FixConst::INITIAL_INTEGRATE | FixConst::FINAL_INTEGRATE : 0);
+}
 
 void FixWallSupernormal::init() {
+  constexpr int kMinimization = 2;
+  if (update->whichflag == kMinimization) error->all(FLERR, "fix wall/supernormal: walls do not act in a minimization; use run");
   pair_ = &PairSupernormal::require(lmp, "fix wall/supernormal");
   if (command_.type && (*command_.type < 1 || *command_.type > atom->ntypes)) {
     error->all(FLERR, fmt::format("fix wall/supernormal: type = {} is outside [1, {}]", *command_.type, atom->ntypes));
   }
+  if (command_.drive && !command_.drive->between.empty()) find_facing_walls();
+  if (command_.drive && !command_.drive->gravity.empty()) {
+    const std::string& name = command_.drive->gravity;
+    const int found = modify->find_fix(name);
+    int dimension = 0;
+    gravity_ = found < 0 ? nullptr : static_cast<const double*>(modify->fix[found]->extract("gvec", dimension));
+    if (gravity_ == nullptr) error->all(FLERR, "fix wall/supernormal: drive: gravity: there is no fix gravity " + name);
+  }
+}
+
+void FixWallSupernormal::find_facing_walls() {
+  constexpr double kRightAngle = 1e-6;  // cosine; above the rounding of an input's digits
+  for (std::size_t k = 0; k < facing_.size(); ++k) {
+    const std::string& name = command_.drive->between[k];
+    const int found = modify->find_fix(name);
+    facing_[k] = found < 0 ? nullptr : dynamic_cast<const FixWallSupernormal*>(modify->fix[found]);
+    if (facing_[k] == nullptr || !facing_[k]->command_.normal) {
+      error->all(FLERR, "fix wall/supernormal: drive: between: there is no fix wall/supernormal with a plane " + name);
+    }
+  }
+  const Vector3 n = facing_[0]->normal(), m = facing_[2]->normal();
+  const Vector3& axis = command_.drive->drive.axis;
+  if ((n + facing_[1]->normal()).norm() > kRightAngle || (m + facing_[3]->normal()).norm() > kRightAngle ||
+      std::abs(n.dot(m)) > kRightAngle || std::abs(n.dot(axis)) > kRightAngle || std::abs(m.dot(axis)) > kRightAngle) {
+    error->all(FLERR,
+               "fix wall/supernormal: drive: between takes planes that face each other, the first two and the last two, at "
+               "right angles to the axis and to each other");
+  }
+  driven_->set_area(area_between());
+}
+
+double FixWallSupernormal::area_between() const {
+  const auto distance = [](const FixWallSupernormal& one, const FixWallSupernormal& other) {
+    return std::abs(one.normal().dot(other.pose().position - one.pose().position));
+  };
+  return distance(*facing_[0], *facing_[1]) * distance(*facing_[2], *facing_[3]);
 }
 
 const ContactMaterial& FixWallSupernormal::material(int type) const {
@@ -55,19 +102,46 @@ const ContactMaterial& FixWallSupernormal::material(int type) const {
 // time.
 void FixWallSupernormal::setup(int vflag) {
   const bool is_run = update->ntimestep == update->firststep && update->laststep - update->firststep == update->nsteps;
+  if (!is_run && driven_) error->all(FLERR, "fix wall/supernormal: the place of a driven wall is unknown in a rerun");
   if (!is_run) clock_ = Clock({0, static_cast<double>(update->ntimestep - first_counter_), update->dt});
+  const DrivenWall::State before = driven_ ? driven_->state() : DrivenWall::State();
   post_force(vflag);
+  // The load of the last step goes on, as the forces of the particles do.
+  if (is_drive_restored_) driven_->restore(before);
+  is_drive_restored_ = false;
 }
+
+falling_particles::WallPose FixWallSupernormal::carrier_at(double time) const {
+  return pose_at({command_.anchor, Eigen::Quaterniond::Identity()}, command_.motions, time);
+}
+
+falling_particles::WallPose FixWallSupernormal::pose() const {
+  const falling_particles::WallPose carrier = carrier_at(clock_.now());
+  return driven_ ? driven_->pose_on(carrier) : carrier;
+}
+
+void FixWallSupernormal::kick(double now) {
+  const Vector3 gravity = gravity_ == nullptr ? Vector3(Vector3::Zero()) : Vector3(Vector3::Map(gravity_));
+  driven_->kick(carrier_at(clock_.now()), gravity, now, update->dt);
+}
+
+void FixWallSupernormal::initial_integrate(int /*vflag*/) {
+  kick(clock_.now() + 0.25 * update->dt);
+  driven_->drift(update->dt);
+}
+
+void FixWallSupernormal::final_integrate() { kick(clock_.now() - 0.25 * update->dt); }
 
 Body FixWallSupernormal::wall_body(double step) const {
   using namespace falling_particles;
   const WallPose start{command_.anchor, Eigen::Quaterniond::Identity()};
   const double time = clock_.now(), before = time - step, after = time + step;
-  const WallPose now = pose_at(start, command_.motions, time);
+  const WallPose carrier = carrier_at(time);
   // Springs grow by the velocity at this moment, as for the particles. The mean velocity of the steps before and after it adds up
   // to the displacement of the wall. In a rotation it has no radial component, unlike the mean of a single step.
-  const WallVelocity moved =
-      mean_velocity(pose_at(start, command_.motions, before), pose_at(start, command_.motions, after), after - before);
+  const WallVelocity carried = mean_velocity(carrier_at(before), carrier_at(after), after - before);
+  const WallPose now = driven_ ? driven_->pose_on(carrier) : carrier;
+  const WallVelocity moved = driven_ ? driven_->velocity_on(carrier, carried) : carried;
   const WallVelocity belt = conveyor_velocity(start, now, command_.motions, before, after);
   Body body;
   body.pose = {now.position, now.rotation.toRotationMatrix()};
@@ -95,6 +169,17 @@ void FixWallSupernormal::post_force(int /*vflag*/) {
     sums_[7] += found.contacts;
   }
   totals_step_ = -1;
+  if (driven_) {
+    total(0);
+    if (facing_[0] != nullptr) driven_->set_area(area_between());
+    driven_->load(carrier_at(clock_.now()), Vector3::Map(&totals_[1]), Vector3::Map(&totals_[4]));
+  }
+}
+
+double FixWallSupernormal::compute_vector(int index) {
+  if (index + 1 < kSums) return total(index + 1);
+  const DrivenWall::State& state = driven_->state();
+  return std::array{state.position, state.speed, state.push, driven_->stress()}.at(static_cast<std::size_t>(index + 1 - kSums));
 }
 
 double FixWallSupernormal::total(int index) {
@@ -145,16 +230,18 @@ int FixWallSupernormal::maxsize_restart() { return 2 + WallHistory::kMost * Cont
 
 void FixWallSupernormal::write_restart(FILE* file) {
   if (comm->me != 0) return;
-  const Clock::State state = clock_.state();
-  const int bytes = sizeof(state);
+  const Stored stored{clock_.state(), driven_ ? driven_->state() : DrivenWall::State()};
+  const int bytes = sizeof(stored);
   fwrite(&bytes, sizeof(bytes), 1, file);
-  fwrite(&state, sizeof(state), 1, file);
+  fwrite(&stored, sizeof(stored), 1, file);
 }
 
 void FixWallSupernormal::restart(char* buffer) {
-  Clock::State state;
-  std::memcpy(&state, buffer, sizeof(state));
-  clock_ = Clock(state);
+  Stored stored;
+  std::memcpy(&stored, buffer, sizeof(stored));
+  clock_ = Clock(stored.clock);
+  if (driven_) driven_->restore(stored.driven);
+  is_drive_restored_ = driven_.has_value();
 }
 
 }  // namespace granular

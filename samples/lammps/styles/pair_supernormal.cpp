@@ -10,6 +10,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fix.h"
 #include "fix_neigh_history.h"
 #include "force.h"
 #include "memory.h"
@@ -164,11 +165,38 @@ void PairSupernormal::init_style() {
     history_->pair = this;
     report_volumes();
   }
-  if (has_particle_exponents_) {
-    bodies_->use_particle_exponents();
-    comm_forward = 2;
-  }
+  constexpr int kMinimization = 2;
+  if (update->whichflag == kMinimization && comm->me == 0)
+    error->warning(FLERR, "supernormal: a minimization rotates no particles");
+  if (has_particle_exponents_) bodies_->use_particle_exponents();
+  find_fixes_of_clusters();
+  comm_forward = (has_particle_exponents_ ? 2 : 0) + (fixes_of_clusters_.empty() ? 0 : Cluster::kSize);
   largest_radii_ = bodies_->find_largest_radii();
+}
+
+void PairSupernormal::find_fixes_of_clusters() {
+  fixes_of_clusters_.clear();
+  bodies_->clusters().clear();
+  for (int k = 0; k < modify->nfix; ++k) {
+    const Fix* const fix = modify->fix[k];
+    const auto* const clusters = dynamic_cast<const RigidClusters*>(fix);
+    if (clusters != nullptr) fixes_of_clusters_.push_back(clusters);
+    if (clusters == nullptr && fix->rigid_flag != 0 && comm->me == 0) {
+      error->warning(FLERR, std::string("fix ") + fix->style + " takes the particles as ellipsoids: use fix rigid/nve/supernormal");
+    }
+  }
+}
+
+void PairSupernormal::read_clusters() {
+  if (fixes_of_clusters_.empty()) return;
+  std::vector<Cluster>& clusters = bodies_->clusters();
+  clusters.assign(static_cast<std::size_t>(atom->nlocal) + static_cast<std::size_t>(atom->nghost), {});
+  for (int i = 0; i < atom->nlocal; ++i) {
+    for (const RigidClusters* const one : fixes_of_clusters_) {
+      Cluster& cluster = clusters[static_cast<std::size_t>(i)];
+      if (cluster.is_none()) cluster = one->cluster(i);
+    }
+  }
 }
 
 double PairSupernormal::init_one(int i, int j) {
@@ -187,7 +215,8 @@ void PairSupernormal::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   sums_.fill(0);
   if (neighbor->ago == 0) {
-    if (has_particle_exponents_) forward(*comm, *this);
+    read_clusters();
+    if (comm_forward > 0) forward(*comm, *this);
     bodies_->assign_shapes();
     forget_proofs();
   }
@@ -227,6 +256,7 @@ void PairSupernormal::list_neighbors(int number, double step) {
     const Vector3 apart = Vector3::Map(atom->x[i]) - Vector3::Map(atom->x[j]);
     double& proof = proofs_[first_proof_[static_cast<std::size_t>(number)] + static_cast<std::size_t>(k)];
     const double reach = bodies_->shape(i).bounding_radius + bodies_->shape(j).bounding_radius;
+    if (bodies_->are_in_one_cluster(i, j)) continue;
     if (apart.squaredNorm() >= reach * reach) {
       if (step > 0 && known[k] != 0) {
         known[k] = 0;
@@ -348,6 +378,7 @@ double PairSupernormal::single(int i, int j, int /*itype*/, int /*jtype*/, doubl
                                double& force_over_distance) {
   force_over_distance = 0;
   singles_.fill(0);
+  if (bodies_->are_in_one_cluster(i, j)) return 0;
   const double* values = find_history(i, j);
   ContactHistory history = values == nullptr ? ContactHistory() : ContactHistory::load(values);
   const PairContact pair = solve(i, j, 0, history);
@@ -366,17 +397,28 @@ double PairSupernormal::single(int i, int j, int /*itype*/, int /*jtype*/, doubl
 }
 
 int PairSupernormal::pack_forward_comm(int count, int* indices, double* buffer, int /*pbc_flag*/, int* /*pbc*/) {
+  double* end = buffer;
   for (int k = 0; k < count; ++k) {
-    buffer[2 * k] = bodies_->delta(indices[k]);
-    buffer[2 * k + 1] = bodies_->epsilon(indices[k]);
+    if (has_particle_exponents_) {
+      *end++ = bodies_->delta(indices[k]);
+      *end++ = bodies_->epsilon(indices[k]);
+    }
+    if (fixes_of_clusters_.empty()) continue;
+    bodies_->clusters()[static_cast<std::size_t>(indices[k])].store(end);
+    end += Cluster::kSize;
   }
-  return 2 * count;
+  return static_cast<int>(end - buffer);
 }
 
 void PairSupernormal::unpack_forward_comm(int count, int first, double* buffer) {
-  for (int k = 0; k < count; ++k) {
-    bodies_->delta(first + k) = buffer[2 * k];
-    bodies_->epsilon(first + k) = buffer[2 * k + 1];
+  for (int i = first; i < first + count; ++i) {
+    if (has_particle_exponents_) {
+      bodies_->delta(i) = *buffer++;
+      bodies_->epsilon(i) = *buffer++;
+    }
+    if (fixes_of_clusters_.empty()) continue;
+    bodies_->clusters()[static_cast<std::size_t>(i)] = Cluster::load(buffer);
+    buffer += Cluster::kSize;
   }
 }
 

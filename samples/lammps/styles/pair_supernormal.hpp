@@ -9,6 +9,7 @@
 #include "kernel/pair_contact.hpp"
 #include "pair.h"
 #include "styles/body_table.hpp"
+#include "styles/rigid_clusters.hpp"
 
 namespace LAMMPS_NS {
 class FixNeighHistory;
@@ -34,7 +35,7 @@ class PairSupernormal : public LAMMPS_NS::Pair {
 #else
   void transfer_history(double* from, double* to) override { copy_history(from, to); }
 #endif
-  /// Copies the exponents of particles to their ghosts.
+  /// Copies the exponents and the clusters of particles to their ghosts.
   int pack_forward_comm(int count, int* indices, double* buffer, int pbc_flag, int* pbc) override;
   void unpack_forward_comm(int count, int first, double* buffer) override;
   double memory_usage() override;
@@ -71,6 +72,8 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   PairContact require_finite(const PairContact& pair, int first, int second) const;
   std::pair<int, int> by_tag(int i, int j) const;
   void apply(int i, int j, const PairContact& pair);
+  void find_fixes_of_clusters();
+  void read_clusters();
   void forget_proofs();
   double separation(int i, int j, const Vector3& normal) const;
   void list_neighbors(int k, double step);
@@ -82,6 +85,7 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   const double* find_history(int i, int j) const;
 
   bool has_particle_exponents_ = false;
+  std::vector<const RigidClusters*> fixes_of_clusters_;
   std::unique_ptr<BodyTable> bodies_;
   std::vector<double> largest_radii_;       // m; per type
   std::vector<ContactMaterial> materials_;  // per pair of types

@@ -1,8 +1,10 @@
 #include "styles/wall_command.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "input/load_mesh.hpp"
 #include "kernel/walls/box_wall.hpp"
@@ -35,7 +37,9 @@ void read_shape(Words& words, WallCommand& command) {
   const std::string kind = words.next("wall/supernormal");
   if (kind == "plane") {
     command.anchor = words.vector(kind);
-    command.wall = std::make_unique<PlaneWall>(Vector3::Zero(), words.vector(kind));
+    const Vector3 normal = words.vector(kind);
+    command.wall = std::make_unique<PlaneWall>(Vector3::Zero(), normal);
+    command.normal = normal.normalized();
   } else if (kind == "box") {
     const Vector3 low = words.vector(kind), high = words.vector(kind);
     command.anchor = 0.5 * (low + high);
@@ -64,6 +68,8 @@ falling_particles::WallMotion read_motion(Words& words) {
   if (kind == "vibrate") {
     const Vector3 amplitude = words.vector(kind);
     const double frequency = words.number(kind);
+    if (!(frequency > 0))
+      throw std::invalid_argument("move vibrate: frequency = " + std::to_string(frequency) + " is outside (0, inf)");
     return {falling_particles::Vibration{amplitude, frequency, words.number(kind)}};
   }
   throw std::invalid_argument("move " + kind + " is none of linear, rotate, vibrate, conveyor");
@@ -77,16 +83,32 @@ WallCommand read_wall_command(Words words) {
   if (words.accept("type")) {
     command.type = words.integer("type");
   } else {
-    const Coefficients coefficients = read_coefficients(words.take_until("move"));
+    const Coefficients coefficients = read_coefficients(words.take_until({"move", "drive"}));
     if (!coefficients.has_material) throw std::invalid_argument("the law is missing: hooke, hertz or type");
     if (coefficients.has_exponents) throw std::invalid_argument("exponents belong to the particles' types: pair_coeff");
     command.material = coefficients.material;
   }
   while (!words.is_empty()) {
-    words.next("move");
+    const std::string keyword = words.next("move");
+    if (keyword == "drive") {
+      command.drive = read_drive(words);
+      break;
+    }
+    if (keyword != "move") throw std::invalid_argument(keyword + " is none of move, drive");
     command.motions.push_back(read_motion(words));
     if (words.accept("from")) command.motions.back().from = words.number("from");
     if (words.accept("until")) command.motions.back().until = words.number("until");
+    const auto& [ignored, from, until] = command.motions.back();
+    if (until <= from) {
+      throw std::invalid_argument("move: until = " + std::to_string(until) + " is outside (from = " + std::to_string(from) +
+                                  ", inf)");
+    }
+  }
+  const auto moves_surface = [](const falling_particles::WallMotion& motion) {
+    return std::holds_alternative<falling_particles::Conveyor>(motion.kind);
+  };
+  if (command.drive && std::ranges::any_of(command.motions, moves_surface)) {
+    throw std::invalid_argument("drive besides move conveyor; allowed: with the other motions");
   }
   return command;
 }

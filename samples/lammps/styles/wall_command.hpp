@@ -8,6 +8,7 @@
 #include "kernel/contact_material.hpp"
 #include "kernel/walls/wall.hpp"
 #include "model/motion.hpp"
+#include "styles/drive_command.hpp"
 #include "styles/words.hpp"
 
 namespace granular {
@@ -16,9 +17,11 @@ namespace granular {
 struct WallCommand {
   std::unique_ptr<Wall> wall;
   Vector3 anchor = Vector3::Zero();  ///< m; initial origin of the wall's frame
+  std::optional<Vector3> normal;     ///< of a plane, unit; out of the wall
   ContactMaterial material;          ///< unless `type` is set
   std::optional<int> type;           ///< the wall has the material of this atom type
   std::vector<falling_particles::WallMotion> motions;
+  std::optional<DriveCommand> drive;
 };
 
 /// Parses
@@ -26,7 +29,7 @@ struct WallCommand {
 /// Each takes three numbers, except RADIUS and UNIT (m). Then follow the contact law of pair_coeff, or `type` and an atom type, and
 /// any number of
 ///     move linear VELOCITY | rotate AXIS POINT RPM | vibrate AMPLITUDE FREQUENCY PHASE | conveyor VELOCITY
-/// each with optional `from SECONDS` and `until SECONDS`.
+/// each with optional `from SECONDS` and `until SECONDS`, and at the end optionally `drive` with the words of read_drive().
 /// Throws std::invalid_argument or std::runtime_error with the error.
 WallCommand read_wall_command(Words words);
 

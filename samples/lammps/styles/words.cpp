@@ -30,8 +30,9 @@ Vector3 Words::vector(const std::string& keyword) {
   return {x, y, z};
 }
 
-Words Words::take_until(const std::string& separator) {
-  const auto found = std::find(words_.begin(), words_.end(), separator);
+Words Words::take_until(std::initializer_list<std::string_view> separators) {
+  const auto found = std::find_first_of(words_.begin(), words_.end(), separators.begin(), separators.end(),
+                                        [](const char* word, std::string_view separator) { return word == separator; });
   const auto count = static_cast<std::size_t>(found - words_.begin());
   const Words taken(words_.first(count), lammps_);
   words_ = words_.subspan(count);

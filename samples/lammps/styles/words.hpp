@@ -1,8 +1,10 @@
 // Reads the words of a command in order.
 #pragma once
 
+#include <initializer_list>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "kernel/body.hpp"
 #include "lammps.h"
@@ -27,8 +29,8 @@ class Words {
   int integer(const std::string& keyword);
   Vector3 vector(const std::string& keyword);
 
-  /// The words before the first `separator`. Leaves the separator and the rest.
-  Words take_until(const std::string& separator);
+  /// The words before the first of the `separators`. Leaves the separator and the rest.
+  Words take_until(std::initializer_list<std::string_view> separators);
 
  private:
   std::span<char*> words_;

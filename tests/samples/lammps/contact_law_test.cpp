@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "kernel/cluster.hpp"
 #include "kernel/damping_ratio.hpp"
 #include "samples/lammps/two_bodies.hpp"
 #include "support/relative.hpp"
@@ -195,6 +196,31 @@ TEST_CASE("lammps: the springs of friction and rolling gain no energy while a co
     CHECK(spring_energy() <= last * (1 + 1e-12));
     last = spring_energy();
   }
+}
+
+TEST_CASE("lammps: a particle of a cluster has the mobility of the cluster, in any orientation") {
+  // A damper of a particle of a cluster is the same as of a free body with this mass and inertia whose arm is longer.
+  const Cluster cluster{7, 2.0, {0.01, -0.02, 0.005}, Vector3(3e3, 5e3, 4e3).asDiagonal()};
+  double values[Cluster::kSize];
+  cluster.store(values);
+  const Eigen::Quaterniond rotation = Eigen::Quaterniond(0.3, -0.4, 0.5, 0.7).normalized();
+  Body part, whole, floor;
+  part.pose.rotation = whole.pose.rotation = rotation.toRotationMatrix();
+  Cluster::load(values).apply(part);
+  cluster.apply(whole);
+  whole.from_centre.setZero();
+  part.velocity = whole.velocity = {0.1, 0.2, -0.5};
+  const ContactMaterial material = prepared({.stiffness = 1e4, .restitution = 0.4, .friction = 0.5});
+  const Vector3 normal = Vector3(1, 2, -1).normalized(), arm(0, 0.01, 0.003);
+  ContactHistory history;
+  const auto force_of = [&](const Body& body, const Vector3& at) {
+    return contact_force({normal, at, Vector3::Zero(), 1e-4}, hooke_force(material, 1e-4), material, body, floor, 0, history);
+  };
+  const ContactForce found = force_of(part, arm), expected = force_of(whole, arm + rotation * cluster.from_centre);
+  CHECK((found.force - expected.force).norm() < 1e-12 * expected.force.norm());
+  CHECK((found.force - force_of(whole, arm).force).norm() > 0.01 * expected.force.norm());
+  CHECK(cluster.is_same(Cluster::load(values)));
+  CHECK_FALSE(Cluster().is_same(Cluster()));
 }
 
 TEST_CASE("lammps: a history is stored and read without loss of digits") {

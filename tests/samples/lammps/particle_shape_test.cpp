@@ -39,6 +39,13 @@ TEST_CASE("lammps: an ellipsoid has its volume and inertia") {
   CHECK(shape.unit_inertia.z() == relative((0.09 + 0.04) / 5).epsilon(1e-12));
 }
 
+TEST_CASE("lammps: the ellipsoid of a shape has its inertia") {
+  const Vector3 axes(0.3, 0.2, 0.1);
+  CHECK((ParticleShape(axes, 2, 2).equal_ellipsoid() - axes).norm() < 1e-12);
+  const ParticleShape brick(axes, 12, 20);
+  CHECK((ParticleShape(brick.equal_ellipsoid(), 2, 2).unit_inertia - brick.unit_inertia).norm() < 1e-12);
+}
+
 TEST_CASE("lammps: equal shapes are made once") {
   ShapeCache cache;
   const ParticleShape& shape = cache.find({1, 2, 3}, 2, 4);

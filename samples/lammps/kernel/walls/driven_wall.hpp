@@ -1,0 +1,59 @@
+// A wall that forces move along an axis, or about it.
+#pragma once
+
+#include "kernel/body.hpp"
+#include "model/drive.hpp"
+#include "model/motion.hpp"
+
+namespace granular {
+
+/// The degree of freedom of a driven wall, with the laws of a [[part]] of falling_particles. It is integrated like the particles,
+/// by velocity Verlet: kick(), drift(), forces of the contacts, kick(). Damping is implicit. A servo has no mass: each first kick()
+/// sets its speed, from the contacts of the step before.
+///
+/// Poses and velocities are relative to the carrier: the wall with its prescribed motions alone.
+class DrivenWall {
+ public:
+  /// What a restart file stores.
+  struct State {
+    double position = 0;  ///< m along the axis, or rad about it
+    double speed = 0;     ///< m/s or rad/s
+    double load = 0;      ///< N along the axis, or N m about it, of the contacts in the last step
+    double push = 0;      ///< N or N m, of the drive in the last step
+  };
+
+  /// `start`: the pose of the wall before it moves.
+  DrivenWall(falling_particles::Drive drive, const falling_particles::WallPose& start);
+
+  /// Takes half a step: the speed from the load, the drive and gravity (m/s^2). `now`: s, the middle of this half; `step`: s, the
+  /// whole.
+  void kick(const falling_particles::WallPose& carrier, const Vector3& gravity, double now, double step);
+  /// Moves the wall by a step (s). It stops at the ends of its travel.
+  void drift(double step);
+  /// Takes the force (N) of the contacts on the wall, and their torque (N m) about the wall's position.
+  void load(const falling_particles::WallPose& carrier, const Vector3& force, const Vector3& torque);
+
+  /// Of a servo, m^2.
+  void set_area(double area) { drive_.servo->area = area; }
+
+  falling_particles::WallPose pose_on(const falling_particles::WallPose& carrier) const;
+  falling_particles::WallVelocity velocity_on(const falling_particles::WallPose& carrier,
+                                              const falling_particles::WallVelocity& velocity) const;
+
+  double stress() const { return drive_.servo ? -state_.load / drive_.servo->area : 0; }  ///< Pa, of the contacts on a servo
+  const State& state() const { return state_; }
+  void restore(const State& state) { state_ = state; }
+
+ private:
+  Vector3 axis_on(const falling_particles::WallPose& carrier) const;
+  Vector3 point_on(const falling_particles::WallPose& carrier) const;
+  double weight_on(const falling_particles::WallPose& carrier, const Vector3& gravity) const;
+  void stop();
+
+  falling_particles::Drive drive_;
+  Vector3 axis_;   // in the frame of the wall
+  Vector3 point_;  // m, on the axis, in the frame of the wall
+  State state_;
+};
+
+}  // namespace granular
