@@ -119,12 +119,14 @@ double rest_depth_of(const GrainCount& entry, const Scene& scene) {
   return scene.solver.erp == 0 ? INFINITY : scene.solver.cfm * weight * scene.time.step / scene.solver.erp;
 }
 
+template <typename Kind>
+bool has_effect(const Scene& scene) {
+  return std::ranges::any_of(scene.effects, [](const auto& effect) { return std::holds_alternative<Kind>(effect); });
+}
+
 /// Whether the scene has contacts with a stiffness of their own.
 bool has_soft_contacts(const Scene& scene) {
-  return std::ranges::any_of(scene.effects, [](const supernormal::effects::Effect& effect) {
-    return std::holds_alternative<supernormal::effects::Compliance>(effect) ||
-           std::holds_alternative<supernormal::effects::Hertz>(effect);
-  });
+  return has_effect<supernormal::effects::Compliance>(scene) || has_effect<supernormal::effects::Hertz>(scene);
 }
 
 void add_solver(const Scene& scene, std::vector<std::string>& doubts) {
@@ -223,6 +225,43 @@ void add_layer(const Scene& scene, std::vector<std::string>& doubts) {
     if (layer == nullptr) continue;
     doubts.push_back("surface_layer leaves grains that rest " + rounded(layer->depth) +
                      " m deep in one another, and speculative_contacts have no need of it: one of both would do");
+  }
+}
+
+/// Adds a doubt about friction that another effect replaces.
+void add_replaced_friction(const Scene& scene, std::vector<std::string>& doubts) {
+  using supernormal::effects::AnisotropicFriction, supernormal::effects::Friction;
+  if (!has_effect<AnisotropicFriction>(scene) || !has_effect<Friction>(scene)) return;
+  doubts.push_back(
+      "anisotropic_friction replaces friction in all contacts of grains, and friction, friction.walls and part.friction have no "
+      "effect: one of both would do");
+}
+
+double largest_half_axis(const Scene& scene) {
+  double largest = 0;
+  for (const GrainCount& entry : scene.kinds) {
+    largest = std::max(largest, entry.largest_scale() * std::ranges::max(entry.kind.half_axes));
+  }
+  return largest;
+}
+
+/// Adds a doubt about a length of the resistance to rolling that is a number without unit in other programs.
+void add_rolling(const Scene& scene, std::vector<std::string>& doubts) {
+  const double size = largest_half_axis(scene);
+  const auto add = [&](const char* key, double length) {
+    if (length <= size) return;
+    doubts.push_back(std::string("rolling_resistance.") + key + " is a length, " + shortest(length) + " m, " +
+                     rounded(length / size) + " times the largest half-axis (" + shortest(size) +
+                     " m): grains may not roll at all; of a coefficient without unit, such as 0.1, it is the product with the "
+                     "radius");
+  };
+  bool is_first = true;
+  for (const supernormal::effects::Effect& effect : scene.effects) {
+    const auto* const resistance = std::get_if<supernormal::effects::RollingResistance>(&effect);
+    if (resistance == nullptr) continue;
+    add(is_first ? "rolling" : "walls", resistance->rolling);  // the effect of grains on walls comes second
+    if (is_first) add("spinning", resistance->spinning);
+    is_first = false;
   }
 }
 
@@ -389,9 +428,12 @@ std::vector<std::string> doubts_about(const Scene& scene) {
   add_solver(scene, doubts);
   add_mass_ratio(scene, doubts);
   add_layer(scene, doubts);
+  add_replaced_friction(scene, doubts);
+  add_rolling(scene, doubts);
   add_walls(scene, doubts);
   add_feeders(scene, doubts);
   std::ranges::move(doubts_about_origins(scene), std::back_inserter(doubts));
+  std::ranges::move(doubts_about_measurements(scene), std::back_inserter(doubts));
   return doubts;
 }
 

@@ -30,8 +30,12 @@ double normal_way_of(const Wall& wall, const Scene& scene);
 /// A sentence for each doubt about a valid scene, with a remedy.
 std::vector<std::string> doubts_about(const Scene& scene);
 
-/// Sentences about grains of the start and of feeders that start behind meshes, above nothing, or where there is no space for them.
+/// Sentences about grains of the start and of feeders that start behind meshes, above nothing, behind servos, or where there is no
+/// space for them (origins.cpp).
 std::vector<std::string> doubts_about_origins(const Scene& scene);
+
+/// Sentences about measurements whose box or plane no grain reaches (reach.cpp).
+std::vector<std::string> doubts_about_measurements(const Scene& scene);
 
 /// Throws InputError when a grain of the start overlaps a wall. It would be pushed out on either side, or not at all. The grains of
 /// a state may overlap one another and walls by StartState::overlap, and must be within the container.
