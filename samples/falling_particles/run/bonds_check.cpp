@@ -6,7 +6,6 @@
 #include "base/input_error.hpp"
 #include "base/interval.hpp"
 #include "doubts.hpp"
-#include "world/placement.hpp"
 #include "world/world.hpp"
 
 namespace falling_particles {
@@ -21,9 +20,8 @@ constexpr double kStiffnessPerIteration = 10;
 
 }  // namespace
 
-void refuse_bad_bonds(const Scene& scene) {
-  Random random(scene.seed);
-  const World world(scene, place(scene, random));
+void refuse_bad_bonds(const World& world) {
+  const Scene& scene = world.scene();
   const Bonds& bonds = *world.bonds();
   for (std::size_t rule = 0; rule < scene.bonds.size(); ++rule) {
     if (std::ranges::any_of(bonds.all(), [rule](const Bond& bond) { return bond.rule == rule; })) continue;

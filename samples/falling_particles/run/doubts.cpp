@@ -353,10 +353,8 @@ void add_feeders(const Scene& scene, std::vector<std::string>& doubts) {
 }
 
 /// Refuses grains of the lattice that start inside a part.
-void refuse_start_in_parts(const Scene& scene) {
-  if (scene.parts().empty() || scene.grains_at_start() == 0) return;
-  Random random(scene.seed);
-  const World world(scene, place(scene, random));
+void refuse_start_in_parts(const World& world) {
+  const Scene& scene = world.scene();
   std::vector<std::pair<dGeomID, dGeomID>> pairs;
   world.name_wall_pairs(&pairs, [](void* data, dGeomID g1, dGeomID g2) {
     static_cast<std::vector<std::pair<dGeomID, dGeomID>>*>(data)->emplace_back(g1, g2);
@@ -438,9 +436,12 @@ std::vector<std::string> doubts_about(const Scene& scene) {
 }
 
 void refuse_overlapping_start(const Scene& scene) {
-  scene.start ? refuse_bad_state(scene) : refuse_start_in_parts(scene);
-  if (!scene.bonds.empty()) refuse_bad_bonds(scene);
-  if (std::ranges::any_of(scene.walls, [](const Wall& wall) { return wall.flight.has_value(); })) refuse_bad_flights(scene);
+  if (!scene.start && scene.bonds.empty() && scene.parts().empty()) return;
+  Random random(scene.seed);
+  const World world(scene, place(scene, random));
+  scene.start ? refuse_bad_state(world) : refuse_start_in_parts(world);
+  if (!scene.bonds.empty()) refuse_bad_bonds(world);
+  refuse_bad_flights(world);
 }
 
 }  // namespace falling_particles

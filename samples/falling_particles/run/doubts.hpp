@@ -9,6 +9,8 @@
 
 namespace falling_particles {
 
+class World;
+
 /// The fall of the highest grain of the start to the lowest start, without drag and contacts.
 struct Fall {
   double height;  ///< m
@@ -41,14 +43,14 @@ std::vector<std::string> doubts_about_measurements(const Scene& scene);
 /// a state may overlap one another and walls by StartState::overlap, and must be within the container.
 void refuse_overlapping_start(const Scene& scene);
 
-/// The same for the grains of a state (start_check.cpp).
-void refuse_bad_state(const Scene& scene);
+/// The same for the grains of a state (start_check.cpp). This and the following checks take a world at the start.
+void refuse_bad_state(const World& world);
 
 /// Throws InputError if a section [[bond]] bonds nothing, or if its bonds are too stiff for the step and the iterations of the
 /// solver. The scene has bonds.
-void refuse_bad_bonds(const Scene& scene);
+void refuse_bad_bonds(const World& world);
 
-/// Throws InputError if a free wall overlaps another wall at the start. Both would be pushed apart.
-void refuse_bad_flights(const Scene& scene);
+/// Throws InputError if a free wall overlaps another wall. Both would be pushed apart.
+void refuse_bad_flights(const World& world);
 
 }  // namespace falling_particles

@@ -29,8 +29,8 @@ double deepest_between(dGeomID g1, dGeomID g2) {
 
 }  // namespace
 
-void refuse_bad_flights(const Scene& scene) {
-  const World world(scene, std::vector<Placement>{});
+void refuse_bad_flights(const World& world) {
+  const Scene& scene = world.scene();
   const std::vector<dGeomID>& geoms = world.walls().geoms();
   for (std::size_t i = 0; i < geoms.size(); ++i) {
     const Wall& wall = scene.walls[i];
