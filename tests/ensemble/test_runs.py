@@ -361,6 +361,21 @@ class FallingParticles(RunTest):
             self.assertIn(says, done.stderr)
         self.assertFalse(self.out.exists())
 
+    def test_arguments_that_are_none_of_a_run_are_refused_before_the_first_run(self):
+        for arguments, says in (
+            ('"--chek-leaks"', "--chek-leaks"),
+            ('"--threads", "2"', "--threads"),
+            ('"--checkpoint-every", "0"', "--checkpoint-every"),
+            ('"--scene", "other.toml"', "--scene"),
+            ('"--version"', "a run does not come of them"),
+        ):
+            self.write(f"seeds = 2\narguments = [{arguments}]", SCENES / "short.toml")
+            done = self.ensemble("run", program=PROGRAM)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("sweep.toml: arguments is [", done.stderr)
+            self.assertIn(says, done.stderr.split("]: ")[1])
+        self.assertFalse(self.out.exists())
+
     def test_names_of_files_are_names_whatever_they_look_like(self):
         if shutil.which("parallel") is None:
             self.skipTest("GNU parallel is missing")

@@ -8,6 +8,7 @@ import sys
 import time
 import tomllib
 
+from .program import options_of_runs
 from .quantity import NoValue
 from .toml_text import toml_text
 
@@ -88,8 +89,7 @@ def _simulate(sweep, scene, assignments, store, run, program, lock):
     end.unlink(missing_ok=True)
     end.parent.mkdir(parents=True, exist_ok=True)
     command = ["sh", "-c", SUPERVISED, "sh", str(end.absolute()), str(store.log(run).absolute())]
-    command += [str(program.absolute()), "--quiet", "--no-pictures", "--threads", "1", "--scene", str(scene), "--out", str(store.run_folder(run))]
-    command += sweep.arguments
+    command += [str(program.absolute()), "--scene", str(scene), *options_of_runs(store.run_folder(run)), *sweep.arguments]
     for assignment in assignments:
         command += ["--set", assignment]
     store.log(run).parent.mkdir(parents=True, exist_ok=True)

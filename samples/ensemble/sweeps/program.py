@@ -10,20 +10,30 @@ from .quantity import NoValue
 
 def version_of(program):
     """Its line of --version; of a program that has none, the digest of its file."""
-    code, text = _ask(program, "--version")
+    code, text, _ = _ask(program, "--version")
     if code == 0 and text.strip():
         return text.strip().splitlines()[0]
     return hashlib.sha256(program.read_bytes()).hexdigest()
 
 
-def refuse_misspelt_columns(sweep, point, program):
-    """Raises InputError where the run of a point does not write a table or a column that is collected. What the program says against
-    the scene is for the run to tell.
+def options_of_runs(folder):
+    """What every run has besides its scene."""
+    return ["--quiet", "--no-pictures", "--threads", "1", "--out", str(folder)]
+
+
+def refuse_bad_requests(sweep, point, program):
+    """Raises InputError where the program takes the arguments of the sweep for none of a run, or where the run of a point does not
+    write a table or a column that is collected. What the program says against the scene is for the run to tell.
     """
     assignments = [word for assignment in sweep.assignments(point) for word in ("--set", assignment)]
-    code, text = _ask(program, "--tables", str(sweep.scene), *assignments)
+    question = ["--tables", str(sweep.scene), *assignments, *options_of_runs(".")]
+    code, text, _ = _ask(program, *question)
     if code != 0:
         return
+    code, changed, complaint = _ask(program, *question, *sweep.arguments)
+    if code != 0 or changed != text:
+        why = complaint.strip().splitlines()[0] if complaint.strip() else "a run does not come of them"
+        raise InputError(f"{sweep.path}: arguments is {sweep.arguments!r}: {why}; allowed: options of falling_particles for a run")
     tables = tomllib.loads(text)
     for quantity in sweep.quantities:
         try:
@@ -39,4 +49,4 @@ def _ask(program, *arguments):
         )
     except OSError as error:
         raise InputError(f"cannot start {program}: {error.strerror}") from None
-    return ended.returncode, ended.stdout
+    return ended.returncode, ended.stdout, ended.stderr

@@ -183,8 +183,9 @@ void read_pairs(const TomlTable& section, const Scene& scene, const std::string&
   }
   if (section.has("file")) sources = {"file"};  // the others may stay in the scene, as [drop] may beside [start]
   if (sources.size() != 1) {
-    section.fail(sources.empty() ? "" : sources[1], "bond \"" + rule.name + "\" has " + (sources.empty() ? "none" : join(sources)) +
-                                                        " of touching, chain and file; allowed: one of them");
+    section.fail(sources.empty() ? "" : sources[1], "bond \"" + rule.name + "\" has " +
+                                                        (sources.empty() ? "no pairs" : "both touching and chain") +
+                                                        "; allowed: one of touching, chain and file");
   }
   if (sources[0] == "touching") {
     rule.touching = section.number("touching", Interval::closed(0, 10, "(of the smallest half-axis)"));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/toml_input.hpp"
+#include "model/scene.hpp"
 
 namespace falling_particles {
 
@@ -18,5 +19,9 @@ std::string scene_parameters(const supernormal::effects::Description& effect);
 /// Loads the effects whose sections the file has. Throws InputError. `smallest_half_axis` (m) is the unit of the depth of
 /// [surface_layer]; `step` (s) is the scene's.
 std::vector<supernormal::effects::Effect> load_effects(const TomlTable& root, double smallest_half_axis, double step);
+
+/// Adds the effects of parts with coefficients of their own to the effects of the scene. Throws InputError if a coefficient
+/// excludes one of these.
+void load_wall_effects(const TomlTable& root, Scene& scene);
 
 }  // namespace falling_particles

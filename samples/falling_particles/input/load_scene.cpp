@@ -14,7 +14,6 @@
 #include "load_effects.hpp"
 #include "load_sections.hpp"
 #include "memory.hpp"
-#include "model/material.hpp"
 #include "model/picture_names.hpp"
 #include "model/scene.hpp"
 
@@ -279,6 +278,7 @@ Scene load(const TomlFile& file, const std::string& path, const std::vector<std:
   const TomlTable root = file.root(sections());
   Scene scene{};
   scene.name = std::filesystem::path(path).stem().string();
+  scene.path = path;
   scene.overrides = overrides;
   scene.seed = static_cast<std::uint64_t>(root.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
   scene.time = read_time(root.table("time", {"duration", "step", "frame"}));
@@ -292,7 +292,7 @@ Scene load(const TomlFile& file, const std::string& path, const std::vector<std:
   load_bonds(root, path, scene);
   scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
-  add_wall_effects(scene.walls, scene.effects);
+  load_wall_effects(root, scene);
   scene.compression = read_compression(root, scene);
   scene.sinks = load_sinks(root, scene);
   scene.feeders = load_feeders(root, scene);

@@ -14,6 +14,7 @@ namespace falling_particles {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // which spreadsheets write in front of UTF-8
 
 /// Columns of dumps: of output/lammps_dump.cpp, and of the dump that output/lammps_input.cpp requests.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 24> kNamesOfDumps = {{
@@ -102,6 +103,7 @@ class StateTable::Lines {
 };
 
 StateTable::StateTable(const std::filesystem::path& path) : path_(path), text_(read_file(path)) {
+  if (text_.starts_with(kByteOrderMark)) text_.erase(0, kByteOrderMark.size());
   is_dump_ = text_.starts_with("ITEM:");
   Lines lines(text_);
   is_dump_ ? read_dump(lines) : read_csv(lines);

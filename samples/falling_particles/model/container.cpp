@@ -35,6 +35,10 @@ bool has_room(const Container& container, const Point& lower, const Point& size)
   return std::visit(room, container);
 }
 
+Region room_of(const Container& container) {
+  return std::visit([](const auto& kind) -> Region { return kind.room(); }, container);
+}
+
 bool contains(const Container& container, const Point& point) {
   return std::visit([&point](const auto& kind) { return kind.contains(point); }, container);
 }

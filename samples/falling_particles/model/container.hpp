@@ -19,7 +19,8 @@ struct Box {
 
   Rectangle plan() const { return {{0, 0}, width}; }
   double lowest() const { return 0; }
-  bool contains(const Point& p) const { return plan().contains(p[0], p[1]) && p[2] > 0 && p[2] < INFINITY; }
+  Region room() const { return {{0, 0, 0}, {width[0], width[1], INFINITY}}; }
+  bool contains(const Point& p) const { return room().contains(p); }
 };
 
 /// A container without walls. Grains start in one region. Grains that leave the other region, which contains the first, have
@@ -31,6 +32,7 @@ struct Open {
   Rectangle plan() const { return {{start.corner[0], start.corner[1]}, {start.size[0], start.size[1]}}; }
   double lowest() const { return start.corner[2]; }
   double ceiling() const { return start.corner[2] + start.size[2]; }  ///< m; no grain starts above it
+  const Region& room() const { return bounds; }
   bool contains(const Point& p) const { return bounds.contains(p); }
 };
 
@@ -50,6 +52,10 @@ double ceiling_of(const Container& container);
 
 /// Whether the cell and the space above it are free of walls. The cell must lie within the plan and above lowest_start().
 bool has_room(const Container& container, const Point& lower, const Point& size);
+
+/// The smallest box around all points for which contains() is true. It has no upper side where the container is open above. Of a
+/// periodic container it is the cell.
+Region room_of(const Container& container);
 
 /// Whether a point may be the centre of a grain. False for a NaN.
 bool contains(const Container& container, const Point& point);

@@ -83,6 +83,11 @@ double Hopper::mean_height(double level) const {
   return moments.first / moments.volume;
 }
 
+Region Hopper::room() const {
+  const double half = std::max(tray_width, diameter / std::cos(angle_of(1, segments) / 2)) / 2;
+  return {{-half, -half, 0}, {2 * half, 2 * half, INFINITY}};
+}
+
 bool Hopper::contains(const Point& p) const {
   if (!(p[2] >= clearance)) return is_in_tray(p);
   return p[2] < INFINITY && is_within(p[0], p[1], radius_at(p[2]));

@@ -42,6 +42,7 @@ struct Hopper {
   Rectangle plan() const { return {{-diameter / 2, -diameter / 2}, {diameter, diameter}}; }
   Rectangle tray() const { return {{-tray_width / 2, -tray_width / 2}, {tray_width, tray_width}}; }
   double lowest() const { return clearance; }
+  Region room() const;
   /// Whether the point is in the hopper, above it within the cylinder's continuation, or in the tray.
   bool contains(const Point& p) const;
 };

@@ -32,6 +32,10 @@ struct Drum {
     const double z = std::max(std::abs(lower[2] - radius()), std::abs(lower[2] + size[2] - radius()));
     return std::hypot(x, z) <= radius();
   }
+  Region room() const {
+    const double outer = outer_radius();
+    return {{-outer, 0, radius() - outer}, {2 * outer, length, 2 * outer}};
+  }
   bool contains(const Point& p) const { return p[1] > 0 && p[1] < length && std::hypot(p[0], p[2] - radius()) < outer_radius(); }
 };
 
@@ -49,11 +53,11 @@ struct Tray {
   Rectangle plan() const { return {{0, 0}, width}; }
   double lowest() const { return 0; }
   /// Within the walls at any phase of the vibration, or above them.
-  bool contains(const Point& p) const {
+  Region room() const {
     const auto way = [this](std::size_t axis) { return 2 * amplitude * std::abs(direction[axis]); };
-    const auto is_between = [&](std::size_t axis) { return p[axis] > -way(axis) && p[axis] < width[axis] + way(axis); };
-    return is_between(0) && is_between(1) && p[2] > -way(2) && p[2] < INFINITY;
+    return {{-way(0), -way(1), -way(2)}, {width[0] + 2 * way(0), width[1] + 2 * way(1), INFINITY}};
   }
+  bool contains(const Point& p) const { return room().contains(p); }
 };
 
 /// A direct shear test: a box cut at half its height. The lower half moves along x below the upper one. A lid that can move up and
@@ -74,9 +78,8 @@ struct ShearCell {
   double lowest() const { return 0; }
   double ceiling() const { return lid; }
   /// Within the upper half or the lower one, which moves by less than the thickness of the walls.
-  bool contains(const Point& p) const {
-    return p[0] > -thickness && p[0] < width[0] + thickness && p[1] > 0 && p[1] < width[1] && p[2] > 0 && p[2] < height + thickness;
-  }
+  Region room() const { return {{-thickness, 0, 0}, {width[0] + 2 * thickness, width[1], height + thickness}}; }
+  bool contains(const Point& p) const { return room().contains(p); }
 };
 
 /// A belt around two rollers, from x = 0 to x = length, between two side walls. At its end grains drop to a floor at z = 0 with a
@@ -96,9 +99,8 @@ struct ConveyorBelt {
 
   Rectangle plan() const { return {{0, 0}, {length / 2, width}}; }
   double lowest() const { return height; }
-  bool contains(const Point& p) const {
-    return p[0] > 0 && p[0] < end() && p[1] > 0 && p[1] < width && p[2] > 0 && p[2] < INFINITY;
-  }
+  Region room() const { return {{0, 0, 0}, {end(), width, INFINITY}}; }
+  bool contains(const Point& p) const { return room().contains(p); }
 };
 
 }  // namespace falling_particles

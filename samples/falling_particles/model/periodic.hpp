@@ -41,6 +41,7 @@ struct Periodic {
 
   Rectangle plan() const { return {{0, 0}, {side, side}}; }
   double lowest() const { return 0; }
+  Region room() const { return {{0, 0, 0}, {side, side, side}}; }
   /// Contains every finite point.
   bool contains(const Point& p) const { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 };

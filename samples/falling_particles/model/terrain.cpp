@@ -56,7 +56,9 @@ Terrain::Terrain(const TerrainParameters& parameters)
       heights_.push_back(landscape.height((static_cast<double>(i) - 1) * spacing_[0], (static_cast<double>(j) - 1) * spacing_[1]));
     }
   }
-  highest_ = *std::ranges::max_element(heights_);
+  const auto [lowest, highest] = std::ranges::minmax(heights_);
+  lowest_ = lowest;
+  highest_ = highest;
 }
 
 double Terrain::height(double x, double y) const {
@@ -67,6 +69,8 @@ double Terrain::height(double x, double y) const {
   if (u > v) return origin + u * (sample(i + 1, j) - origin) + v * (far - sample(i + 1, j));
   return origin + v * (sample(i, j + 1) - origin) + u * (far - sample(i, j + 1));
 }
+
+Region Terrain::room() const { return {{0, 0, lowest_}, {parameters_.width[0], parameters_.width[1], INFINITY}}; }
 
 bool Terrain::contains(const Point& p) const { return plan().contains(p[0], p[1]) && p[2] > height(p[0], p[1]) && p[2] < INFINITY; }
 

@@ -56,6 +56,7 @@ class Terrain {
 
   Rectangle plan() const { return {{0, 0}, parameters_.width}; }
   double lowest() const { return highest_; }  ///< m, lowest height at which grains may start: above the peaks
+  Region room() const;
   bool contains(const Point& p) const;
 
  private:
@@ -63,7 +64,7 @@ class Terrain {
   std::size_t per_side_;
   std::array<double, 2> spacing_;
   std::vector<double> heights_;
-  double highest_;
+  double lowest_, highest_;  // m, of the heights
 };
 
 }  // namespace falling_particles

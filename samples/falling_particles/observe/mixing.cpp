@@ -11,14 +11,9 @@
 namespace falling_particles {
 namespace {
 
-struct DividingPlane {
-  std::size_t axis;
-  double at;  // m
-};
-
 class Mixing final : public Measurement {
  public:
-  Mixing(const SamplingRegion& region, const CellCounts& cells, const DividingPlane& plane)
+  Mixing(const SamplingRegion& region, const CellCounts& cells, const AxisPlane& plane)
       : region_(region), cells_(cells), plane_(plane) {}
 
   std::string columns() const override { return std::string("time_s,") + LaceyGrid::kColumns; }
@@ -57,7 +52,7 @@ class Mixing final : public Measurement {
 
   SamplingRegion region_;
   CellCounts cells_;
-  DividingPlane plane_;
+  AxisPlane plane_;
   std::vector<std::uint8_t> is_below_;  // of each grain, where it was first seen
 };
 
@@ -79,7 +74,7 @@ MeasurementKind mixing_kind() {
       .source = "Lacey, J. Appl. Chem. 4 (1954) 257; cells are weighted by their grains",
       .follows = true,
       .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
-        const DividingPlane plane{read_axis(table, "axis"), table.number("at", Interval::closed(-kFarthest, kFarthest, "m"))};
+        const AxisPlane plane{read_axis(table, "axis"), table.number("at", Interval::closed(-kFarthest, kFarthest, "m"))};
         const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
         const CellCounts cells = read_cells(table);
         return [=](const World&) { return std::make_unique<Mixing>(region, cells, plane); };

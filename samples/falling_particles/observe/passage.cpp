@@ -49,9 +49,7 @@ struct PassedGrain {
 
 constexpr double kLineOfPassage = 170;  // bytes, in feeder.toml
 
-struct PassedPlane {
-  std::size_t axis;
-  double at;                             // m
+struct PassedPlane : AxisPlane {
   std::optional<SamplingRegion> window;  // without one the plane has no end
 
   bool has_in_window(const Vector3& place, const World& world) const {
@@ -207,9 +205,10 @@ MeasurementKind passage_kind() {
           "`from`, net rates since the last sample; per grain: time, index, kind, scale, sieve size, mass, direction (1 along the "
           "axis, -1 against it), position, velocity",
       .source = "crossings are interpolated within a step",
+      .limits_plane = true,
       .follows = true,
       .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
-        PassedPlane plane{read_axis(table, "axis"), table.number("at", Interval::closed(-kFarthest, kFarthest, "m")), {}};
+        PassedPlane plane{{read_axis(table, "axis"), table.number("at", Interval::closed(-kFarthest, kFarthest, "m"))}, {}};
         if (table.has("lower") || table.has("upper")) plane.window.emplace(table, scene, SamplingRegion::Without::Refused);
         const bool is_per_grain = table.has("per") && table.choice("per", {"sample", "grain"}) == "grain";
         const auto per = is_per_grain ? Passage::Per::Grain : Passage::Per::Sample;

@@ -207,6 +207,12 @@ def _integer(name: str, value: Any, lowest: int, highest: int) -> int:
     return number
 
 
+def _flag(name: str, value: Any) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} is {value!r}; allowed: True or False")
+    return bool(value)
+
+
 class Scene:
     """A scene of falling_particles, which can be run many times.
 
@@ -311,6 +317,7 @@ class Scene:
         Raises ValueError for what the program refuses. Doubts are warnings, as of the program.
         """
         threads = _integer("threads", threads, 0, 256)
+        pictures, resume = _flag("pictures", pictures), _flag("resume", resume)
         every = _integer("checkpoint_every", checkpoint_every, 0, _MOST_STEPS)
         if out is None and (every > 0 or resume):
             name, value = ("checkpoint_every", every) if every > 0 else ("resume", resume)
@@ -318,7 +325,7 @@ class Scene:
         for doubt in self.doubts():
             warnings.warn(doubt, stacklevel=2)
         folder = None if out is None else os.fspath(out)
-        return World(self, _scenes.World(self._source, folder, threads, bool(pictures), every, bool(resume)))
+        return World(self, _scenes.World(self._source, folder, threads, pictures, every, resume))
 
     def run(self, out: Path, *, draw: bool = True, **options: Any) -> Results:
         """Runs the scene from start to end, as the program does. `options` are those of start(), `draw` is that of finish()."""
@@ -399,7 +406,7 @@ class World:
 
         Ctrl-C ends the call after a step and raises KeyboardInterrupt. The world may go on.
         """
-        self._world.step(_integer("count", count, 0, _MOST_STEPS), bool(forces))
+        self._world.step(_integer("count", count, 0, _MOST_STEPS), _flag("forces", forces))
 
     def grains(self) -> Grains:
         """The grains now, in arrays of their own."""
@@ -449,7 +456,7 @@ class World:
 
         draw: makes the pictures that gnuplot and POV-Ray draw; their lack is a line on stderr.
         """
-        folder = pathlib.Path(self._world.finish(bool(draw)))
+        folder = pathlib.Path(self._world.finish(_flag("draw", draw)))
         self._results = Results(folder, self._world.summary(), self._world.first_leak())
         return self._results
 

@@ -119,12 +119,14 @@ double rest_depth_of(const GrainCount& entry, const Scene& scene) {
   return scene.solver.erp == 0 ? INFINITY : scene.solver.cfm * weight * scene.time.step / scene.solver.erp;
 }
 
+template <typename Kind>
+bool has_effect(const Scene& scene) {
+  return std::ranges::any_of(scene.effects, [](const auto& effect) { return std::holds_alternative<Kind>(effect); });
+}
+
 /// Whether the scene has contacts with a stiffness of their own.
 bool has_soft_contacts(const Scene& scene) {
-  return std::ranges::any_of(scene.effects, [](const supernormal::effects::Effect& effect) {
-    return std::holds_alternative<supernormal::effects::Compliance>(effect) ||
-           std::holds_alternative<supernormal::effects::Hertz>(effect);
-  });
+  return has_effect<supernormal::effects::Compliance>(scene) || has_effect<supernormal::effects::Hertz>(scene);
 }
 
 void add_solver(const Scene& scene, std::vector<std::string>& doubts) {
@@ -226,6 +228,43 @@ void add_layer(const Scene& scene, std::vector<std::string>& doubts) {
   }
 }
 
+/// Adds a doubt about friction that another effect replaces.
+void add_replaced_friction(const Scene& scene, std::vector<std::string>& doubts) {
+  using supernormal::effects::AnisotropicFriction, supernormal::effects::Friction;
+  if (!has_effect<AnisotropicFriction>(scene) || !has_effect<Friction>(scene)) return;
+  doubts.push_back(
+      "anisotropic_friction replaces friction in all contacts of grains, and friction, friction.walls and part.friction have no "
+      "effect: one of both would do");
+}
+
+double largest_half_axis(const Scene& scene) {
+  double largest = 0;
+  for (const GrainCount& entry : scene.kinds) {
+    largest = std::max(largest, entry.largest_scale() * std::ranges::max(entry.kind.half_axes));
+  }
+  return largest;
+}
+
+/// Adds a doubt about a length of the resistance to rolling that is a number without unit in other programs.
+void add_rolling(const Scene& scene, std::vector<std::string>& doubts) {
+  const double size = largest_half_axis(scene);
+  const auto add = [&](const char* key, double length) {
+    if (length <= size) return;
+    doubts.push_back(std::string("rolling_resistance.") + key + " is a length, " + shortest(length) + " m, " +
+                     rounded(length / size) + " times the largest half-axis (" + shortest(size) +
+                     " m): grains may not roll at all; of a coefficient without unit, such as 0.1, it is the product with the "
+                     "radius");
+  };
+  bool is_first = true;
+  for (const supernormal::effects::Effect& effect : scene.effects) {
+    const auto* const resistance = std::get_if<supernormal::effects::RollingResistance>(&effect);
+    if (resistance == nullptr) continue;
+    add(is_first ? "rolling" : "walls", resistance->rolling);  // the effect of grains on walls comes second
+    if (is_first) add("spinning", resistance->spinning);
+    is_first = false;
+  }
+}
+
 /// m, the displacement of a free wall in the first step of its flight; of its farthest point if it turns.
 double first_way_of(const Wall& wall, const Flight& flight, double step) {
   return step * (flight.velocity.linear.norm() + flight.velocity.angular.norm() * bounding_radius(wall.shape));
@@ -314,10 +353,8 @@ void add_feeders(const Scene& scene, std::vector<std::string>& doubts) {
 }
 
 /// Refuses grains of the lattice that start inside a part.
-void refuse_start_in_parts(const Scene& scene) {
-  if (scene.parts().empty() || scene.grains_at_start() == 0) return;
-  Random random(scene.seed);
-  const World world(scene, place(scene, random));
+void refuse_start_in_parts(const World& world) {
+  const Scene& scene = world.scene();
   std::vector<std::pair<dGeomID, dGeomID>> pairs;
   world.name_wall_pairs(&pairs, [](void* data, dGeomID g1, dGeomID g2) {
     static_cast<std::vector<std::pair<dGeomID, dGeomID>>*>(data)->emplace_back(g1, g2);
@@ -331,8 +368,8 @@ void refuse_start_in_parts(const Scene& scene) {
     constexpr double kRounding = 1e-6;  // of the smallest half-axis
     if (!(proximity.gap < -kRounding * grain.smallest_half_axis())) continue;
     const auto [x, y, z] = grain.position();
-    throw InputError(scene.files.front().string() + ": grain " + std::to_string(world.index_of(grain)) + " (" + grain.kind->name +
-                     ") starts at [" + shortest(x) + ", " + shortest(y) + ", " + shortest(z) + "] m, " + rounded(-proximity.gap) +
+    throw InputError(scene.path + ": grain " + std::to_string(world.index_of(grain)) + " (" + grain.kind->name + ") starts at [" +
+                     shortest(x) + ", " + shortest(y) + ", " + shortest(z) + "] m, " + rounded(-proximity.gap) +
                      " m deep in part \"" + part->name + "\"; allowed: parts that leave the start of the grains free");
   }
 }
@@ -389,16 +426,22 @@ std::vector<std::string> doubts_about(const Scene& scene) {
   add_solver(scene, doubts);
   add_mass_ratio(scene, doubts);
   add_layer(scene, doubts);
+  add_replaced_friction(scene, doubts);
+  add_rolling(scene, doubts);
   add_walls(scene, doubts);
   add_feeders(scene, doubts);
   std::ranges::move(doubts_about_origins(scene), std::back_inserter(doubts));
+  std::ranges::move(doubts_about_measurements(scene), std::back_inserter(doubts));
   return doubts;
 }
 
 void refuse_overlapping_start(const Scene& scene) {
-  scene.start ? refuse_bad_state(scene) : refuse_start_in_parts(scene);
-  if (!scene.bonds.empty()) refuse_bad_bonds(scene);
-  if (std::ranges::any_of(scene.walls, [](const Wall& wall) { return wall.flight.has_value(); })) refuse_bad_flights(scene);
+  if (!scene.start && scene.bonds.empty() && scene.parts().empty()) return;
+  Random random(scene.seed);
+  const World world(scene, place(scene, random));
+  scene.start ? refuse_bad_state(world) : refuse_start_in_parts(world);
+  if (!scene.bonds.empty()) refuse_bad_bonds(world);
+  refuse_bad_flights(world);
 }
 
 }  // namespace falling_particles

@@ -9,6 +9,8 @@
 
 namespace falling_particles {
 
+class World;
+
 /// The fall of the highest grain of the start to the lowest start, without drag and contacts.
 struct Fall {
   double height;  ///< m
@@ -30,21 +32,28 @@ double normal_way_of(const Wall& wall, const Scene& scene);
 /// A sentence for each doubt about a valid scene, with a remedy.
 std::vector<std::string> doubts_about(const Scene& scene);
 
-/// Sentences about grains of the start and of feeders that start behind meshes, above nothing, or where there is no space for them.
+/// Sentences about grains of the start and of feeders that start behind meshes, above nothing, behind servos, or where there is no
+/// space for them (origins.cpp).
 std::vector<std::string> doubts_about_origins(const Scene& scene);
+
+/// Sentences about measurements whose box or plane no grain reaches (reach.cpp).
+std::vector<std::string> doubts_about_measurements(const Scene& scene);
 
 /// Throws InputError when a grain of the start overlaps a wall. It would be pushed out on either side, or not at all. The grains of
 /// a state may overlap one another and walls by StartState::overlap, and must be within the container.
 void refuse_overlapping_start(const Scene& scene);
 
-/// The same for the grains of a state (start_check.cpp).
-void refuse_bad_state(const Scene& scene);
+/// The same for the grains of a state (start_check.cpp). This and the following checks take a world at the start.
+void refuse_bad_state(const World& world);
 
-/// Throws InputError if a section [[bond]] bonds nothing, or if its bonds are too stiff for the step and the iterations of the
-/// solver. The scene has bonds.
-void refuse_bad_bonds(const Scene& scene);
+/// Throws InputError if a section [[bond]] bonds nothing, or if its bonds are too stiff. The scene has bonds.
+void refuse_bad_bonds(const World& world);
 
-/// Throws InputError if a free wall overlaps another wall at the start. Both would be pushed apart.
-void refuse_bad_flights(const Scene& scene);
+/// Throws InputError if bonds are too stiff for the step and this number of iterations of the solver. The scene has bonds. The
+/// world may have made steps.
+void refuse_stiff_bonds(const World& world, int iterations);
+
+/// Throws InputError if a free wall overlaps another wall. Both would be pushed apart.
+void refuse_bad_flights(const World& world);
 
 }  // namespace falling_particles

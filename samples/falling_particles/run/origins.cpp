@@ -10,6 +10,7 @@
 #include <set>
 #include <variant>
 
+#include "base/interval.hpp"
 #include "doubts.hpp"
 #include "sight.hpp"
 #include "world/free_places.hpp"
@@ -138,6 +139,32 @@ void add_unreached(const World& world, std::vector<std::string>& doubts) {
   }
 }
 
+/// m along the axis of a drive: of the middle of its wall at the start, or of a plane.
+double middle_along(const Wall& wall, dGeomID geom) {
+  if (std::holds_alternative<PlaneShape>(wall.shape)) return wall.drive->axis.dot(wall.start.position);
+  dReal box[6];
+  dGeomGetAABB(geom, box);
+  return wall.drive->axis.dot(Vector3(box[0] + box[1], box[2] + box[3], box[4] + box[5]) / 2);
+}
+
+/// Adds doubts about servos that leave all grains behind.
+void add_servos(const World& world, const std::vector<Lookout>& origins, std::vector<std::string>& doubts) {
+  const std::vector<Wall>& walls = world.scene().walls;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    if (!walls[i].drive || !walls[i].drive->servo) continue;
+    const Vector3& axis = walls[i].drive->axis;
+    const double middle = middle_along(walls[i], world.walls().geoms()[i]);
+    const auto is_ahead = [&](const Point& place) { return axis.dot(Vector3(place[0], place[1], place[2])) > middle; };
+    if (std::ranges::any_of(origins, [&](const Lookout& origin) { return std::ranges::any_of(origin.places, is_ahead); })) continue;
+    if (std::ranges::all_of(origins, [](const Lookout& origin) { return origin.places.empty(); })) continue;
+    const auto against = [&](int k) { return rounded(0.0 - axis[k]); };
+    doubts.push_back("part \"" + walls[i].name +
+                     "\" is a servo whose axis points away from all grains at the start: it presses none, and leaves; "
+                     "part.drive.axis = [" +
+                     against(0) + ", " + against(1) + ", " + against(2) + "] would do");
+  }
+}
+
 std::string name_of(dGeomID solid, const World& world) {
   const Wall* wall = world.walls().wall_of(solid);
   return wall != nullptr && wall->is_part() ? "part \"" + wall->name + '"' : "the container";
@@ -191,6 +218,7 @@ std::vector<std::string> doubts_about_origins(const Scene& scene) {
     add_backs(sight, scene, origin, doubts);
   }
   add_unreached(world, doubts);
+  add_servos(world, origins, doubts);
   return doubts;
 }
 

@@ -4,7 +4,6 @@
 #include "base/interval.hpp"
 #include "doubts.hpp"
 #include "observe/overlap.hpp"
-#include "world/placement.hpp"
 #include "world/world.hpp"
 
 namespace falling_particles {
@@ -32,10 +31,9 @@ class StateNames {
 
 }  // namespace
 
-void refuse_bad_state(const Scene& scene) {
+void refuse_bad_state(const World& world) {
+  const Scene& scene = world.scene();
   const StartState& start = *scene.start;
-  Random random(scene.seed);
-  const World world(scene, place(scene, random));
   const StateNames names(world, start);
   if (world.cell() != nullptr) world.cell()->place_images();
   const Overlap overlap = measure_overlap(world);

@@ -22,6 +22,11 @@ constexpr double kPairsPerGrain = 3.5;  // pairs whose bounding boxes meet, in a
 constexpr double kRest = 0.1;           // of a step: broad phase, contact joints, monitors
 constexpr double kLongestTiming = 0.5;  // s, for each of the two timings
 
+// Way of a grain in a step of a flow, of its smallest half-axis: enough to end searches that start at their last normal. With
+// contacts ahead, pairs of drum.toml take 1.03 ms in a step. It is 1.06 ms with half and 1.02 ms with twice of it, and 0.62 ms
+// without.
+constexpr double kFlow = 0.03;
+
 /// Runs `work` at least three times, and returns the least of its times (s).
 template <typename Work>
 double time_of(const Work& work) {
@@ -122,12 +127,29 @@ void bring_together(const Grain& one, const Grain& other) {
   }
 }
 
-double time_pair(const World& world) {
+/// Moves a grain by `way` (m) along y, and turns it by as much at its surface, with the velocities of a step.
+void shift(const Grain& grain, double way, double step) {
+  const Point p = grain.position();
+  dBodySetPosition(grain.body, p[0], p[1] + way, p[2]);
+  const double angle = way / grain.smallest_half_axis();
+  const auto [w, x, y, z] = grain.quaternion();
+  const Eigen::Quaterniond turned = Eigen::AngleAxisd(angle, Vector3::UnitZ()) * Eigen::Quaterniond(w, x, y, z);
+  const dQuaternion q = {turned.w(), turned.x(), turned.y(), turned.z()};
+  dBodySetQuaternion(grain.body, q);
+  dBodySetLinearVel(grain.body, 0, way / step, 0);
+  dBodySetAngularVel(grain.body, 0, 0, angle / step);
+}
+
+/// Times the pairs of a bed at rest, or of a flow, whose grains move in each step.
+double time_pair(const World& world, bool flows) {
   const std::vector<Grain>& grains = world.grains();
   const std::size_t pairs = std::min<std::size_t>(grains.size() / 2, 100);
   for (std::size_t i = 0; i < pairs; ++i) bring_together(grains[2 * i], grains[2 * i + 1]);
+  double way = flows ? kFlow : 0;  // of the smallest half-axis
   const double seconds = time_of([&] {
+    way = -way;
     for (std::size_t i = 0; i < pairs; ++i) {
+      if (flows) shift(grains[2 * i], way * grains[2 * i].smallest_half_axis(), world.scene().time.step);
       for (dGeomID a : grains[2 * i].geoms()) {
         for (dGeomID b : grains[2 * i + 1].geoms()) {
           std::array<dContactGeom, kContactsPerPair> found;
@@ -138,6 +160,9 @@ double time_pair(const World& world) {
   });
   return pairs == 0 ? 0 : seconds / static_cast<double>(pairs);
 }
+
+/// Whether grains go on moving: on walls that move, or from feeders.
+bool flows(const Scene& scene) { return !scene.feeders.empty() || std::ranges::any_of(scene.walls, &Wall::moves); }
 
 }  // namespace
 
@@ -152,7 +177,7 @@ BedTimes time_bed(const Scene& scene, int grains) {
                 [](const auto& effect) { return std::holds_alternative<supernormal::effects::AutoDisable>(effect); });
   World world(still, row_of(scene, grains));
   BedTimes times;
-  times.narrow_phase = kPairsPerGrain * time_pair(world);
+  times.narrow_phase = kPairsPerGrain * time_pair(world, flows(scene));
   times.solver = time_solver(world, scene.time.step) / grains;
   times.all = (1 + kRest) * (times.solver + times.narrow_phase);
   return times;

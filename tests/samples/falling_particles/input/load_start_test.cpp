@@ -87,6 +87,13 @@ TEST_CASE("start: a CSV file of one grain has its kind, pose and velocities, wha
   CHECK(loaded.scene.files.back().filename() == "state");  // its bytes belong to the identity of a run
 }
 
+TEST_CASE("start: a byte order mark, as spreadsheets write, is no part of the first column") {
+  const Loaded marked(std::string("\xEF\xBB\xBF") + kOneGrain);
+  CHECK(marked.text.empty());
+  REQUIRE(marked.scene.start);
+  CHECK(marked.scene.start->grains.front().position == Loaded(kOneGrain).scene.start->grains.front().position);
+}
+
 TEST_CASE("start: of a trajectory, the last frame is read, and its grains are at rest") {
   const Loaded loaded(
       "time_s,body,grain,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,pea,9,9,9,1,0,0,0\n0,1,pea,9,9,9,1,0,0,0\n"

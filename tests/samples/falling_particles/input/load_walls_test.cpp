@@ -276,3 +276,12 @@ TEST_CASE("a mesh is read in its unit, and a bad file is refused with the reason
   check_says(refusal("t.step", "mm"), {"part.file is \"t.step\"", ".stl or .obj"});
   check_says(refusal("t.stl", "ft"), {"part.unit is \"ft\"", "inch"});
 }
+
+TEST_CASE("a part with a coefficient that an effect of the scene excludes is refused with its line") {
+  const std::string part = "[[part]]\nname = \"p\"\nshape = \"box\"\nsize = [0.01, 0.01, 0.01]\nposition = [0.02, 0.02, 0.5]\n";
+  const std::string soft = replaced(kSceneText, "[max_correcting_velocity]\nvelocity = 0.05\n", "[compliance]\nstiffness = 1e4\n");
+  check_says(complaint(soft + part + "restitution = 0.5\n"),
+             {"scene.toml:36: part.restitution besides an effect of the scene: compliance must be without restitution",
+              "allowed: a part without it"});
+  CHECK(complaint(soft + part + "friction = 0.5\n").empty());
+}

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -25,6 +26,38 @@ TEST_CASE("a box is open at the top only") {
   CHECK_FALSE(contains(box, {0.1, 0.1, INFINITY}));
   CHECK_FALSE(contains(box, {0.1, NAN, 0.1}));
   CHECK_FALSE(contains(box, {0.1, 0.1, NAN}));
+}
+
+TEST_CASE("the room of a container is the smallest box around it") {
+  const Hopper hopper{0.05, 30, 0.1, 0.1, 12, 0.05, 0.15, 0};
+  const std::vector<Container> containers = {Box{{0.2, 0.3}},
+                                             hopper,
+                                             Terrain({{0.2, 0.3}, 0.01, 0.1, 0.02, 21, 3}),
+                                             Open{{{0, 0, 0}, {0.1, 0.1, 0.1}}, {{-0.2, -0.1, -0.05}, {0.5, 0.3, 0.4}}},
+                                             Drum{0.2, 0.1, 12, 30, false, 0},
+                                             Tray{{0.2, 0.1}, 0.05, 0.01, {0.6, 0, 0.8}, 0.02, 10, 0, 0},
+                                             ShearCell{{0.2, 0.1}, 0.2, 0.1, 0.01, 0.1, 1000, 1, 0.19, 0, 0},
+                                             ConveyorBelt{0.3, 0.1, 0.2, 0.02, 0.05, 1, 0.2, 0}};
+  Random random(5);
+  for (const Container& container : containers) {
+    CAPTURE(kind_of(container));
+    const Region room = room_of(container);
+    Point least = {1, 1, 1}, most = {-1, -1, -1};
+    for (int i = 0; i < 100000; ++i) {
+      const Point point = {random.uniform() * 1.2 - 0.5, random.uniform() * 1.2 - 0.5, random.uniform() * 0.7 - 0.1};
+      if (!contains(container, point)) continue;
+      CHECK(room.contains(point));
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        least[axis] = std::min(least[axis], point[axis]);
+        most[axis] = std::max(most[axis], point[axis]);
+      }
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double slack = 0.1 * (most[axis] - least[axis]);
+      CHECK(least[axis] - room.corner[axis] < slack);
+      if (std::isfinite(room.size[axis])) CHECK(room.corner[axis] + room.size[axis] - most[axis] < slack);
+    }
+  }
 }
 
 TEST_CASE("the values of hoppers and terrains are read") {

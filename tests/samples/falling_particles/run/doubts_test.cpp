@@ -276,3 +276,78 @@ TEST_CASE("doubts: of the kinds without grains, those that a feeder brings are c
   const std::string half = "\"\nfraction = 0.5\n[[feeder.grain]]\nname = \"";
   check_one_doubt(fed("[[feeder.grain]]\nname = \"pea" + half + "die\"\nfraction = 0.5\n"), {"the heaviest grain (\"die\")"});
 }
+
+TEST_CASE("doubts: a measurement of a place that no grain reaches is named with the axis") {
+  const auto measured = [](const std::string& rest) {
+    return scene_of(std::string(kSceneText) + "[[measurement]]\nname = \"m\"\ninterval = 0.01\n" + rest);
+  };
+  const std::string stress = "kind = \"stress\"\n";
+  CHECK(doubts_about(measured(stress + "lower = [0, 0, 0]\nupper = [0.05, 0.06, 0.1]\n")).empty());
+  CHECK(doubts_about(measured(stress + "lower = [-1, 0, 0.2]\nupper = [0.001, 0.06, 9]\n")).empty());  // where grains may jump
+  check_one_doubt(
+      measured(stress + "lower = [0, 10, 0]\nupper = [0.05, 40, 0.1]\n"),
+      {"measurement \"m\" has a box that no grain reaches", "10 and 40 m along y", "from 0 to 0.06 m", "another unit?"});
+  check_one_doubt(measured(stress + "lower = [0, 0, 5]\nupper = [0.05, 0.06, 9]\n"), {"5 and 9 m along z"});
+  const std::string passage = "kind = \"passage\"\naxis = \"z\"\n";
+  CHECK(doubts_about(measured(passage + "at = 0.005\n")).empty());
+  check_one_doubt(measured(passage + "at = 5\n"), {"a plane that no grain reaches: measurement.at is 5 m along z"});
+  check_one_doubt(measured(passage + "at = -0.001\n"), {"measurement.at is -0.001 m along z"});
+  // A box limits the plane across its axis alone.
+  CHECK(doubts_about(measured(passage + "at = 0.005\nlower = [0, 0, 5]\nupper = [0.05, 0.06, 9]\n")).empty());
+  check_one_doubt(measured(passage + "at = 0.005\nlower = [5, 0, 0]\nupper = [9, 1, 1]\n"), {"5 and 9 m along x"});
+  check_one_doubt(measured("kind = \"mixing\"\naxis = \"x\"\nat = 25\nlower = [0, 0, 0]\nupper = [1, 1, 1]\ncells = [2, 2, 2]\n"),
+                  {"measurement.at is 25 m along x"});
+}
+
+TEST_CASE("doubts: a grain may be anywhere above the container where something lifts it, and anywhere without gravity") {
+  const std::string high =
+      "[[measurement]]\nkind = \"grid\"\ninterval = 0.01\nlower = [0, 0, 5]\nupper = [1, 1, 9]\ncells = [1, 1, 1]\n";
+  const std::string text = kSceneText;
+  CHECK(doubts_about(scene_of(text + high)).size() == 1);
+  CHECK(doubts_about(scene_of(replaced(text, "acceleration = [0, 0, -9.81]", "acceleration = [0, 0, 0]") + high)).empty());
+  CHECK(doubts_about(scene_of(replaced(text, "acceleration = [0, 0, -9.81]", "acceleration = [1, 0, -9.81]") + high)).empty());
+  CHECK(doubts_about(scene_of(text + "[buoyancy]\ndensity = 2000\nlevel = 8\n" + high)).empty());
+  CHECK(doubts_about(scene_of(text +
+                              "[[feeder]]\nname = \"f\"\ncorner = [0, 0, 0.1]\nsize = [0.05, 0.06, 0.05]\n"
+                              "grains_per_second = 100\nvelocity = [0, 0, 5]\n" +
+                              high))
+            .empty());
+  const std::string lift = "[[part]]\nname = \"p\"\nshape = \"box\"\nsize = [0.01, 0.01, 0.01]\nposition = [0.02, 0.02, 0.5]\n";
+  CHECK(doubts_about(scene_of(text + lift + "[[part.motion]]\nkind = \"velocity\"\nvelocity = [0, 0, 1]\n" + high)).empty());
+}
+
+TEST_CASE("doubts: anisotropic friction leaves no effect to friction, of the scene or of a part") {
+  const std::string anisotropic = "[anisotropic_friction]\nalong = 0.1\nacross = 0.5\ndirection = [1, 0, 0]\n";
+  const std::string alone = replaced(kSceneText, "[friction]\ncoefficient = 0.4\n", anisotropic);
+  CHECK(doubts_about(scene_of(alone)).empty());
+  const std::vector<const char*> says = {"anisotropic_friction replaces friction", "part.friction have no effect"};
+  check_one_doubt(scene_of(kSceneText + anisotropic), says);
+  check_one_doubt(scene_of(alone + "[[part]]\nname = \"p\"\nshape = \"box\"\nsize = [0.01, 0.01, 0.01]\n"
+                                   "position = [0.02, 0.02, 0.5]\nfriction = 0.5\n"),
+                  says);
+}
+
+TEST_CASE("doubts: a resistance to rolling above the half-axes is probably a number without unit") {
+  const auto with = [](const std::string& values) { return scene_of(std::string(kSceneText) + "[rolling_resistance]\n" + values); };
+  CHECK(doubts_about(with("rolling = 6e-3\nspinning = 1e-3\nwalls = 0\n")).empty());  // a die has 6 mm
+  check_one_doubt(with("rolling = 0.09\n"),
+                  {"rolling_resistance.rolling is a length, 0.09 m, 15 times the largest half-axis (0.006 m)", "without unit"});
+  check_one_doubt(with("rolling = 1e-4\nwalls = 0.1\n"), {"rolling_resistance.walls is a length"});
+  check_one_doubt(with("rolling = 1e-4\nspinning = 0.1\nwalls = 1e-4\n"), {"rolling_resistance.spinning is a length"});
+}
+
+TEST_CASE("doubts: a servo that turns its back to all grains is named, with the axis that would do") {
+  const auto servo = [](const std::string& position, const std::string& axis) {
+    return with_part("shape = \"box\"\nsize = [0.04, 0.04, 0.01]\nposition = " + position + "\n[part.drive]\naxis = " + axis +
+                     "\nstress = 1000\ngain = 1e-4\nlargest_speed = 1\n");
+  };
+  CHECK(doubts_about(servo("[0.025, 0.03, 1]", "[0, 0, -1]")).empty());
+  check_one_doubt(servo("[0.025, 0.03, 1]", "[0, 0, 2]"),
+                  {"part \"p\" is a servo whose axis points away from all grains", "part.drive.axis = [0, 0, -1] would do"});
+  CHECK(doubts_about(servo("[0.025, 0.03, 0.005]", "[0, 0, 1]")).empty());
+  const std::string plane =
+      "shape = \"plane\"\nposition = [0, 0, 1]\naxis = [1, 0, 0]\nangle = 180\n[part.drive]\nstress = 1000\ngain = 1e-4\n"
+      "largest_speed = 1\narea = 1\naxis = ";
+  CHECK(doubts_about(with_part(plane + "[0, 0, -1]\n")).empty());
+  check_one_doubt(with_part(plane + "[0, 0, 1]\n"), {"points away from all grains"});
+}
