@@ -281,14 +281,6 @@ void add_late(const Scene& scene, const Wall& wall, std::vector<std::string>& do
                    shortest(scene.time.duration) + " s, or later");
 }
 
-/// m, the least length of a solid; infinite for planes and meshes.
-double thinnest(const WallShape& shape) {
-  if (const auto* box = std::get_if<BoxShape>(&shape)) return box->size.minCoeff();
-  if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) return std::min(cylinder->radius, cylinder->length);
-  if (const auto* body = std::get_if<SmoothShape>(&shape)) return body->half_axes.minCoeff();
-  return INFINITY;
-}
-
 /// Adds a doubt about a servo on springs. A spring is explicit: it is stable while stiffness x step^2 is below four masses. A servo
 /// has the mass step x area / gain, and a contact for each smallest grain that fits on its area.
 void add_gain(const Scene& scene, const Wall& wall, std::vector<std::string>& doubts) {

@@ -50,7 +50,8 @@ void refuse_bad_state(const World& world);
 /// solver. The scene has bonds.
 void refuse_bad_bonds(const World& world);
 
-/// Throws InputError if a free wall overlaps another wall. Both would be pushed apart.
+/// Throws InputError if a free wall overlaps another wall, beside a state by more than StartState::overlap. Both would be pushed
+/// apart.
 void refuse_bad_flights(const World& world);
 
 }  // namespace falling_particles
