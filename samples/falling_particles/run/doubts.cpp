@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <iterator>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 
 #include "base/input_error.hpp"
 #include "base/interval.hpp"
+#include "input/state_table.hpp"
 #include "model/grain_shape.hpp"
 #include "model/lattice.hpp"
 #include "output/wall_mesh.hpp"
@@ -361,6 +365,48 @@ void add_gain(const Scene& scene, const Wall& wall, std::vector<std::string>& do
   }
 }
 
+/// The last poses of the parts of a run, by their names, of its table parts.csv. Empty if there is no such table.
+std::map<std::string, WallPose, std::less<>> poses_left_in(const std::filesystem::path& file) {
+  std::map<std::string, WallPose, std::less<>> poses;
+  if (!std::filesystem::is_regular_file(file)) return poses;
+  try {
+    const StateTable table(file);
+    table.require({"part", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"});
+    for (const StateTable::Row& row : table.rows()) {
+      const auto number = [&](const char* column) { return table.number(row, column, Interval::finite("")); };
+      const Eigen::Quaterniond rotation(number("qw"), number("qx"), number("qy"), number("qz"));
+      poses[std::string(table.word(row, "part"))] = {{number("x_m"), number("y_m"), number("z_m")}, rotation.normalized()};
+    }
+  } catch (const InputError&) {
+    return {};  // a file of the user's with this name
+  }
+  return poses;
+}
+
+/// Adds doubts about free parts that do not start where the run that left the state has left them: a state holds grains alone.
+void add_left_parts(const Scene& scene, std::vector<std::string>& doubts) {
+  constexpr double kTyped = 0.01;  // of the smallest half-axis: typed numbers may have three digits
+  if (!scene.start || std::ranges::none_of(scene.parts(), [](const Wall& part) { return part.flight.has_value(); })) return;
+  const std::filesystem::path file = scene.start->file.parent_path() / "parts.csv";
+  const auto poses = poses_left_in(file);
+  for (const Wall& part : scene.parts()) {
+    const auto left = poses.find(part.name);
+    if (!part.flight || left == poses.end()) continue;
+    const auto& [position, rotation] = left->second;
+    const double off =
+        (position - part.start.position).norm() + bounding_radius(part.shape) * rotation.angularDistance(part.start.rotation);
+    if (off <= kTyped * scene.smallest_half_axis()) continue;
+    const auto list = [](const Vector3& v) {
+      return '[' + shortest(v.x()) + ", " + shortest(v.y()) + ", " + shortest(v.z()) + ']';
+    };
+    const Eigen::AngleAxisd turn(rotation);
+    doubts.push_back("part \"" + part.name + "\" is free and starts " + rounded(off) + " m from where " + file.string() +
+                     " leaves it, since start.file has grains alone; part.position = " + list(position) +
+                     ", part.axis = " + list(turn.axis()) + " and part.angle = " + shortest(turn.angle() * 180 / std::numbers::pi) +
+                     " would do (start.md)");
+  }
+}
+
 void add_walls(const Scene& scene, std::vector<std::string>& doubts) {
   constexpr double kThin = 1e-6;  // of the smallest half-axis: thinner than the overlap of a contact at rest
   const double size = scene.smallest_half_axis();
@@ -479,6 +525,7 @@ std::vector<std::string> doubts_about(const Scene& scene) {
   add_rounded_times(scene.time, doubts);
   add_fall(scene, doubts);
   add_speed(scene, doubts);
+  add_left_parts(scene, doubts);
   add_solver(scene, doubts);
   add_mass_ratio(scene, doubts);
   add_layer(scene, doubts);
