@@ -74,10 +74,20 @@ class Assignment {
       if (path_[k].chooses_entry) fail_missing(table(*node), path_[i].word);
       keys += '.' + path_[k].word;
     }
-    for (auto&& [key, value] : parse(keys)) table(*node).insert_or_assign(toml::key(key), std::move(value));
+    for (auto&& [key, value] : parse(keys)) assign(table(*node), key, std::move(value));
   }
 
  private:
+  /// An empty array removes sections [[key]].
+  static void assign(toml::table& table, const toml::key& key, toml::node&& value) {
+    const toml::node* old = table.get(key);
+    if (value.is_array() && value.as_array()->empty() && old != nullptr && old->is_array_of_tables()) {
+      table.erase(key);
+    } else {
+      table.insert_or_assign(key, std::move(value));
+    }
+  }
+
   [[noreturn]] void fail(const std::string& text) const { throw InputError(option_ + ": " + text); }
 
   [[noreturn]] void fail_form() const {

@@ -27,7 +27,7 @@ std::string list_sections() {
   touching         in [0, 10], of the smallest half-axis: bonds all pairs of grains of the start whose gap is at most this
   chain            two numbers of grains of start.file; in place of touching, bonds each grain between them to the next one
   file             of pairs, in place of touching and chain: final_bonds.csv of a run, or another CSV file
-  part             a part of the scene, to which touching or file bonds grains; without it, to one another
+  part             a part of the scene that is neither free nor driven, to which touching or file bonds grains; without it, to one another
   modulus          Pa, in (0, 1e15]; Young's, of the bond's beam
   poisson_ratio    in [0, 0.5]; of a beam
   radius           m, in (0, 1000]; of the beam; as relative_radius without it

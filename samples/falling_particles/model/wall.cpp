@@ -80,6 +80,13 @@ double bounding_radius(const WallShape& shape) {
   return std::visit([](const auto& kind) { return radius_of(kind); }, shape);
 }
 
+double thinnest(const WallShape& shape) {
+  if (const auto* box = std::get_if<BoxShape>(&shape)) return box->size.minCoeff();
+  if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) return std::min(cylinder->radius, cylinder->length);
+  if (const auto* body = std::get_if<SmoothShape>(&shape)) return body->half_axes.minCoeff();
+  return INFINITY;
+}
+
 std::optional<supernormal::MassProperties> solid_of(const WallShape& shape) {
   if (const auto* box = std::get_if<BoxShape>(&shape)) return supernormal::Box(box->size / 2).mass_properties();
   if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) {

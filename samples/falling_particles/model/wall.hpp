@@ -82,6 +82,9 @@ struct Wall {
 /// m, radius of a sphere around the wall's position that contains the wall; infinite for a plane and a ground.
 double bounding_radius(const WallShape& shape);
 
+/// m, the least length of a solid; infinite for planes, meshes and grounds.
+double thinnest(const WallShape& shape);
+
 /// The volume, centroid and moments of a wall's solid, in its frame; empty for walls without a finite volume: planes, grounds,
 /// two-sided meshes, and meshes whose triangles do not close with their fronts outside.
 std::optional<supernormal::MassProperties> solid_of(const WallShape& shape);

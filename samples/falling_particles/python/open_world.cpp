@@ -1,6 +1,8 @@
 #include "open_world.hpp"
 
+#include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "base/input_error.hpp"
@@ -171,6 +173,9 @@ void OpenWorld::set_pushes(std::vector<Push> pushes) {
     throw std::invalid_argument("forces: a checkpoint does not hold them; allowed: none in a world with checkpoints");
   }
   parts_->run->set_pushes(std::move(pushes));
+  std::vector<std::string>& set = parts_->scene.overrides;  // for the summary, once
+  if (std::ranges::any_of(set, [](const std::string& value) { return value.starts_with("set_forces()"); })) return;
+  set.push_back("set_forces() from " + shortest(parts_->run->time()) + " s");
 }
 
 std::string OpenWorld::finish(bool draws) {

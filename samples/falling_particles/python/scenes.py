@@ -402,7 +402,8 @@ class World:
     def step(self, count: int = 1, *, forces: bool = False) -> None:
         """Makes `count` steps, in [0, Scene.steps - steps_done].
 
-        forces: measures the forces of the contacts in the last one, for contacts(). The motion is the same.
+        forces: measures the forces of the contacts in the last one, for contacts(), where they are NaN otherwise. The motion is the
+            same.
 
         Ctrl-C ends the call after a step and raises KeyboardInterrupt. The world may go on.
         """
@@ -413,7 +414,7 @@ class World:
         return Grains(**self._world.grains())
 
     def contacts(self) -> Contacts:
-        """The contact points of the last step, in arrays of their own."""
+        """The contact points of the last step, in arrays of their own. Their forces are NaN unless step() was asked for forces."""
         return Contacts(**self._world.contacts())
 
     def walls(self) -> Walls:
@@ -429,7 +430,7 @@ class World:
 
         forces: (N, 3), N, at the centres of mass; a row for each of Grains, also for removed ones, of which it is ignored. torques:
         the same, N m; None: none. Grains that feeders insert later get nothing until the next call. A grain with a force wakes. The
-        work of the forces counts as energy gained or lost.
+        work of the forces counts as energy gained or lost. The summary has the time of the first call.
 
         Raises ValueError for other shapes, numbers that are not finite, and in a world with checkpoints, which do not hold forces.
         """
@@ -441,8 +442,9 @@ class World:
 
         The sections of effects, such as [gravity] and [friction], and [solver] may change and be added. The run then continues from
         its saved state, as after a checkpoint, and all grains wake. Values of motions may change, too: container.rpm of a drum, .speed
-        and .pressure of a shear cell, .speed of a conveyor, part[NAME].motion, .drive.force, .drive.damping and .drive.until. A new
-        motion starts now, from the pose of the wall, with axes, points and directions of the world.
+        and .pressure of a shear cell, .speed of a conveyor, part[NAME].motion, and of part[NAME].drive: .force, .torque, .power,
+        .largest_force, .largest_torque, .stress, .damping and .until, for a drive of the same kind. A new motion starts now, from the
+        pose of the wall, with axes, points and directions of the world. The summary lists each change with its time.
 
         Raises ValueError for all other values, with those that may change, for a motion of a wall that stood at the start, and in a
         world with checkpoints, which do not hold changes. The world is then as before.

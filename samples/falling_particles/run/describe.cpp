@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "base/interval.hpp"
@@ -100,14 +101,21 @@ std::string describe(const StartState& start) {
                                       : "; it has no velocities: all grains start at rest");
 }
 
-/// Whether an effect is of grains on walls alone.
-bool is_on_walls(const supernormal::effects::Effect& effect) {
-  return std::visit(
-      [](const auto& one) {
-        if constexpr (requires { one.on; }) return one.on == kGrainOnWall;
-        return false;
+/// The walls to which an effect of grains is limited, in words.
+std::string where(const supernormal::effects::Effect& effect, const std::vector<Wall>& walls) {
+  const auto on = std::visit(
+      [](const auto& one) -> std::optional<supernormal::effects::MaterialSelector> {
+        if constexpr (requires { one.on; }) return one.on;
+        return std::nullopt;
       },
       effect);
+  if (on == kGrainOnWall) return " on walls";
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    if (on && on == supernormal::effects::MaterialSelector::between(kGrainMaterial, material_of_wall(walls, i))) {
+      return " on part \"" + walls[i].name + '"';
+    }
+  }
+  return "";
 }
 
 void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
@@ -143,8 +151,8 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   for (const Wall& wall : scene.parts()) lines.add("parts", describe(wall));
   for (const supernormal::effects::Effect& effect : scene.effects) {
     const supernormal::effects::Description& description = supernormal::effects::descriptions()[effect.index()];
-    lines.add("effects", std::string(description.name) + (is_on_walls(effect) ? " on walls: " : ": ") +
-                             std::to_string(description.rows) + " rows a contact; " + description.passes);
+    lines.add("effects", std::string(description.name) + where(effect, scene.walls) + ": " + std::to_string(description.rows) +
+                             " rows a contact; " + description.passes);
   }
   for (std::size_t i = 0; i < scene.measurements.size(); ++i) {
     lines.add("measurements", scene.measurements[i].name + ": " + scene.measurements[i].kind + ", " +

@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <iterator>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 
 #include "base/input_error.hpp"
 #include "base/interval.hpp"
+#include "input/state_table.hpp"
 #include "model/grain_shape.hpp"
 #include "model/lattice.hpp"
 #include "output/wall_mesh.hpp"
@@ -185,37 +189,101 @@ double largest_correcting_velocity(const Scene& scene) {
   return velocity;
 }
 
-// Adds a doubt if grains differ so much in mass that quickstep cannot hold the heaviest one on the lightest ones. A light grain of
-// mass m bears the part q m of the heavy one. An iteration of projected Gauss-Seidel on its two contacts leaves q / (1 + q) of the
-// error, the squared coupling of the two rows over the product of their diagonals. After n iterations from 0 the heavy grain still
-// falls with the fraction f = (q / (1 + q))^n of its weight. It rests where the correction of its overlap makes up for this:
-// (1 - f) erp depth / step = f g step. grains.md, "Large and small grains", has the measurements.
-void add_mass_ratio(const Scene& scene, std::vector<std::string>& doubts) {
+/// What presses on grains: a heavy grain, or a part with a mass.
+struct Load {
+  double mass;          // kg
+  double acceleration;  // m/s^2, without the grains
+  double bearers;       // of the lightest grains, that bear it
+};
+
+/// How a load sinks into the lightest grains, and what would prevent it.
+struct Sinking {
+  std::string in_words;
+  double step;      // s, the longest
+  long iterations;  // the fewest
+  double mass;      // kg, the largest with the same acceleration
+};
+
+constexpr double kBearers = 4;  // light grains that bear a heavy one; a bed below them spreads the load
+
+// The answer if quickstep cannot hold the load. A light grain of mass m bears the part q m of the load. An iteration of projected
+// Gauss-Seidel on its two contacts leaves q / (1 + q) of the error, the squared coupling of the two rows over the product of their
+// diagonals. After n iterations from 0 the load still moves with the fraction f = (q / (1 + q))^n of its acceleration. It rests
+// where the correction of its overlap makes up for this: (1 - f) erp depth / step = f acceleration step. grains.md, "Large and
+// small grains", has the measurements.
+std::optional<Sinking> sinking_of(const Load& load, const Extremes& grains, const Scene& scene) {
   constexpr double kDeep = 0.01;  // of the light grain's smallest half-axis: about 1 % of the bed's volume
-  constexpr double kBearers = 4;  // light grains that bear a heavy one; a bed below them spreads the load
-  const auto* const gravity = scene.gravity();
-  const double acceleration = gravity == nullptr ? 0 : gravity->acceleration.norm();
-  const Extremes grains = extremes_of(scene);
   const auto& [iterations, erp, cfm] = scene.solver;
-  if (!(acceleration > 0) || grains.heavy == nullptr || has_soft_contacts(scene) || scene.compression || erp == 0) return;
+  if (!(load.acceleration > 0)) return std::nullopt;
   const double step = scene.time.step;
   const double size = grains.light->smallest_scale() * grains.light->kind.smallest_half_axis();
-  const double ratio = grains.most / grains.least;
-  const double unit = acceleration * step * step / erp;                             // m; depth for f / (1 - f) = 1
-  const double fastest = largest_correcting_velocity(scene) / acceleration / step;  // f / (1 - f) that no depth makes up for
-  const double rest = 1 / std::expm1(iterations * std::log1p(kBearers / ratio));    // f / (1 - f)
+  const double part = load.mass / grains.least / load.bearers;                           // q
+  const double unit = load.acceleration * step * step / erp;                             // m; depth for f / (1 - f) = 1
+  const double fastest = largest_correcting_velocity(scene) / load.acceleration / step;  // f / (1 - f) that no depth makes up for
+  const double rest = 1 / std::expm1(iterations * std::log1p(1 / part));                 // f / (1 - f)
   const double allowed = std::min(kDeep * size / unit, fastest);
-  if (!(rest > allowed)) return;
-  const std::string way =
-      rest > fastest ? "until more than 4 bear it" : "by about " + rounded(unit * rest / size) + " of their smallest half-axis";
-  doubts.push_back(
-      "the heaviest grain (\"" + grains.heavy->kind.name + "\") has " + rounded(ratio) + " times the mass of the lightest (\"" +
-      grains.light->kind.name + "\"): with solver.iterations = " + std::to_string(iterations) + " it sinks into such grains " +
-      way + "; time.step up to " + rounded(std::min(std::sqrt(kDeep * size * erp / acceleration / rest), step * fastest / rest)) +
-      " s, solver.iterations from " +
-      std::to_string(static_cast<long>(std::ceil(std::log1p(1 / allowed) / std::log1p(kBearers / ratio)))) +
-      " on, or densities with masses up to 1 : " + rounded(kBearers / std::expm1(std::log1p(1 / allowed) / iterations)) +
-      " would do (grains.md)");
+  if (!(rest > allowed)) return std::nullopt;
+  return Sinking{"with solver.iterations = " + std::to_string(iterations) + " it sinks into such grains " +
+                     (rest > fastest ? "until more than " + std::to_string(std::lround(load.bearers)) + " bear it"
+                                     : "by about " + rounded(unit * rest / size) + " of their smallest half-axis"),
+                 std::min(std::sqrt(kDeep * size * erp / load.acceleration / rest), step * fastest / rest),
+                 static_cast<long>(std::ceil(std::log1p(1 / allowed) / std::log1p(1 / part))),
+                 load.bearers * grains.least / std::expm1(std::log1p(1 / allowed) / iterations)};
+}
+
+/// m^2, of a wall as seen from where it presses to, within the plan of the container.
+double shown_area(const Wall& wall, const Vector3& direction, const Scene& scene) {
+  const Rectangle plan = plan_of(scene.container);
+  const std::vector<SurfacePoint> points = surface_of(wall, std::hypot(plan.width[0], plan.width[1]));
+  double area = 0;
+  for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
+    const Vector3 edge = points[i + 1].position - points[i].position;
+    area += std::max(0.0, edge.cross(points[i + 2].position - points[i].position).dot(direction) / 2);
+  }
+  return std::min(area, plan.width[0] * plan.width[1]);
+}
+
+/// The load of a free part, or of one that slides under a force. Its lightest grains lie as spheres side by side. A smooth body
+/// rests on few of them, as a grain does.
+Load load_of(const Wall& part, const Extremes& grains, const Scene& scene) {
+  const auto* const gravity = scene.gravity();
+  Vector3 acceleration = gravity == nullptr ? Vector3::Zero() : gravity->acceleration;
+  if (part.drive) {
+    acceleration = (part.drive->force / part.drive->mass + acceleration.dot(part.drive->axis)) * part.drive->axis;
+  }
+  Load load{part.flight ? part.flight->mass : part.drive->mass, acceleration.norm(), kBearers};
+  if (std::holds_alternative<SmoothShape>(part.shape) || !(load.acceleration > 0)) return load;
+  const double diameter = std::cbrt(6 / std::numbers::pi * grains.least / grains.light->kind.density);
+  const double most = scene.feeders.empty() ? static_cast<double>(scene.grains_at_start()) : INFINITY;
+  const double side_by_side = shown_area(part, acceleration / load.acceleration, scene) / (diameter * diameter);
+  load.bearers = std::max(kBearers, std::min(side_by_side, most));
+  return load;
+}
+
+/// Adds a doubt if quickstep cannot hold the heaviest grain, or a part with a mass, on the lightest grains.
+void add_mass_ratio(const Scene& scene, std::vector<std::string>& doubts) {
+  const auto* const gravity = scene.gravity();
+  const Extremes grains = extremes_of(scene);
+  if (grains.heavy == nullptr || has_soft_contacts(scene) || scene.compression || scene.solver.erp == 0) return;
+  const auto add = [&](const std::string& who, double mass, const Sinking& sinking, const std::string& remedy) {
+    doubts.push_back(who + " has " + rounded(mass / grains.least) + " times the mass of the lightest (\"" +
+                     grains.light->kind.name + "\"): " + sinking.in_words + "; time.step up to " + rounded(sinking.step) +
+                     " s, solver.iterations from " + std::to_string(sinking.iterations) + " on" + remedy + " would do (grains.md)");
+  };
+  const Load heaviest{grains.most, gravity == nullptr ? 0 : gravity->acceleration.norm(), kBearers};
+  if (const auto sinking = sinking_of(heaviest, grains, scene)) {
+    add("the heaviest grain (\"" + grains.heavy->kind.name + "\")", heaviest.mass, *sinking,
+        ", or densities with masses up to 1 : " + rounded(sinking->mass / grains.least));
+  }
+  for (const Wall& part : scene.parts()) {
+    const bool is_pressed = part.drive && !part.drive->servo && !part.drive->turns();
+    if (!part.flight && !is_pressed) continue;
+    const Load load = load_of(part, grains, scene);
+    if (const auto sinking = sinking_of(load, grains, scene)) {
+      add("part \"" + part.name + "\" on grains", load.mass, *sinking,
+          part.flight ? ", or part.free.mass up to " + rounded(sinking->mass) + " kg" : ", or a smaller force on it");
+    }
+  }
 }
 
 void add_layer(const Scene& scene, std::vector<std::string>& doubts) {
@@ -281,14 +349,6 @@ void add_late(const Scene& scene, const Wall& wall, std::vector<std::string>& do
                    shortest(scene.time.duration) + " s, or later");
 }
 
-/// m, the least length of a solid; infinite for planes and meshes.
-double thinnest(const WallShape& shape) {
-  if (const auto* box = std::get_if<BoxShape>(&shape)) return box->size.minCoeff();
-  if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) return std::min(cylinder->radius, cylinder->length);
-  if (const auto* body = std::get_if<SmoothShape>(&shape)) return body->half_axes.minCoeff();
-  return INFINITY;
-}
-
 /// Adds a doubt about a servo on springs. A spring is explicit: it is stable while stiffness x step^2 is below four masses. A servo
 /// has the mass step x area / gain, and a contact for each smallest grain that fits on its area.
 void add_gain(const Scene& scene, const Wall& wall, std::vector<std::string>& doubts) {
@@ -302,6 +362,48 @@ void add_gain(const Scene& scene, const Wall& wall, std::vector<std::string>& do
                      " m/(s Pa), with which it may be unstable on the springs of compliance: part.drive.gain up to " +
                      rounded(most) + " m/(s Pa), or a smaller time.step would do");
     return;
+  }
+}
+
+/// The last poses of the parts of a run, by their names, of its table parts.csv. Empty if there is no such table.
+std::map<std::string, WallPose, std::less<>> poses_left_in(const std::filesystem::path& file) {
+  std::map<std::string, WallPose, std::less<>> poses;
+  if (!std::filesystem::is_regular_file(file)) return poses;
+  try {
+    const StateTable table(file);
+    table.require({"part", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"});
+    for (const StateTable::Row& row : table.rows()) {
+      const auto number = [&](const char* column) { return table.number(row, column, Interval::finite("")); };
+      const Eigen::Quaterniond rotation(number("qw"), number("qx"), number("qy"), number("qz"));
+      poses[std::string(table.word(row, "part"))] = {{number("x_m"), number("y_m"), number("z_m")}, rotation.normalized()};
+    }
+  } catch (const InputError&) {
+    return {};  // a file of the user's with this name
+  }
+  return poses;
+}
+
+/// Adds doubts about free parts that do not start where the run that left the state has left them: a state holds grains alone.
+void add_left_parts(const Scene& scene, std::vector<std::string>& doubts) {
+  constexpr double kTyped = 0.01;  // of the smallest half-axis: typed numbers may have three digits
+  if (!scene.start || std::ranges::none_of(scene.parts(), [](const Wall& part) { return part.flight.has_value(); })) return;
+  const std::filesystem::path file = scene.start->file.parent_path() / "parts.csv";
+  const auto poses = poses_left_in(file);
+  for (const Wall& part : scene.parts()) {
+    const auto left = poses.find(part.name);
+    if (!part.flight || left == poses.end()) continue;
+    const auto& [position, rotation] = left->second;
+    const double off =
+        (position - part.start.position).norm() + bounding_radius(part.shape) * rotation.angularDistance(part.start.rotation);
+    if (off <= kTyped * scene.smallest_half_axis()) continue;
+    const auto list = [](const Vector3& v) {
+      return '[' + shortest(v.x()) + ", " + shortest(v.y()) + ", " + shortest(v.z()) + ']';
+    };
+    const Eigen::AngleAxisd turn(rotation);
+    doubts.push_back("part \"" + part.name + "\" is free and starts " + rounded(off) + " m from where " + file.string() +
+                     " leaves it, since start.file has grains alone; part.position = " + list(position) +
+                     ", part.axis = " + list(turn.axis()) + " and part.angle = " + shortest(turn.angle() * 180 / std::numbers::pi) +
+                     " would do (start.md)");
   }
 }
 
@@ -423,6 +525,7 @@ std::vector<std::string> doubts_about(const Scene& scene) {
   add_rounded_times(scene.time, doubts);
   add_fall(scene, doubts);
   add_speed(scene, doubts);
+  add_left_parts(scene, doubts);
   add_solver(scene, doubts);
   add_mass_ratio(scene, doubts);
   add_layer(scene, doubts);

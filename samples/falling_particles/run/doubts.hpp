@@ -53,7 +53,8 @@ void refuse_bad_bonds(const World& world);
 /// world may have made steps.
 void refuse_stiff_bonds(const World& world, int iterations);
 
-/// Throws InputError if a free wall overlaps another wall. Both would be pushed apart.
+/// Throws InputError if a free wall overlaps another wall, beside a state by more than StartState::overlap. Both would be pushed
+/// apart.
 void refuse_bad_flights(const World& world);
 
 }  // namespace falling_particles

@@ -14,9 +14,13 @@
 namespace falling_particles {
 namespace {
 
-/// The deepest overlap of walls at the start, relative to the size of the free one: the rounding of a mesh, whose vertices are
-/// single precision.
-constexpr double kTouching = 1e-6;
+/// m, the deepest overlap of a free wall with other walls at the start. Beside a state it is the one of grains, or of a thin wall.
+double allowed_depth(const Wall& wall, const Scene& scene) {
+  constexpr double kTouching = 1e-6;  // of the wall's size: the rounding of a mesh, whose vertices are single precision
+  const double touching = kTouching * bounding_radius(wall.shape);
+  if (!scene.start) return touching;
+  return std::max(touching, scene.start->overlap * std::min(scene.smallest_half_axis(), thinnest(wall.shape) / 2));
+}
 
 double deepest_between(dGeomID g1, dGeomID g2) {
   constexpr int kMost = 64;
@@ -35,12 +39,15 @@ void refuse_bad_flights(const World& world) {
   for (std::size_t i = 0; i < geoms.size(); ++i) {
     const Wall& wall = scene.walls[i];
     if (!wall.flight) continue;
+    const double allowed = allowed_depth(wall, scene);
     for (std::size_t k = 0; k < geoms.size(); ++k) {
       const double depth = k == i ? 0 : deepest_between(geoms[i], geoms[k]);
-      if (depth <= kTouching * bounding_radius(wall.shape)) continue;
-      throw InputError(scene.path + ": part \"" + wall.name + "\", which is free, is " + rounded(depth) + " m deep in " +
-                       (scene.walls[k].is_part() ? "part \"" : "wall \"") + scene.walls[k].name +
-                       "\" at the start; allowed: a start apart from all other walls");
+      if (depth <= allowed) continue;
+      throw InputError(scene.path + ": part \"" + wall.name + "\", which is free, is " + rounded(depth) +
+                       " m deep in " + (scene.walls[k].is_part() ? "part \"" : "wall \"") + scene.walls[k].name +
+                       "\" at the start; allowed: " +
+                       (scene.start ? "up to " + rounded(allowed) + " m, from start.overlap of the smallest half-axis"
+                                    : "a start apart from all other walls, or a section [start], whose start.overlap allows more"));
     }
   }
 }

@@ -51,6 +51,16 @@ TEST_CASE("of two overrides of a value the later one holds, and sees what the ea
   CHECK(scene_of(kSceneText, {R"(grain=[{name = "die", count = 1}])", "grain[die].count=2"}).grains_at_start() == 2);
 }
 
+TEST_CASE("an override with an empty array removes sections") {
+  const std::string part = std::string(kSceneText) +
+                           "[[part]]\nname = \"p\"\nshape = \"plane\"\nposition = [0, 0, -1]\n"
+                           "[[part.motion]]\nkind = \"velocity\"\nvelocity = [0, 0, -1]\n";
+  CHECK(scene_of(part).parts().front().motions.size() == 1);
+  CHECK(scene_of(part, {"part[p].motion=[]"}).parts().front().motions.empty());
+  CHECK(scene_of(part, {"part=[]"}).parts().empty());
+  check_says(complaint(kSceneText, kCatalogueText, {"grain=[]"}), {"grain is missing"});
+}
+
 TEST_CASE("an entry without a name has that of its kind") {
   const std::string text = std::string(kSceneText) + "[[measurement]]\nkind = \"coordination\"\ninterval = 0.01\n";
   CHECK(scene_of(text, {"measurement[coordination].interval=0.02"}).measurements.front().every == 40);

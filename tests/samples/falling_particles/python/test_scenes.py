@@ -264,9 +264,12 @@ def test_a_change_is_written_into_the_results():
     with scene.start("out") as world:
         world.step(100)
         world.change({"friction.coefficient": 0.1, "gravity.acceleration": [0, 0, -1.62]})
-        world.step(scene.steps - 100)
+        for _ in range(2):
+            world.set_forces(np.zeros((len(world.grains()), 3)))
+            world.step(1)
+        world.step(scene.steps - 102)
     summary = tomllib.loads(world.results.summary)
-    assert summary["run"]["set"][-1] == "gravity.acceleration=[0, 0, -1.62] from 0.05 s"
+    assert summary["run"]["set"][-2:] == ["gravity.acceleration=[0, 0, -1.62] from 0.05 s", "set_forces() from 0.05 s"]
     assert summary["end"]["energy_gained"] < 1e-6
     table = pathlib.Path("out", "short", "energies.csv").read_text().splitlines()
     assert len(table) == 1 + 1 + round(0.2 / tomllib.loads((SCENES / "short.toml").read_text())["time"]["frame"])

@@ -106,6 +106,11 @@ TEST_CASE("check: friction of grains on walls is told from friction among grains
   const std::string text = describe(scene, forecast(scene));
   CHECK(text.find("friction: 2 rows") != std::string::npos);
   CHECK(text.find("friction on walls: 2 rows") != std::string::npos);
+  const Scene own = load(kSceneText + std::string("[[part]]\nname = \"p\"\nshape = \"box\"\nsize = [0.01, 0.01, 0.01]\n"
+                                                  "position = [0.02, 0.02, 0.5]\nfriction = 0.2\nrestitution = 0.5\n"));
+  const std::string labelled = describe(own, forecast(own));
+  CHECK(labelled.find("friction on part \"p\": 2 rows") != std::string::npos);
+  CHECK(labelled.find("restitution on part \"p\": ") != std::string::npos);
 }
 
 TEST_CASE("check: the files of a run are as large as forecast") {

@@ -232,10 +232,15 @@ TEST_CASE("free walls: the solid of a mesh has the volume, centre and inertia of
 }
 
 TEST_CASE("free walls: a start within another wall is refused, and one that touches is not") {
-  const auto said = [](double height) -> std::string {
+  const auto said = [](double height, double overlap = 0) -> std::string {
     Scene scene =
         flight_scene({{"floor", PlaneShape{}}, free_wall(mesh_of_box({-0.05, -0.05, 0}, {0.1, 0.1, 0.01}), 1, {0, 0, height})}, {});
     scene.files = {"scene.toml"};
+    if (overlap > 0) {
+      scene.start.emplace();
+      scene.start->overlap = overlap;
+      scene.start->grains.push_back({.position = {5, 5, 5}});
+    }
     try {
       refuse_overlapping_start(scene);
     } catch (const InputError& error) {
@@ -246,12 +251,19 @@ TEST_CASE("free walls: a start within another wall is refused, and one that touc
   CHECK(said(0).empty());
   CHECK(said(0.1).empty());
   check_says(said(-0.002), {"scene.toml: part \"flier\", which is free, is 0.002 m deep in part \"floor\" at the start; allowed: a "
-                            "start apart from all other walls"});
+                            "start apart from all other walls, or a section [start], whose start.overlap allows more"});
+  // Beside a state, a part at rest starts as deep as it lay: up to 0.1 of the smallest half-axis, 5 mm.
+  CHECK(said(-3e-7, 0.1).empty());
+  CHECK(said(-0.0004999, 0.1).empty());
+  check_says(said(-0.0005001, 0.1),
+             {"part \"flier\", which is free, is 0.0005 m deep", "allowed: up to 0.0005 m, from start.overlap"});
 }
 
 TEST_CASE("free walls: mistakes are refused with their name, value and range") {
   const auto says = [](const std::string& part, const std::vector<const char*>& parts) {
-    check_says(complaint(std::string(kSceneText) + "[[part]]\nname = \"p\"\nposition = [0, 0, 1]\n" + part), parts);
+    std::string scene = kSceneText;
+    scene += "[[part]]\nname = \"p\"\nposition = [0, 0, 1]\n";
+    check_says(complaint(scene + part), parts);
   };
   const std::string box = "shape = \"box\"\nsize = [0.01, 0.01, 0.001]\n";
   CHECK(complaint(std::string(kSceneText) + "[[part]]\nname = \"p\"\n" + box + "free = { mass = 0.1 }\n").empty());
