@@ -26,7 +26,7 @@ enum class DerivativeStatus {
   Smooth,     ///< all derivatives are defined
   ActiveSet,  ///< defined while the witness points stay on their face, edge or vertex, because all multipliers are positive
   /// A witness point is at the border of its face or edge, or a body is flat at this point only: the gradient is defined, the
-  /// others are one-sided or change much within 1e-6 rad.
+  /// others are one-sided or change much within 1e-6 rad. Or a radius of curvature has no digits beside a very large one.
   Degenerate,
   /// Faces, flat sides or edges share more than a point, or do so after a rotation of 1e-6 rad, so that the gap has a kink: the
   /// witness points and the gradient of rotations are not unique.
@@ -84,8 +84,8 @@ struct ProximityDerivatives {
 /// origin costs no digits.
 ///
 /// The relative error is about 1e-7 or less, as long as the radii of curvature of the Minkowski difference differ by less than 1e9.
-/// A radius of curvature above 1e8 times the smallest half-extent counts as infinite. Beside a radius of 1e13 half-extents, a
-/// LinearImage or a Superovoid gives the other radius to a few per cent only, and with it the normal's Jacobian and the Hessian.
+/// A radius of curvature above 1e8 times the smallest half-extent counts as infinite. Beside a radius
+/// above about 1e10 half-extents, a LinearImage or a Superovoid may not tell the other radius to 1e-6: the status is Degenerate.
 SUPERNORMAL_API ProximityDerivatives find_proximity_derivatives(const Shape& shape1, const Pose& pose1, const Shape& shape2,
                                                                 const Pose& pose2, const Proximity& proximity,
                                                                 const DerivativeSettings& settings = {});

@@ -25,6 +25,10 @@ constexpr int kMaxEvaluations = 32;
 // Of a step that led down. With 0.5, 12 000 flat pairs (`derivatives 6000 5 --flat`, and 6) take 4.52 instead of 4.47 evaluations.
 constexpr double kShorter = 0.25;
 
+// Of the radius of curvature across an infinite one: a body not aligned with its axes, of 1e10 half-extents in one direction, tells
+// the other radius no better.
+constexpr double kLeastDigits = 1e-6;
+
 // The weight of a vertex in a witness point, and the distance of a point from the border of its face, relative to the face: less is
 // rounding.
 constexpr double kNoWeight = 1e-9;
@@ -44,6 +48,16 @@ Symmetric2 rotated(const Symmetric2& A, double cosine, double sine) {
   return {cosine * xx - sine * yx, cosine * xy - sine * yy, sine * xy + cosine * yy};
 }
 
+/// m; what rounding leaves unknown of the radius across a very large one. The large radius spreads over the whole matrix unless it
+/// is along an axis of the body's frame.
+double rounding_across(const Symmetric2& A, const Matrix3& H) {
+  int axis = 0;
+  H.diagonal().maxCoeff(&axis);
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  const double beside = std::max({std::abs(H(i, i)), std::abs(H(i, j)), std::abs(H(j, j))});
+  return std::numeric_limits<double>::epsilon() * (beside + std::abs(A.xy));
+}
+
 /// The radii in `own`, aligned with the body, for the basis t1 and t2 (the body's frame).
 BodyCurvature curvature_in(const TangentPlane& own, const Matrix3& H, const Vector3& t1, const Vector3& t2, double flattest) {
   const Symmetric2 A = Symmetric2::project(own, H);
@@ -61,6 +75,7 @@ BodyCurvature curvature_in(const TangentPlane& own, const Matrix3& H, const Vect
     out.flatten(other);
   } else {
     const double low = std::max(radii.low, 0.0);
+    if (radii.high > flattest) out.rounding = rounding_across(A, H);
     out.A = {low * other.x() * other.x(), low * other.x() * other.y(), low * other.y() * other.y()};
   }
   return out;
@@ -281,7 +296,7 @@ void CommonNormal::finish(const Place& place) {
   plane_ = place.plane;
   response_ = place.response;
   active_set_ = place.has_active_set;
-  is_strict_ = place.is_strict;
+  is_strict_ = place.is_strict && (place.body1.rounding + place.body2.rounding) * place.response.G.norm() <= kLeastDigits;
   n_ = place.has_active_set ? (place.jet.n + place.plane.lift(place.step)).normalized()
                             : (place.jet.n + place.plane.lift(place.response.G * place.across)).normalized();
   point1_ = place.point1 + place.plane.lift(place.response.B1.transpose() * place.across);

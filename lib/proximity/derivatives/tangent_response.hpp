@@ -22,6 +22,7 @@ struct BodyCurvature {
   Symmetric2 A;                   ///< m; the finite radii
   std::array<Vector2, 2> flat{};  ///< unit; the directions of infinite radius. Two of them span the plane
   int flat_count = 0;
+  double rounding = 0;  ///< m; of the finite radii, beside an infinite one
 
   /// Makes the radius infinite along `direction`, of any length but 0. Directions closer than about 1e-7 rad are the same.
   void flatten(const Vector2& direction);

@@ -15,6 +15,7 @@
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/linear_image.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
@@ -325,4 +326,32 @@ TEST_CASE("derivatives: a vertex, an edge of a cylinder or a ball above a cap, a
       }
     }
   }
+}
+
+// The matrix of a rotated body holds the large radius in all its entries, and rounding of it drowns the other radius.
+TEST_CASE("derivatives: a radius of curvature that a large one drowns is refused, and known where the large one is along an axis") {
+  const Sphere ball(0.3);
+  int refused = 0;
+  for (const double exponent : {8.0, 20.0}) {
+    CAPTURE(exponent);
+    const auto body = std::make_shared<Superellipsoid>(Vector3(1, 1, 1), exponent, 2);
+    const LinearImage image(body, kTilted);
+    for (const double tilt : {1e-6, 1e-10, 1e-14, 1e-16, 1e-18, 1e-20}) {
+      CAPTURE(tilt);
+      const Vector3 n = Vector3(1, tilt, 0.3).normalized(), position = body->point(n) + 0.5 * n;
+      const ProximityDerivatives own = derivatives(*body, {}, ball, {position, Matrix3::Identity()});
+      const ProximityDerivatives rotated = derivatives(image, {}, ball, {kTilted * position, Matrix3::Identity()});
+      CHECK(own.status == DerivativeStatus::Smooth);
+      CHECK(rotated.has_gap);
+      if (tilt >= 1e-10) CHECK(rotated.has_normal);
+      if (!rotated.has_normal) {
+        CHECK(rotated.status == DerivativeStatus::Degenerate);
+        ++refused;
+        continue;
+      }
+      const Matrix3 expected = kTilted * own.normal.middleCols<3>(6) * kTilted.transpose();
+      CHECK((rotated.normal.middleCols<3>(6) - expected).norm() <= 1e-6 * expected.norm());
+    }
+  }
+  CHECK(refused > 0);
 }
