@@ -278,6 +278,7 @@ Scene load(const TomlFile& file, const std::string& path, const std::vector<std:
   const TomlTable root = file.root(sections());
   Scene scene{};
   scene.name = std::filesystem::path(path).stem().string();
+  scene.path = path;
   scene.overrides = overrides;
   scene.seed = static_cast<std::uint64_t>(root.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
   scene.time = read_time(root.table("time", {"duration", "step", "frame"}));

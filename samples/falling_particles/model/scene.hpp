@@ -75,7 +75,8 @@ struct Compression {
 };
 
 struct Scene {
-  std::string name;  ///< name of the file without folder and extension
+  std::string name;       ///< name of the file without folder and extension
+  std::string path = {};  ///< of the file, or where a text would be
   std::uint64_t seed;
   Container container;
   std::vector<GrainCount> kinds;

@@ -14,9 +14,7 @@ namespace {
 /// The largest relative stiffness of bonds for each iteration of the solver (Bonds::stiffness). bonds.md has the measurement.
 constexpr double kStiffnessPerIteration = 10;
 
-[[noreturn]] void refuse_bond(const Scene& scene, const std::string& text) {
-  throw InputError(scene.files.front().string() + ": " + text);
-}
+[[noreturn]] void refuse_bond(const Scene& scene, const std::string& text) { throw InputError(scene.path + ": " + text); }
 
 }  // namespace
 
@@ -30,17 +28,21 @@ void refuse_bad_bonds(const World& world) {
                            " of the start are closer than bond.touching = " + shortest(*unused.touching) +
                            " of the smallest half-axis, or other bonds have them; allowed: a start with such pairs");
   }
-  const auto [relative, grain, rule] = bonds.stiffness();
-  const double allowed = kStiffnessPerIteration * scene.solver.iterations;
+  refuse_stiff_bonds(world, scene.solver.iterations);
+}
+
+void refuse_stiff_bonds(const World& world, int iterations) {
+  const Scene& scene = world.scene();
+  const auto [relative, grain, rule] = world.bonds()->stiffness();
+  const double allowed = kStiffnessPerIteration * iterations;
   if (relative <= allowed) return;
   const BondRule& stiff = scene.bonds[rule];
-  const double iterations = std::ceil(relative / kStiffnessPerIteration);
-  refuse_bond(scene,
-              "bond \"" + stiff.name + "\" is too stiff for grain " + std::to_string(grain) + " (" +
-                  world.grains()[grain].kind->name + "): bond.modulus is " + shortest(stiff.modulus) + " Pa; allowed: up to " +
-                  rounded(stiff.modulus * allowed / relative) + " Pa, or time.step up to " +
-                  rounded(scene.time.step * std::sqrt(allowed / relative)) + " s" +
-                  (iterations > Solver::kMostIterations ? "" : ", or solver.iterations from " + shortest(iterations) + " on"));
+  const double enough = std::ceil(relative / kStiffnessPerIteration);
+  refuse_bond(scene, "bond \"" + stiff.name + "\" is too stiff for grain " + std::to_string(grain) + " (" +
+                         world.grains()[grain].kind->name + "): bond.modulus is " + shortest(stiff.modulus) +
+                         " Pa; allowed: up to " + rounded(stiff.modulus * allowed / relative) + " Pa, or time.step up to " +
+                         rounded(scene.time.step * std::sqrt(allowed / relative)) + " s" +
+                         (enough > Solver::kMostIterations ? "" : ", or solver.iterations from " + shortest(enough) + " on"));
 }
 
 }  // namespace falling_particles

@@ -10,6 +10,7 @@
 #include "base/input_error.hpp"
 #include "base/nearest_word.hpp"
 #include "base/toml_input.hpp"
+#include "doubts.hpp"
 #include "input/load_effects.hpp"
 #include "model/container_walls.hpp"
 
@@ -151,6 +152,7 @@ void change_values(StepwiseRun& run, Scene& scene, const std::vector<std::string
       if (is_of(change, scene.walls[i])) require_like(scene.walls[i], changed.walls[i], change.of_walls);
     }
   }
+  if (!scene.bonds.empty()) refuse_stiff_bonds(run.simulation().world, changed.solver.iterations);
   const double now = run.step() * scene.time.step;
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     Wall& wall = scene.walls[i];

@@ -368,8 +368,8 @@ void refuse_start_in_parts(const World& world) {
     constexpr double kRounding = 1e-6;  // of the smallest half-axis
     if (!(proximity.gap < -kRounding * grain.smallest_half_axis())) continue;
     const auto [x, y, z] = grain.position();
-    throw InputError(scene.files.front().string() + ": grain " + std::to_string(world.index_of(grain)) + " (" + grain.kind->name +
-                     ") starts at [" + shortest(x) + ", " + shortest(y) + ", " + shortest(z) + "] m, " + rounded(-proximity.gap) +
+    throw InputError(scene.path + ": grain " + std::to_string(world.index_of(grain)) + " (" + grain.kind->name + ") starts at [" +
+                     shortest(x) + ", " + shortest(y) + ", " + shortest(z) + "] m, " + rounded(-proximity.gap) +
                      " m deep in part \"" + part->name + "\"; allowed: parts that leave the start of the grains free");
   }
 }

@@ -46,9 +46,12 @@ void refuse_overlapping_start(const Scene& scene);
 /// The same for the grains of a state (start_check.cpp). This and the following checks take a world at the start.
 void refuse_bad_state(const World& world);
 
-/// Throws InputError if a section [[bond]] bonds nothing, or if its bonds are too stiff for the step and the iterations of the
-/// solver. The scene has bonds.
+/// Throws InputError if a section [[bond]] bonds nothing, or if its bonds are too stiff. The scene has bonds.
 void refuse_bad_bonds(const World& world);
+
+/// Throws InputError if bonds are too stiff for the step and this number of iterations of the solver. The scene has bonds. The
+/// world may have made steps.
+void refuse_stiff_bonds(const World& world, int iterations);
 
 /// Throws InputError if a free wall overlaps another wall. Both would be pushed apart.
 void refuse_bad_flights(const World& world);

@@ -38,8 +38,8 @@ void refuse_bad_flights(const World& world) {
     for (std::size_t k = 0; k < geoms.size(); ++k) {
       const double depth = k == i ? 0 : deepest_between(geoms[i], geoms[k]);
       if (depth <= kTouching * bounding_radius(wall.shape)) continue;
-      throw InputError(scene.files.front().string() + ": part \"" + wall.name + "\", which is free, is " + rounded(depth) +
-                       " m deep in " + (scene.walls[k].is_part() ? "part \"" : "wall \"") + scene.walls[k].name +
+      throw InputError(scene.path + ": part \"" + wall.name + "\", which is free, is " + rounded(depth) + " m deep in " +
+                       (scene.walls[k].is_part() ? "part \"" : "wall \"") + scene.walls[k].name +
                        "\" at the start; allowed: a start apart from all other walls");
     }
   }

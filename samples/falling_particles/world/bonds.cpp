@@ -208,7 +208,7 @@ void Bonds::refuse_zero_length(const Bond& bond, double least) const {
   const Scene& scene = world_.scene();
   const BondRule& rule = scene.bonds[bond.rule];
   const std::string first = rule.wall ? "part " + scene.walls[*rule.wall].name : "grain " + std::to_string(bond.first);
-  throw InputError(scene.files.front().string() + ": bond \"" + rule.name + "\": the length from " + first + " to grain " +
+  throw InputError(scene.path + ": bond \"" + rule.name + "\": the length from " + first + " to grain " +
                    std::to_string(bond.second) + " (" + world_.grains()[bond.second].kind->name + ") is " +
                    shortest(bond.rest.length()) + " m; allowed: from " + rounded(least) +
                    " m on, between two centres, or the centre of a grain and the surface of a part");

@@ -244,6 +244,21 @@ def test_a_change_of_gravity_is_that_of_a_scene():
         assert abs(speed[2]) < 1e-6 and 0 < speed[0] < 0.1
 
 
+def test_a_change_that_bonds_are_too_stiff_for_is_refused():
+    with scenes.Scene(SCENES / "beam.toml", {**NO_PICTURES, "time.duration": 0.02}).start() as world:
+        world.step(5)
+        with pytest.raises(ValueError, match=r"too stiff for grain .* solver.iterations from \d+ on"):
+            world.change({"solver.iterations": 1})
+        world.step(50)
+        assert world.energy().kinetic < 1
+
+
+def test_a_refusal_names_where_the_text_of_a_scene_would_be():
+    text = (SCENES / "plate.toml").read_text().replace("position = [0.04, 0.04, 0.2]", "position = [0.04, 0.04, 0.02]")
+    with pytest.raises(ValueError, match=r"^\S*/scene\.toml: "):
+        scenes.Scene.from_text(text, folder=SCENES).start()
+
+
 def test_a_change_is_written_into_the_results():
     scene = scenes.Scene(SCENES / "short.toml", {**NO_PICTURES, "time.duration": 0.2})
     with scene.start("out") as world:
@@ -344,7 +359,7 @@ def test_bad_input_names_parameter_value_and_range():
         (lambda: scenes.Scene.from_dict({"seed": 1, "grains": 2}), ValueError, "unknown key"),
         (lambda: scene.start(threads=257), ValueError, "threads is 257; allowed: 0 to 256"),
         (lambda: scene.start(threads=1.5), TypeError, "threads is 1.5"),
-        (lambda: scene.start(pictures=["vtk"]), TypeError, "pictures is ['vtk']; allowed: True or False"),
+        (lambda: scene.start(pictures=["vtk"]), TypeError, r"pictures is \['vtk'\]; allowed: True or False"),
         (lambda: scene.start(resume="no"), TypeError, "resume is 'no'; allowed: True or False"),
         (lambda: scene.start(checkpoint_every=10), ValueError, "checkpoint_every is 10 and out is None"),
         (lambda: scene.start(resume=True), ValueError, "resume is True and out is None"),
