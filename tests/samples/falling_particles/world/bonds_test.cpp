@@ -588,7 +588,8 @@ TEST_CASE("bonds: mistakes are refused with their name, value and range") {
   says(bond("glue", touching + "damping = 2\n"), {"bond.damping is 2; allowed: a number in [0, 1]"});
   says(bond("glue", touching + "relative_radius = 1\n"), {"bond.relative_radius beside bond.radius"});
   says(bond("glue", ""), {"bond \"glue\" has no pairs; allowed: one of touching, chain and file"});
-  says(bond("glue", touching + "chain = [0, 1]\n"), {"bond \"glue\" has both touching and chain; allowed: one of touching, chain and file"});
+  says(bond("glue", touching + "chain = [0, 1]\n"),
+       {"bond \"glue\" has both touching and chain; allowed: one of touching, chain and file"});
   says(bond("glue", "chain = [0, 3]\n"), {"bond.chain: grain 3 is not in start.file; allowed: its numbers, from 0 to 2"});
   says(bond("glue", "chain = [1, 1]\n"), {"bond.chain is [1, 1]; allowed: the whole numbers of two grains, the smaller one first"});
   says(bond("glue", "chain = [0, 1]\n") + bond("more", "chain = [0, 2]\n"), {"grain 0 and grain 1 have two bonds; allowed: one"});

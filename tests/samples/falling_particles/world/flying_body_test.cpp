@@ -235,7 +235,7 @@ TEST_CASE("free walls: a start within another wall is refused, and one that touc
   const auto said = [](double height, double overlap = 0) -> std::string {
     Scene scene =
         flight_scene({{"floor", PlaneShape{}}, free_wall(mesh_of_box({-0.05, -0.05, 0}, {0.1, 0.1, 0.01}), 1, {0, 0, height})}, {});
-    scene.files = {"scene.toml"};
+    scene.path = "scene.toml";
     if (overlap > 0) {
       scene.start.emplace();
       scene.start->overlap = overlap;
@@ -261,9 +261,10 @@ TEST_CASE("free walls: a start within another wall is refused, and one that touc
 
 TEST_CASE("free walls: mistakes are refused with their name, value and range") {
   const auto says = [](const std::string& part, const std::vector<const char*>& parts) {
-    std::string scene = kSceneText;
-    scene += "[[part]]\nname = \"p\"\nposition = [0, 0, 1]\n";
-    check_says(complaint(scene + part), parts);
+    std::string text = kSceneText;
+    text += "[[part]]\nname = \"p\"\nposition = [0, 0, 1]\n";
+    text += part;
+    check_says(complaint(text), parts);
   };
   const std::string box = "shape = \"box\"\nsize = [0.01, 0.01, 0.001]\n";
   CHECK(complaint(std::string(kSceneText) + "[[part]]\nname = \"p\"\n" + box + "free = { mass = 0.1 }\n").empty());
