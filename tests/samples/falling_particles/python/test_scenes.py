@@ -347,7 +347,7 @@ def test_bad_input_names_parameter_value_and_range():
         (lambda: scenes.Scene.from_dict({"seed": 1, "grains": 2}), ValueError, "unknown key"),
         (lambda: scene.start(threads=257), ValueError, "threads is 257; allowed: 0 to 256"),
         (lambda: scene.start(threads=1.5), TypeError, "threads is 1.5"),
-        (lambda: scene.start(pictures=["vtk"]), TypeError, "pictures is ['vtk']; allowed: True or False"),
+        (lambda: scene.start(pictures=["vtk"]), TypeError, r"pictures is \['vtk'\]; allowed: True or False"),
         (lambda: scene.start(resume="no"), TypeError, "resume is 'no'; allowed: True or False"),
         (lambda: scene.start(checkpoint_every=10), ValueError, "checkpoint_every is 10 and out is None"),
         (lambda: scene.start(resume=True), ValueError, "resume is True and out is None"),
