@@ -261,9 +261,10 @@ TEST_CASE("free walls: a start within another wall is refused, and one that touc
 
 TEST_CASE("free walls: mistakes are refused with their name, value and range") {
   const auto says = [](const std::string& part, const std::vector<const char*>& parts) {
-    std::string scene = kSceneText;
-    scene += "[[part]]\nname = \"p\"\nposition = [0, 0, 1]\n";
-    check_says(complaint(scene + part), parts);
+    std::string text = kSceneText;
+    text += "[[part]]\nname = \"p\"\nposition = [0, 0, 1]\n";
+    text += part;
+    check_says(complaint(text), parts);
   };
   const std::string box = "shape = \"box\"\nsize = [0.01, 0.01, 0.001]\n";
   CHECK(complaint(std::string(kSceneText) + "[[part]]\nname = \"p\"\n" + box + "free = { mass = 0.1 }\n").empty());
