@@ -6,7 +6,6 @@
 
 #include "proximity/answer.hpp"
 #include "proximity/lanes/lane_query.hpp"
-#include "proximity/limits.hpp"
 #include "proximity/local/first_guess.hpp"
 #include "proximity/solvers.hpp"
 #include "proximity/usable_pose.hpp"
@@ -38,17 +37,6 @@ Proximity solve(GapFunction& gap, const Settings& settings, const Vector3& start
   return solve_hybrid(gap, settings, start, wanted);
 }
 
-bool is_ball(const Shape& shape) { return shape.rolling_radius() == shape.bounding_radius(); }
-
-/// Whether a query starts from its first normal. Of two balls the first guess is the common normal to rounding. A first normal
-/// would be accepted within the tolerance of the gap, some 4e-5 rad off, and the lever arm would let balls without friction spin.
-bool starts_from(const Vector3* first_normal, const ProximityQuery& pair) {
-  if (first_normal == nullptr || !is_usable(*first_normal)) return false;
-  if (!is_ball(*pair.shape1) || !is_ball(*pair.shape2)) return true;
-  const double reach = pair.shape1->half_extents().norm() + pair.shape2->half_extents().norm();
-  return (pair.pose2->position - pair.pose1->position).norm() <= limits::kConcentric * reach;
-}
-
 // The ascent only knows the faces and edges of body 2. It finds those on body 1 by cuts and, if both bodies have some, at its end
 // (MeetingPoint). So the body with faces and edges must be body 2.
 Proximity find_with_bodies_swapped(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
@@ -63,11 +51,12 @@ Proximity find_with_bodies_swapped(const Shape& shape1, const Pose& pose1, const
 }
 
 /// The answer where neither the poses nor the shapes are at fault, or InvalidInput.
-Proximity find_alone(const ProximityQuery& pair, const Settings& settings, bool is_warm) {
+Proximity find_alone(const ProximityQuery& pair, const Settings& settings) {
   GapFunction gap(*pair.shape1, *pair.pose1, *pair.shape2, *pair.pose2);
   if (!gap.is_finite()) return {};
-  const Proximity out = is_warm ? solve(gap, settings, pair.first_normal->normalized(), WantedMaximum::Tracked)
-                                : solve(gap, settings, first_guess(gap), WantedMaximum::Highest);
+  const Proximity out = starts_from_first_normal(pair)
+                            ? solve(gap, settings, pair.first_normal->normalized(), WantedMaximum::Tracked)
+                            : solve(gap, settings, first_guess(gap), WantedMaximum::Highest);
   if (out.status == Status::InvalidInput || !std::isfinite(out.gap) || !all_finite(out.normal) || !out.point1.allFinite() ||
       !out.point2.allFinite())
     return {};
@@ -80,14 +69,13 @@ Proximity find_proximity(const Shape& shape1, const Pose& pose1, const Shape& sh
                          const Vector3* first_normal) {
   check(settings);
   if (!is_usable(pose1) || !is_usable(pose2)) return {};
-  ProximityQuery pair = {&shape1, &pose1, &shape2, &pose2, nullptr};
-  const bool is_warm = starts_from(first_normal, pair);
-  if (is_warm) pair.first_normal = first_normal;
+  const bool is_warm = first_normal != nullptr && is_usable(*first_normal);
+  const ProximityQuery pair = {&shape1, &pose1, &shape2, &pose2, is_warm ? first_normal : nullptr};
   if (is_for_lanes(shape1, shape2, settings)) return find_in_one_lane(pair, settings);
   if (shape1.traits().has_nonsmooth_points && !shape2.traits().has_nonsmooth_points) {
     return find_with_bodies_swapped(shape1, pose1, shape2, pose2, settings, first_normal);
   }
-  return find_alone(pair, settings, is_warm);
+  return find_alone(pair, settings);
 }
 
 Proximity find_proximity(const ProximityQuery& query, const Settings& settings) {
@@ -108,7 +96,7 @@ void find_in_lanes(std::span<const ProximityQuery> queries, const Settings& sett
     ProximityQuery query = queries[k];
     const bool is_usable_pair = is_usable(*query.pose1) && is_usable(*query.pose2);
     if (is_usable_pair && is_for_lanes(*query.shape1, *query.shape2, settings)) {
-      if (!starts_from(query.first_normal, query)) query.first_normal = nullptr;
+      if (query.first_normal != nullptr && !is_usable(*query.first_normal)) query.first_normal = nullptr;
       in_lanes.add(query, k);
     } else {
       results[k] = find_proximity(query, settings);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "proximity/answer.hpp"
+#include "proximity/local/first_guess.hpp"
 #include "proximity/solvers.hpp"
 #include "proximity/tuning.hpp"
 #include "shapes/lanes/lane_body_of.hpp"
@@ -18,7 +19,7 @@ LanePair lane_pair(const ProximityQuery& pair) {
           pair.pose1->rotation.data(),
           pair.pose2->position.data(),
           pair.pose2->rotation.data(),
-          pair.first_normal != nullptr ? pair.first_normal->data() : nullptr};
+          starts_from_first_normal(pair) ? pair.first_normal->data() : nullptr};
 }
 
 bool is_of_ellipsoids(const LanePair& pair) {
@@ -88,7 +89,7 @@ Proximity finish_alone(const ProximityQuery& pair, const Settings& settings, con
     const auto count = static_cast<std::size_t>(lane.evaluations - 1);
     for (std::size_t k = 0; k < count; ++k) cuts[k] = vector_of(lane.cuts[k]);
     return resume_hybrid(gap, settings, jet, {cuts.data(), count},
-                         pair.first_normal != nullptr ? WantedMaximum::Tracked : WantedMaximum::Highest);
+                         starts_from_first_normal(pair) ? WantedMaximum::Tracked : WantedMaximum::Highest);
   }
   const StoppingRule rule(gap, settings);
   Proximity out = answer(gap, rule, jet, lane.error, Status::Converged);

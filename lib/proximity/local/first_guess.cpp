@@ -14,7 +14,16 @@ Vector3 thinnest_axis(const Vector3& half_extents) {
   return Vector3::Unit(axis);
 }
 
+bool is_ball(const Shape& shape) { return shape.rolling_radius() == shape.bounding_radius(); }
+
 }  // namespace
+
+bool starts_from_first_normal(const ProximityQuery& query) {
+  if (query.first_normal == nullptr) return false;
+  if (!is_ball(*query.shape1) || !is_ball(*query.shape2)) return true;
+  const double reach = query.shape1->half_extents().norm() + query.shape2->half_extents().norm();
+  return (query.pose2->position - query.pose1->position).norm() <= limits::kConcentric * reach;
+}
 
 Vector3 first_guess(const GapFunction& gap) {
   const Vector3 half1 = gap.shape1().half_extents();

@@ -1,6 +1,7 @@
-// The normal to start from without an earlier normal.
+// The normal to start from, with or without an earlier normal.
 #pragma once
 
+#include "supernormal/proximity/batch.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 
 namespace supernormal {
@@ -11,5 +12,10 @@ namespace supernormal {
 /// (Kurzhanski and Valyi, Ellipsoidal Calculus, 1997). For concentric bodies, which have no such ray, it is the thinnest axis of
 /// either.
 Vector3 first_guess(const GapFunction& gap);
+
+/// Whether a query starts from its first normal, which is usable or null. Of two balls that are not concentric it starts from the
+/// guess, the common normal to rounding. A first normal would be accepted within the tolerance of the gap, some 4e-5 rad off, and
+/// the lever arm would let balls without friction spin.
+bool starts_from_first_normal(const ProximityQuery& query);
 
 }  // namespace supernormal
