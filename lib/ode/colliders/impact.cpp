@@ -10,6 +10,7 @@
 #include "ode/geom/convert.hpp"
 #include "ode/geom/geom_class.hpp"
 #include "ode/geom/solver_settings.hpp"
+#include "proximity/thread_kept.hpp"
 #include "supernormal/shapes/polytope.hpp"
 
 namespace supernormal::ode {
@@ -44,7 +45,8 @@ Impact meet_plane(const Mover& mover, dGeomID collider, double horizon) {
 }
 
 Impact meet_convex(const Mover& mover, dGeomID collider, double horizon) {
-  thread_local ConvexVertices vertices;
+  thread_local ThreadKept<ConvexVertices> kept;
+  ConvexVertices& vertices = *kept;
   if (!vertices.read(collider)) return {};
   return mover.meet(collider, Polytope(vertices.points()), vertices.pose(), horizon);
 }

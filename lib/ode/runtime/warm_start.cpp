@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 
+#include "proximity/thread_kept.hpp"
 #include "supernormal/proximity/separation.hpp"
 
 namespace supernormal::ode {
@@ -39,7 +40,7 @@ struct Free {
 };
 
 std::atomic<bool> enabled{true};
-thread_local std::unique_ptr<Set[], Free> table;  // initially zero, which matches no key
+thread_local ThreadKept<std::unique_ptr<Set[], Free>> kept_table;  // initially zero, which matches no key
 
 // The sets of a body are adjacent, and next to the sets of the bodies created before and after it. So a scene touches few pages of
 // the table at a time. Adding a constant to all serial numbers permutes the sets and changes nothing else: a scene built twice in a
@@ -132,6 +133,7 @@ void set_warm_start(bool on) noexcept { enabled.store(on, std::memory_order_rela
 
 CachedNormal reserve_entry(const PairKey& key) noexcept {
   if (!enabled.load(std::memory_order_relaxed)) return {};
+  auto& table = *kept_table;
   if (!table) {
     table.reset(static_cast<Set*>(std::calloc(kSets, sizeof(Set))));
     if (!table) return {};
@@ -147,6 +149,7 @@ CachedNormal reserve_entry(const PairKey& key) noexcept {
 }
 
 void prefetch_entry(const PairKey& key) noexcept {
+  auto& table = *kept_table;
   if (table) __builtin_prefetch(&table[set_index(key)], 1);
 }
 
@@ -173,6 +176,7 @@ double cached_separation(const CachedNormal& cached, const RelativePose& pose, d
 }
 
 void fill_entry(const PairKey& key, const CachedNormal& cached) noexcept {
+  auto& table = *kept_table;
   if (!table || !enabled.load(std::memory_order_relaxed)) return;
   for (Entry& entry : table[set_index(key)]) {
     if (!same(entry.key, key)) continue;

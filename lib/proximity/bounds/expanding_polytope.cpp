@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "proximity/bounds/minimum_norm_point.hpp"
+#include "proximity/thread_kept.hpp"
 #include "proximity/tuning.hpp"
 
 namespace supernormal {
@@ -34,8 +35,8 @@ ExpandingPolytope::ExpandingPolytope(GapFunction& gap, CuttingPlanes& cuts, Asce
 ExpandingPolytope::~ExpandingPolytope() { kept_polytope() = std::move(polytope_); }
 
 InnerPolytope& ExpandingPolytope::kept_polytope() {
-  thread_local InnerPolytope polytope;
-  return polytope;
+  thread_local ThreadKept<InnerPolytope> kept;
+  return *kept;
 }
 
 bool ExpandingPolytope::run(const SearchLimits& limits, GapJet& best, double& error, Status& status) {

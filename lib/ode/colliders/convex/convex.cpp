@@ -4,6 +4,7 @@
 #include "ode/colliders/solve_pair.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/runtime/warm_start.hpp"
+#include "proximity/thread_kept.hpp"
 #include "supernormal/shapes/polytope.hpp"
 
 namespace supernormal::ode {
@@ -11,8 +12,8 @@ namespace {
 
 /// The vertices of this thread; kept to reuse their memory.
 ConvexVertices& kept_vertices() {
-  thread_local ConvexVertices kept;
-  return kept;
+  thread_local ThreadKept<ConvexVertices> kept;
+  return *kept;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "ode/colliders/convex/convex_vertices.hpp"
 #include "ode/colliders/no_answer.hpp"
 #include "ode/geom/body.hpp"
+#include "proximity/thread_kept.hpp"
 
 namespace supernormal::ode {
 
@@ -54,8 +55,10 @@ PosedShape::PosedShape(dGeomID geom) {
 
 // Vertices that cannot be read are not finite. The core refuses such a pose, too.
 void PosedShape::take_hull(dGeomID convex) {
-  thread_local ConvexVertices vertices;
-  thread_local std::vector<Vector3> points;
+  thread_local ThreadKept<ConvexVertices> kept_vertices;
+  thread_local ThreadKept<std::vector<Vector3>> kept_points;
+  ConvexVertices& vertices = *kept_vertices;
+  std::vector<Vector3>& points = *kept_points;
   points.assign(1, Vector3::Zero());
   if (vertices.read(convex)) {
     const Vector3 middle = pose_.rotation.transpose() * (vertices.pose().position - pose_.position);

@@ -12,6 +12,7 @@
 #include "ode/geom/look_ahead.hpp"
 #include "ode/runtime/statistics.hpp"
 #include "ode/support/last_error.hpp"
+#include "proximity/thread_kept.hpp"
 #include "supernormal/contact/body_box.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/contact/mesh_contacts_ahead.hpp"
@@ -74,8 +75,8 @@ struct Scratch {
 };
 
 Scratch& scratch() {
-  thread_local Scratch kept;
-  return kept;
+  thread_local ThreadKept<Scratch> kept;
+  return *kept;
 }
 
 Proximity to_world(Proximity local, const Pose& frame) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "proximity/thread_kept.hpp"
+
 namespace supernormal::ode {
 namespace {
 
@@ -226,7 +228,8 @@ bool is_same_height(double height1, double height2, const Facet& facet, double e
 }
 
 bool is_shown(HeightfieldProbe& probe, const SampleGrid& grid, const GridWitness& witness) {
-  thread_local std::vector<Vector3> samples;  // kept to reuse its memory
+  thread_local ThreadKept<std::vector<Vector3>> kept;  // to reuse its memory
+  std::vector<Vector3>& samples = *kept;
   samples.clear();
   const auto is_on_grid = [&](const Vector3& sample) { return grid.x.sample_at(sample.x()) && grid.z.sample_at(sample.z()); };
   if (!(witness.radius > 0)) return false;

@@ -7,6 +7,7 @@
 
 #include "ode/geom/convert.hpp"
 #include "ode/support/private_geom.hpp"
+#include "proximity/thread_kept.hpp"
 
 namespace supernormal::ode {
 namespace {
@@ -23,7 +24,8 @@ constexpr double kNear = 16;
 }  // namespace
 
 HeightfieldProbe& HeightfieldProbe::looking_at(dGeomID heightfield) {
-  thread_local HeightfieldProbe probe;
+  thread_local ThreadKept<HeightfieldProbe> kept;
+  HeightfieldProbe& probe = *kept;
   probe.data_ = dGeomHeightfieldGetHeightfieldData(heightfield);
   dGeomHeightfieldSetHeightfieldData(probe.heightfield_, probe.data_);
   // The bounding box is a new geom's, because the samples may be others than last time, and only a placeable geom can be told that

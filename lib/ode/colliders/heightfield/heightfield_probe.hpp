@@ -45,6 +45,8 @@ class HeightfieldProbe {
   /// The probe of this thread, with the samples of `heightfield`.
   static HeightfieldProbe& looking_at(dGeomID heightfield);
 
+  HeightfieldProbe();  // of looking_at(); a thread needs no other
+  ~HeightfieldProbe();
   HeightfieldProbe(const HeightfieldProbe&) = delete;
   HeightfieldProbe(HeightfieldProbe&&) = delete;
   HeightfieldProbe& operator=(const HeightfieldProbe&) = delete;
@@ -70,9 +72,6 @@ class HeightfieldProbe {
   bool list_samples(const Vector3& place, double radius, std::vector<Vector3>& samples);
 
  private:
-  HeightfieldProbe();
-  ~HeightfieldProbe();
-
   bool cast_down(double x, double z, double start, Facet& facet);
 
   dHeightfieldDataID data_ = nullptr;

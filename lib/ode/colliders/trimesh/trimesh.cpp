@@ -14,6 +14,7 @@
 #include "ode/geom/look_ahead.hpp"
 #include "ode/runtime/statistics.hpp"
 #include "ode/support/last_error.hpp"
+#include "proximity/thread_kept.hpp"
 #include "proximity/usable_pose.hpp"
 #include "supernormal/contact/body_box.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
@@ -35,8 +36,8 @@ struct Scratch {
 };
 
 Scratch& scratch() {
-  thread_local Scratch kept;
-  return kept;
+  thread_local ThreadKept<Scratch> kept;
+  return *kept;
 }
 
 /// One of our bodies and a mesh.
