@@ -59,7 +59,7 @@ EVERYTHING = [*VALUES, *UNHASHED, *OF_ARRAYS]
 COPIES = {
     "copy": copy.copy,
     "deepcopy": copy.deepcopy,
-    **{f"pickle {protocol}": lambda value, protocol=protocol: pickle.loads(pickle.dumps(value, protocol)) for protocol in (2, 5)},
+    **{f"pickle {protocol}": lambda value, protocol=protocol: pickle.loads(pickle.dumps(value, protocol)) for protocol in (0, 1, 2, 5)},
 }
 
 

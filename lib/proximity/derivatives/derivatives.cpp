@@ -110,13 +110,19 @@ void write_jacobians(const TangentResponse& response, const WorldNormal& at, con
   add_rigid(at.p2, kV2, out.point2);
 }
 
-/// Whether the opposite normal has the same gap: s(-n) = s(n) - 2 n.c for symmetric bodies.
-bool has_equal_opposite(const GapFunction& gap, const CommonNormal& common) {
-  if (!(common.gap() < 0 && gap.traits1().is_symmetric && gap.traits2().is_symmetric)) return false;
-  return 2 * std::abs(common.normal().dot(gap.offset())) <= 4 * gap.rounding();
+/// Whether the opposite normal has the same gap. For symmetric bodies s(-n) = s(n) - 2 n.c; others take an evaluation.
+bool has_equal_opposite(GapFunction& gap, const CommonNormal& common) {
+  if (!(common.gap() < 0)) return false;
+  double above = -2 * common.normal().dot(gap.offset());
+  if (!gap.traits1().is_symmetric || !gap.traits2().is_symmetric) {
+    GapJet opposite;
+    gap.evaluate(-common.normal(), Order::Value, opposite);
+    above = opposite.s - common.gap();
+  }
+  return std::abs(above) <= 4 * gap.rounding();
 }
 
-DerivativeStatus status_of(const GapFunction& gap, const CommonNormal& common) {
+DerivativeStatus status_of(GapFunction& gap, const CommonNormal& common) {
   using Kind = TangentResponse::Kind;
   if (!common.is_converged()) return DerivativeStatus::NotConverged;
   if (common.response().kind == Kind::Singular) return DerivativeStatus::SingularCurvature;
@@ -265,8 +271,8 @@ ProximityDerivatives find_proximity_derivatives(const Shape& shape1, const Pose&
   }
 
   const CommonNormal common(gap, start);
-  out.evaluations = gap.evaluations();
   out.status = status_of(gap, common);
+  out.evaluations = gap.evaluations();
   set_flags(out);
   if (out.has_gap && common.may_change_nearby()) set_status(look_nearby(gap, common, out.evaluations), out);
   const Matrix3& R = pose1.rotation;

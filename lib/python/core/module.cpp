@@ -1,4 +1,5 @@
 // The Python module supernormal._core: the core of the library, without ODE.
+#include <algorithm>
 #include <cstddef>
 
 #include "bindings.hpp"
@@ -12,11 +13,20 @@ void* refuse_unmade_object(std::size_t /*size*/) {
   throw pybind11::type_error("an object is used before its __init__() was called; a subclass calls super().__init__() first");
 }
 
-void refuse_unmade_objects(const pybind11::module_& m) {
-  for (const auto& [name, value] : m.attr("__dict__").cast<pybind11::dict>()) {
+// Protocols 0 and 1 of pickle make an object of pybind11's base class, which ends the interpreter. Their files can hold what
+// protocol 2 asks for.
+pybind11::object reduce(const pybind11::object& self, int protocol) {
+  return pybind11::module_::import("builtins").attr("object").attr("__reduce_ex__")(self, std::max(protocol, 2));
+}
+
+void guard_classes(const pybind11::module_& m) {
+  namespace py = pybind11;
+  for (const auto& [name, value] : m.attr("__dict__").cast<py::dict>()) {
     if (!PyType_Check(value.ptr())) continue;
-    auto* const bound = pybind11::detail::get_type_info(reinterpret_cast<PyTypeObject*>(value.ptr()));
-    if (bound != nullptr) bound->operator_new = &refuse_unmade_object;
+    auto* const bound = py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(value.ptr()));
+    if (bound == nullptr) continue;
+    bound->operator_new = &refuse_unmade_object;
+    value.attr("__reduce_ex__") = py::cpp_function(&reduce, py::name("__reduce_ex__"), py::is_method(value), py::arg("protocol"));
   }
 }
 
@@ -40,5 +50,5 @@ PYBIND11_MODULE(_core, m) {
   bind_impact(m);
   bind_batch(m);
   bind_derivatives(m);
-  refuse_unmade_objects(m);
+  guard_classes(m);
 }

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <memory>
 #include <random>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/capsule.hpp"
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/linear_image.hpp"
@@ -20,6 +22,7 @@
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "supernormal/shapes/superovoid.hpp"
 #include "support/traps.hpp"
 #include "support/without_hessian.hpp"
 
@@ -65,7 +68,7 @@ TEST_CASE("derivatives: random pairs of all classes agree with differences in lo
   }
 }
 
-// The rates of 48 000 pairs: 1e-4 wrong, at kinks about 1e-6 rad away, and 1e-4 refused without need.
+// The rates of 48 000 pairs: 2e-4 wrong, at kinks about 1e-6 rad away, and 2e-4 refused without need.
 TEST_CASE("derivatives: where flat sides, faces and edges lie on one another, the gradient holds over 1e-6 rad or is refused") {
   DerivativePairs pairs(9);
   FlatTally tally;
@@ -74,6 +77,22 @@ TEST_CASE("derivatives: where flat sides, faces and edges lie on one another, th
   CHECK(tally.needless <= 3);
   CHECK(tally.defined > 1100);
   CHECK(tally.refused > 200);
+}
+
+// A step between two nearly flat sides may lead down. If Newton's method ends there, 13 of these pairs have no derivatives.
+TEST_CASE("derivatives: of 6000 flat pairs whose query converges, all but some 6 have a common normal") {
+  DerivativePairs pairs(5);
+  Settings settings;
+  settings.tolerance = 1e-14;
+  int without = 0;
+  for (int k = 0; k < 6000; ++k) {
+    const DerivativePair pair = pairs.draw_flat();
+    const Shape &shape1 = *pair.body1.shape, &shape2 = *pair.body2.shape;
+    const Proximity answer = find_proximity(shape1, pair.pose1, shape2, pair.pose2, settings);
+    const ProximityDerivatives found = find_proximity_derivatives(shape1, pair.pose1, shape2, pair.pose2, answer);
+    without += answer.status == Status::Converged && found.status == DerivativeStatus::NotConverged;
+  }
+  CHECK(without <= 9);
 }
 
 TEST_CASE("derivatives: two spheres have the closed forms of two points") {
@@ -222,6 +241,7 @@ TEST_CASE("derivatives: the status says what is not defined, and nothing is NaN"
   CHECK(status(box, box, {{2.5, 0.2, 0.3}, Matrix3::Identity()}) == DerivativeStatus::FreeOnFace);
   CHECK(status(brick, brick, {{0.1, 0.2, 2.1}, Matrix3::Identity()}) == DerivativeStatus::FreeOnFace);
   CHECK(status(ellipsoid, ellipsoid, {Vector3::Zero(), kTilted}) == DerivativeStatus::SeveralMaxima);
+  CHECK(status(Superovoid({8, 3, 1}, 2.5, 2.4, 0.2, 0.2), Sphere(4), {}) == DerivativeStatus::SeveralMaxima);  // z and -z are alike
   CHECK(status(Sphere(1), Sphere(0.5), {Vector3::Zero(), kTilted}) == DerivativeStatus::SingularCurvature);
   CHECK(status(Sphere(0), Sphere(0), {Vector3::Zero(), kTilted}) != DerivativeStatus::Smooth);
   CHECK(status(without_hessian(std::make_shared<Ellipsoid>(Vector3(1, 2, 3))), ellipsoid, {{5, 4, 3}, kTilted}) ==
@@ -244,6 +264,51 @@ TEST_CASE("derivatives: the status says what is not defined, and nothing is NaN"
 
 // The boundary point of a flat side jumps across it as the bodies rotate, so the gap has a kink. Where the partner is round, or the
 // side is flat at one point only, it has none.
+// All normals of the vertex or edge have the same gap, up to rounding.
+TEST_CASE("derivatives: a capsule whose end is centred on a vertex or an edge of a box has no derivatives, on a face it has") {
+  std::mt19937 engine(1);
+  const auto uniform = [&engine](double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); };
+  const auto direction = [&uniform] { return Vector3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized(); };
+  for (int k = 0; k < 600; ++k) {
+    const int free = k % 3;  // coordinates of the point on the box
+    const double size = std::pow(10, uniform(-3, 1));
+    const Vector3 half = size * Vector3(uniform(0.05, 1), uniform(0.05, 1), uniform(0.05, 1));
+    const Pose pose1{size * direction(), Eigen::AngleAxisd(uniform(0, 3), direction()).toRotationMatrix()};
+    Vector3 point = half, axis = direction();
+    for (int i = 0; i < free; ++i) point[i] *= uniform(-0.9, 0.9);
+    axis.tail(3 - free) = axis.tail(3 - free).cwiseAbs();  // the capsule leaves the box
+    const double radius = size * uniform(0.01, 0.3), half_length = size * uniform(0.1, 1);
+    Pose pose2;
+    pose2.rotation = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), pose1.rotation * axis).toRotationMatrix();
+    pose2.position = pose1.position + pose1.rotation * (point + half_length * axis);
+    const ProximityDerivatives found = derivatives(Box(half), pose1, Capsule(radius, half_length), pose2);
+    CAPTURE(k);
+    CHECK(found.status == (free == 2 ? DerivativeStatus::ActiveSet : DerivativeStatus::SingularCurvature));
+    CHECK(found.has_gap == (free == 2));
+  }
+}
+
+// Two vertices of a face have all the weight of a point on its diagonal. The closed form on a face: the normal rotates with it.
+TEST_CASE("derivatives: above the middle of a box's face, and on its diagonals, all is defined") {
+  const Box box(Vector3(1, 2, 3));
+  const Sphere ball(0.5);
+  const Ellipsoid ellipsoid(Vector3(0.5, 0.4, 0.3));
+  for (const Shape* shape : {static_cast<const Shape*>(&ball), static_cast<const Shape*>(&ellipsoid)}) {
+    for (const Vector3& position : {Vector3(0, 0, 4), Vector3(0.5, 1, 4), Vector3(1.3, 0, 0), Vector3(0.9, 0.1, 0.15)}) {
+      for (const bool is_swapped : {false, true}) {
+        const Pose pose{position, kTilted};
+        const ProximityDerivatives found = is_swapped ? derivatives(*shape, pose, box, {}) : derivatives(box, {}, *shape, pose);
+        CAPTURE(position.transpose());
+        CHECK(found.status == DerivativeStatus::ActiveSet);
+        TwistJacobian expected = TwistJacobian::Zero();
+        for (int i = 0; i < 3; ++i) expected.col((is_swapped ? 9 : 3) + i) = Vector3::Unit(i).cross(found.common_normal);
+        CHECK((found.normal - expected).norm() <= 1e-12);
+      }
+    }
+  }
+  CHECK(derivatives(box, {}, ball, {{1, 0, 4}, kTilted}).status != DerivativeStatus::ActiveSet);  // above the border of the face
+}
+
 TEST_CASE("derivatives: a flat side that lies on a face, to within 1e-6 rad, has no gradient by rotations") {
   const Superellipsoid slab(Vector3(0.4, 0.5, 1.5), 4, 1000), brick(Vector3(0.5, 0.4, 0.6), 300, 50),
       mild(Vector3(0.5, 0.4, 0.6), 2.3, 2.3);
