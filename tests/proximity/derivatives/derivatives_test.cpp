@@ -347,8 +347,8 @@ TEST_CASE("derivatives: a vertex, an edge of a cylinder or a ball above a cap, a
   std::normal_distribution<double> gauss;
   std::uniform_real_distribution<double> uniform(0, 1);
   const auto direction = [&] { return Vector3(gauss(engine), gauss(engine), gauss(engine)).normalized(); };
-  std::vector<Vector3> points;
-  for (int k = 0; k < 12; ++k) points.push_back(direction());
+  std::vector<Vector3> points(12);
+  for (Vector3& point : points) point = direction();
   const auto can = std::make_shared<Cylinder>(1, 0.7);
   const auto brick = std::make_shared<Box>(Vector3(1, 1, 0.7));
   const Rounded rounded_can(can, 0.1), rounded_brick(brick, 0.1);

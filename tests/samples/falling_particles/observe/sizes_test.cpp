@@ -215,7 +215,7 @@ TEST_CASE("sizes: what was drawn is told by number and by mass") {
   CHECK(sizes.by_mass[2] == relative(9e-3).epsilon(1e-12));
   const std::unique_ptr<Measurement> grains = find_measurement_kind("grains")->on_by_default->make(world);
   CHECK(grains->columns() == "body,grain,scale,sieve_size_m,mass_kg");
-  for (const std::size_t written : {0, 2}) {  // a resumed table has some grains already
+  for (const std::size_t written : {std::size_t{0}, std::size_t{2}}) {  // a resumed table has some grains already
     TableText table;
     grains->measure({0, world, {}, nullptr, written}, table);
     std::istringstream stream(table.text());
