@@ -54,9 +54,9 @@ Proximity find_with_bodies_swapped(const Shape& shape1, const Pose& pose1, const
 Proximity find_alone(const ProximityQuery& pair, const Settings& settings) {
   GapFunction gap(*pair.shape1, *pair.pose1, *pair.shape2, *pair.pose2);
   if (!gap.is_finite()) return {};
-  const Proximity out = starts_from_first_normal(pair)
-                            ? solve(gap, settings, pair.first_normal->normalized(), WantedMaximum::Tracked)
-                            : solve(gap, settings, first_guess(gap), WantedMaximum::Highest);
+  const Vector3* const first = normal_to_start_from(pair);
+  const Proximity out = first != nullptr ? solve(gap, settings, first->normalized(), WantedMaximum::Tracked)
+                                         : solve(gap, settings, first_guess(gap), WantedMaximum::Highest);
   if (out.status == Status::InvalidInput || !std::isfinite(out.gap) || !all_finite(out.normal) || !out.point1.allFinite() ||
       !out.point2.allFinite())
     return {};

@@ -13,13 +13,14 @@ namespace supernormal {
 namespace {
 
 LanePair lane_pair(const ProximityQuery& pair) {
+  const Vector3* const first = normal_to_start_from(pair);
   return {LaneBodies::of(*pair.shape1),
           LaneBodies::of(*pair.shape2),
           pair.pose1->position.data(),
           pair.pose1->rotation.data(),
           pair.pose2->position.data(),
           pair.pose2->rotation.data(),
-          starts_from_first_normal(pair) ? pair.first_normal->data() : nullptr};
+          first != nullptr ? first->data() : nullptr};
 }
 
 bool is_of_ellipsoids(const LanePair& pair) {
@@ -89,7 +90,7 @@ Proximity finish_alone(const ProximityQuery& pair, const Settings& settings, con
     const auto count = static_cast<std::size_t>(lane.evaluations - 1);
     for (std::size_t k = 0; k < count; ++k) cuts[k] = vector_of(lane.cuts[k]);
     return resume_hybrid(gap, settings, jet, {cuts.data(), count},
-                         starts_from_first_normal(pair) ? WantedMaximum::Tracked : WantedMaximum::Highest);
+                         normal_to_start_from(pair) != nullptr ? WantedMaximum::Tracked : WantedMaximum::Highest);
   }
   const StoppingRule rule(gap, settings);
   Proximity out = answer(gap, rule, jet, lane.error, Status::Converged);

@@ -18,11 +18,11 @@ bool is_ball(const Shape& shape) { return shape.rolling_radius() == shape.boundi
 
 }  // namespace
 
-bool starts_from_first_normal(const ProximityQuery& query) {
-  if (query.first_normal == nullptr) return false;
-  if (!is_ball(*query.shape1) || !is_ball(*query.shape2)) return true;
+const Vector3* normal_to_start_from(const ProximityQuery& query) {
+  if (query.first_normal == nullptr || !is_ball(*query.shape1) || !is_ball(*query.shape2)) return query.first_normal;
   const double reach = query.shape1->half_extents().norm() + query.shape2->half_extents().norm();
-  return (query.pose2->position - query.pose1->position).norm() <= limits::kConcentric * reach;
+  const double distance = (query.pose2->position - query.pose1->position).norm();
+  return distance <= limits::kConcentric * reach ? query.first_normal : nullptr;
 }
 
 Vector3 first_guess(const GapFunction& gap) {

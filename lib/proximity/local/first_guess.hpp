@@ -13,9 +13,9 @@ namespace supernormal {
 /// either.
 Vector3 first_guess(const GapFunction& gap);
 
-/// Whether a query starts from its first normal, which is usable or null. Of two balls that are not concentric it starts from the
-/// guess, the common normal to rounding. A first normal would be accepted within the tolerance of the gap, some 4e-5 rad off, and
-/// the lever arm would let balls without friction spin.
-bool starts_from_first_normal(const ProximityQuery& query);
+/// The first normal of a query (usable or null), if the query starts from it, or null. Two balls that are not concentric start from
+/// the guess, the common normal to rounding. A first normal would be accepted within the tolerance of the gap, some 4e-5 rad off,
+/// and the lever arm would let balls without friction spin.
+const Vector3* normal_to_start_from(const ProximityQuery& query);
 
 }  // namespace supernormal

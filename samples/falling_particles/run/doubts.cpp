@@ -300,7 +300,7 @@ void add_layer(const Scene& scene, std::vector<std::string>& doubts) {
 void add_replaced_friction(const Scene& scene, std::vector<std::string>& doubts) {
   using supernormal::effects::AnisotropicFriction, supernormal::effects::Friction;
   if (!has_effect<AnisotropicFriction>(scene) || !has_effect<Friction>(scene)) return;
-  doubts.push_back(
+  doubts.emplace_back(
       "anisotropic_friction replaces friction in all contacts of grains, and friction, friction.walls and part.friction have no "
       "effect: one of both would do");
 }

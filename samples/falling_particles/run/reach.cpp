@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <variant>
 
@@ -52,10 +53,12 @@ double highest_fall(const Scene& scene, double gravity) {
   return highest;
 }
 
+constexpr Span kEverywhere{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+
 /// m, along an axis, of the centres of grains that have not leaked. Grains that fall straight down, and that nothing lifts, reach
 /// no place high above their start.
 Span reach_of(const Scene& scene, std::size_t axis) {
-  if (scene.periodic[axis]) return {-INFINITY, INFINITY};
+  if (scene.periodic[axis]) return kEverywhere;
   const Region room = room_of(scene.container);
   Span reach{room.corner[axis], room.corner[axis] + room.size[axis]};
   const auto* const gravity = scene.gravity();
@@ -67,7 +70,7 @@ Span reach_of(const Scene& scene, std::size_t axis) {
   }
   for (const Sink& sink : scene.sinks) {
     const auto* const region = std::get_if<Region>(&sink.region);
-    if (region == nullptr) return {-INFINITY, INFINITY};
+    if (region == nullptr) return kEverywhere;
     reach.add(region->corner[axis], region->corner[axis] + region->size[axis]);
   }
   return reach;
