@@ -47,4 +47,25 @@ struct Drive {
 /// pushes the wall back, it is `force`.
 double push_of(const Drive& drive, double speed, double step);
 
+/// The degree of freedom of a driven wall on its carrier: the wall with its prescribed motions alone. Positions are in m along the
+/// axis, or in rad about it, speeds in m/s or rad/s.
+class DrivenAxis {
+ public:
+  /// `start`: the pose of the wall before it moves.
+  DrivenAxis(const Drive& drive, const WallPose& start);
+
+  Vector3 axis_on(const WallPose& carrier) const;
+  Vector3 point_on(const WallPose& carrier) const;  ///< m, on the axis of a wall that turns
+  WallPose pose_on(const WallPose& carrier, double position) const;
+  WallVelocity velocity_on(const WallPose& carrier, const WallVelocity& velocity, double position, double speed) const;
+  /// N or N m, of the wall's weight along or about the axis. `gravity`: m/s^2.
+  double weight_on(const WallPose& carrier, double position, const Vector3& gravity) const;
+
+ private:
+  Vector3 axis_;
+  Eigen::Quaterniond to_wall_;     // from the world at the start
+  std::optional<Vector3> anchor_;  // m, on the axis, in the frame of the wall
+  double weighing_;                // kg; its weight acts at the wall's position
+};
+
 }  // namespace falling_particles

@@ -26,7 +26,7 @@ double radius_of(const Wall& wall) {
 }  // namespace
 
 DrivenBody::DrivenBody(dWorldID world, dBodyID carrier, const Wall& wall, double step)
-    : world_(world), wall_(wall), drive_(*wall.drive), step_(step), body_(create_wall_body(world)) {
+    : world_(world), wall_(wall), drive_(*wall.drive), axis_(drive_, wall.start), step_(step), body_(create_wall_body(world)) {
   // Weight is a force of its own: the mass of the body is another one where damping is in it.
   dBodySetGravityMode(body_, 0);
   dBodySetGyroscopicMode(body_, 0);
@@ -75,51 +75,20 @@ void DrivenBody::set_inertia(double inertia) {
   dBodySetMass(body_, &mass);
 }
 
-Vector3 DrivenBody::axis_on(const WallPose& carrier) const {
-  return carrier.rotation * wall_.start.rotation.conjugate() * drive_.axis;
+WallPose DrivenBody::pose_on(const WallPose& carrier) const { return axis_.pose_on(carrier, state_.position); }
+
+WallPose DrivenBody::next_on(const WallPose& carrier) const {
+  return axis_.pose_on(carrier, state_.position + step_ * state_.speed);
 }
-
-Vector3 DrivenBody::point_on(const WallPose& carrier) const {
-  return carrier.position + carrier.rotation * (wall_.start.rotation.conjugate() * (*drive_.point - wall_.start.position));
-}
-
-WallPose DrivenBody::moved_on(const WallPose& carrier, double position) const {
-  WallPose pose = carrier;
-  if (!drive_.turns()) {
-    pose.position += position * axis_on(carrier);
-    return pose;
-  }
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(position, axis_on(carrier)));
-  const Vector3 point = point_on(carrier);
-  pose.position = point + turn * (pose.position - point);
-  pose.rotation = (turn * pose.rotation).normalized();
-  return pose;
-}
-
-WallPose DrivenBody::pose_on(const WallPose& carrier) const { return moved_on(carrier, state_.position); }
-
-WallPose DrivenBody::next_on(const WallPose& carrier) const { return moved_on(carrier, state_.position + step_ * state_.speed); }
 
 WallVelocity DrivenBody::velocity_on(const WallPose& carrier, const WallVelocity& velocity) const {
-  const Vector3 axis = axis_on(carrier);
-  const Vector3 position = pose_on(carrier).position;
-  WallVelocity moved = velocity;
-  moved.linear += velocity.angular.cross(position - carrier.position);
-  if (drive_.turns()) {
-    moved.angular += state_.speed * axis;
-    moved.linear += state_.speed * axis.cross(position - point_on(carrier));
-  } else {
-    moved.linear += state_.speed * axis;
-  }
-  return moved;
+  return axis_.velocity_on(carrier, velocity, state_.position, state_.speed);
 }
 
 double DrivenBody::weight_on(const WallPose& carrier) const {
   dVector3 gravity;
   dWorldGetGravity(world_, gravity);
-  const Vector3 axis = axis_on(carrier);
-  if (!drive_.turns()) return drive_.mass * axis.dot(to_vector(gravity));
-  return drive_.hung_mass * axis.dot((pose_on(carrier).position - point_on(carrier)).cross(to_vector(gravity)));
+  return axis_.weight_on(carrier, state_.position, to_vector(gravity));
 }
 
 // The speed stays below its limit if the load is the same as in the last step.
@@ -148,7 +117,7 @@ void DrivenBody::push(const WallPose& carrier, double now, double area) {
     set_inertia(drive_.mass + step_ * damping);
   }
   dBodyEnable(body_);
-  const Vector3 force = (state_.push + weight_on(carrier) - damping * speed) * axis_on(carrier);
+  const Vector3 force = (state_.push + weight_on(carrier) - damping * speed) * axis_.axis_on(carrier);
   (drive_.turns() ? dBodyAddTorque : dBodyAddForce)(body_, force.x(), force.y(), force.z());
 }
 
@@ -157,7 +126,7 @@ void DrivenBody::read(const WallPose& carrier, const WallVelocity& velocity) {
     state_.speed = state_.load = 0;
     return;
   }
-  const Vector3 axis = axis_on(carrier);
+  const Vector3 axis = axis_.axis_on(carrier);
   if (drive_.turns()) {
     state_.speed = axis.dot(to_vector(dBodyGetAngularVel(body_)) - velocity.angular);
   } else {
@@ -182,7 +151,7 @@ void DrivenBody::put(const WallPose& carrier, const WallVelocity& velocity) {
     set_velocity(body_, moves);
     return;
   }
-  const Vector3 point = point_on(carrier);
+  const Vector3 point = axis_.point_on(carrier);
   set_pose(body_, {point, pose.rotation});
   set_velocity(body_, {velocity.linear + velocity.angular.cross(point - carrier.position), moves.angular});
 }

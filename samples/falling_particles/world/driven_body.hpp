@@ -48,9 +48,6 @@ class DrivenBody {
   void restore(const DrivenState& state) { state_ = state; }
 
  private:
-  WallPose moved_on(const WallPose& carrier, double position) const;
-  Vector3 axis_on(const WallPose& carrier) const;
-  Vector3 point_on(const WallPose& carrier) const;
   double weight_on(const WallPose& carrier) const;
   double push_of_servo(const Servo& servo, double area) const;
   void set_inertia(double inertia);
@@ -58,6 +55,7 @@ class DrivenBody {
   dWorldID world_;
   const Wall& wall_;
   const Drive& drive_;
+  DrivenAxis axis_;
   double step_;
   dBodyID body_;
   dJointID joint_;

@@ -8,51 +8,18 @@ namespace granular {
 using falling_particles::WallPose;
 using falling_particles::WallVelocity;
 
-DrivenWall::DrivenWall(falling_particles::Drive drive, const WallPose& start)
-    : drive_(std::move(drive)), axis_(start.rotation.conjugate() * drive_.axis), point_(Vector3::Zero()) {
-  if (drive_.turns()) point_ = start.rotation.conjugate() * (*drive_.point - start.position);
-}
+DrivenWall::DrivenWall(falling_particles::Drive drive, const WallPose& start) : drive_(std::move(drive)), axis_(drive_, start) {}
 
-Vector3 DrivenWall::axis_on(const WallPose& carrier) const { return carrier.rotation * axis_; }
-Vector3 DrivenWall::point_on(const WallPose& carrier) const { return carrier(point_); }
-
-WallPose DrivenWall::pose_on(const WallPose& carrier) const {
-  WallPose pose = carrier;
-  const Vector3 axis = axis_on(carrier);
-  if (!drive_.turns()) {
-    pose.position += state_.position * axis;
-    return pose;
-  }
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(state_.position, axis));
-  const Vector3 point = point_on(carrier);
-  pose.position = point + turn * (pose.position - point);
-  pose.rotation = (turn * pose.rotation).normalized();
-  return pose;
-}
+WallPose DrivenWall::pose_on(const WallPose& carrier) const { return axis_.pose_on(carrier, state_.position); }
 
 WallVelocity DrivenWall::velocity_on(const WallPose& carrier, const WallVelocity& velocity) const {
-  const Vector3 axis = axis_on(carrier);
-  const Vector3 position = pose_on(carrier).position;
-  WallVelocity moved = velocity;
-  moved.linear += velocity.angular.cross(position - carrier.position);
-  if (drive_.turns()) {
-    moved.angular += state_.speed * axis;
-    moved.linear += state_.speed * axis.cross(position - point_on(carrier));
-  } else {
-    moved.linear += state_.speed * axis;
-  }
-  return moved;
-}
-
-double DrivenWall::weight_on(const WallPose& carrier, const Vector3& gravity) const {
-  const Vector3 axis = axis_on(carrier);
-  if (!drive_.turns()) return drive_.mass * axis.dot(gravity);
-  return drive_.hung_mass * axis.dot((pose_on(carrier).position - point_on(carrier)).cross(gravity));
+  return axis_.velocity_on(carrier, velocity, state_.position, state_.speed);
 }
 
 void DrivenWall::load(const WallPose& carrier, const Vector3& force, const Vector3& torque) {
-  const Vector3 axis = axis_on(carrier);
-  state_.load = drive_.turns() ? axis.dot(torque + (pose_on(carrier).position - point_on(carrier)).cross(force)) : axis.dot(force);
+  const Vector3 axis = axis_.axis_on(carrier);
+  state_.load =
+      drive_.turns() ? axis.dot(torque + (pose_on(carrier).position - axis_.point_on(carrier)).cross(force)) : axis.dot(force);
 }
 
 void DrivenWall::kick(const WallPose& carrier, const Vector3& gravity, double now, double step) {
@@ -69,7 +36,7 @@ void DrivenWall::kick(const WallPose& carrier, const Vector3& gravity, double no
   } else {
     const double half = 0.5 * step;
     if (pushes) state_.push = push_of(drive_, state_.speed, half);
-    const double force = state_.push + state_.load + weight_on(carrier, gravity);
+    const double force = state_.push + state_.load + axis_.weight_on(carrier, state_.position, gravity);
     // Damping of the speed at the end of this half.
     state_.speed = (drive_.mass * state_.speed + half * force) / (drive_.mass + half * drive_.damping);
   }

@@ -45,14 +45,10 @@ class DrivenWall {
   void restore(const State& state) { state_ = state; }
 
  private:
-  Vector3 axis_on(const falling_particles::WallPose& carrier) const;
-  Vector3 point_on(const falling_particles::WallPose& carrier) const;
-  double weight_on(const falling_particles::WallPose& carrier, const Vector3& gravity) const;
   void stop();
 
   falling_particles::Drive drive_;
-  Vector3 axis_;   // in the frame of the wall
-  Vector3 point_;  // m, on the axis, in the frame of the wall
+  falling_particles::DrivenAxis axis_;
   State state_;
 };
 
