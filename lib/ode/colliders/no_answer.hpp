@@ -5,8 +5,8 @@
 
 namespace supernormal::ode {
 
-/// Throws std::invalid_argument with the reason why the core answers Status::InvalidInput for two geoms. The names are those of the
-/// caller's arguments; without them the message has the classes only.
+/// Throws std::invalid_argument with the reason why the core answers Status::InvalidInput for two geoms. The names of the
+/// caller's arguments are for the message; without them it has the classes only.
 [[noreturn]] void refuse_pair(dGeomID ours, dGeomID collider, const char* our_name = nullptr, const char* collider_name = nullptr);
 
 /// Throws std::invalid_argument for a collider of a class that no query takes.

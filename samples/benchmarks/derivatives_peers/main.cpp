@@ -1,5 +1,4 @@
-// Derivatives beside those of two other libraries, on the same pairs, as a Markdown table: dgd (growth distance) and iDCOL
-// (scaling).
+// Our derivatives and two other libraries' on the same pairs, as a Markdown table: dgd (growth distance) and iDCOL (scaling).
 //
 //     derivatives_peers [--pairs 1024] [--rounds 5] [--seed 7]
 //
@@ -237,7 +236,7 @@ void print_row(const Kind& kind, const char* library, double query, double deriv
               wrong, errors.refused, errors.without_reference);
 }
 
-// iDCOL's sources have no derivative, so its errors are those of the value.
+// iDCOL's sources have no derivative, so its row has the errors of the value.
 Errors value_errors(std::vector<Pair>& pairs) {
   Errors errors;
   for (Pair& pair : pairs) {

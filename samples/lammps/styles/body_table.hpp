@@ -41,7 +41,7 @@ class BodyTable {
   /// Finds the shapes of all particles. Call it whenever their order or number changes.
   void assign_shapes();
 
-  /// The clusters of particles, by their index; those of ghosts are the caller's to copy. Empty if there are none.
+  /// The clusters of particles, by their index; the caller copies the clusters of ghosts. Empty if there are none.
   std::vector<Cluster>& clusters() { return clusters_; }
   bool are_in_one_cluster(int i, int j) const {
     return !clusters_.empty() && clusters_[static_cast<std::size_t>(i)].is_same(clusters_[static_cast<std::size_t>(j)]);

@@ -21,8 +21,8 @@ struct DriveCommand {
 ///     force F | pressure P area A | power P largest_force F, each with mass M
 ///     torque T | power P largest_torque T, each with point X Y Z, moment J and optional mass M
 ///     stress S gain G largest_speed V, with area A or between FIX FIX FIX FIX
-/// and the optional words damping C (not with stress), from T, until T, travel LOW HIGH (m or degrees), gravity FIX. Units are
-/// those of [part.drive] of falling_particles. Throws std::invalid_argument with the error.
+/// and the optional words damping C (not with stress), from T, until T, travel LOW HIGH (m or degrees), gravity FIX. Units are as
+/// in [part.drive] of falling_particles. Throws std::invalid_argument with the error.
 DriveCommand read_drive(Words& words);
 
 }  // namespace granular
