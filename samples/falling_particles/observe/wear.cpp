@@ -132,7 +132,8 @@ class Wear final : public Measurement {
   }
 
   std::vector<TriangleField> fields() const override {
-    if (per_ == Per::Wall) return {};
+    const auto has_none = [](const std::vector<Extent>& triangles) { return triangles.empty(); };
+    if (per_ == Per::Wall || std::ranges::all_of(triangles_, has_none)) return {};
     TriangleField depth{"depth", {}}, volume{"volume", {}};
     for (std::size_t i = 0; i < work_.size(); ++i) {
       depth.of_walls.emplace_back();
@@ -199,11 +200,12 @@ class Wear final : public Measurement {
 }  // namespace
 
 MeasurementKind wear_kind() {
+  constexpr double kSoftest = 1e4;   // Pa; as soft as jelly, and above the numbers that hardnesses have in GPa, MPa or HV
   constexpr double kHardest = 1e12;  // Pa; diamond has 1e11
   return {.name = "wear",
           .measures = "the volume that sliding grains have worn off walls since `from`, by Archard's law",
           .parameters = {{"coefficient", "1, in (0, 1]: the wear coefficient k of Archard's law; 1e-8 to 1e-2 is usual"},
-                         {"hardness", "Pa, in (0, 1e12]: of the softer one of wall and grains"},
+                         {"hardness", "Pa, in [1e4, 1e12]: of the softer one of wall and grains"},
                          {"surfaces", "names of walls, as for part_force; without it all"},
                          {"per", "wall or triangle, for triangles of meshes with wear; wall without it"}},
           .columns =
@@ -214,7 +216,7 @@ MeasurementKind wear_kind() {
           .follows = true,
           .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             const double coefficient = table.number("coefficient", Interval::positive(1, ""));
-            const double hardness = table.number("hardness", Interval::positive(kHardest, "Pa"));
+            const double hardness = table.number("hardness", Interval::closed(kSoftest, kHardest, "Pa"));
             const std::vector<std::string> names = read_surfaces(table, scene);
             const bool is_per_triangle = table.has("per") && table.choice("per", {"wall", "triangle"}) == "triangle";
             const auto per = is_per_triangle ? Wear::Per::Triangle : Wear::Per::Wall;

@@ -267,6 +267,13 @@ TEST_CASE("wear: in a periodic cell the area and centroid of a triangle belong t
   }
 }
 
+TEST_CASE("wear: a hardness in GPa, MPa or HV is refused") {
+  for (const char* const hardness : {"1.5", "1500", "200"}) {
+    const std::string text = complaint(open_scene(kFloor + replaced(wear_every(0.1), "1.5e9", hardness), 0.1));
+    check_says(text, {"measurement.hardness is", hardness, "1e+12] Pa"});
+  }
+}
+
 TEST_CASE("residence: grains that fly through a region stay for its length over their speed, with mean and deviation") {
   const std::string region = R"(
 [[measurement]]
@@ -571,7 +578,7 @@ TEST_CASE("measurements that follow a run: mistakes are told with what is allowe
   const std::vector<std::pair<std::string, std::vector<const char*>>> mistakes = {
       {"kind = \"wear\"\nhardness = 1e9\n", {"measurement.coefficient is missing", "(0, 1]"}},
       {"kind = \"wear\"\ncoefficient = 2\nhardness = 1e9\n", {"measurement.coefficient is 2", "(0, 1]"}},
-      {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 0\n", {"measurement.hardness is 0", "(0, 1e+12] Pa"}},
+      {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 0\n", {"measurement.hardness is 0", "[10000, 1e+12] Pa"}},
       {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 1e9\nsurfaces = [\"flor\"]\n", {"surfaces[0]", "did you mean \"floor\"?"}},
       {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 1e9\nsurfaces = [\"floor\", \"floor\"]\n",
        {"surfaces[1] is the string \"floor\" for the second time; allowed"}},
