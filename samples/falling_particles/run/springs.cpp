@@ -61,6 +61,12 @@ double largest_mobility(const GrainCount& entry) {
   return (1 / mass_of(entry.kind) + turning) / std::pow(entry.smallest_scale(), 3);
 }
 
+/// 1/kg, of a part that is free or slides under a force; 0 for others. A servo on springs has a doubt of its own.
+double mobility_of(const Wall& part) {
+  if (part.flight) return 1 / part.flight->mass;
+  return part.drive && !part.drive->servo && !part.drive->turns() ? 1 / part.drive->mass : 0;
+}
+
 /// m/s, of grains that meet, as far as it is known: of a fall from the start, of a state, and of feeders.
 double largest_speed(const Scene& scene) {
   const std::optional<Fall> fall = fall_from_start(scene);
@@ -102,7 +108,12 @@ std::vector<std::string> doubts_about_springs(const Scene& scene) {
   if (grains.empty()) return {};
   std::ranges::sort(grains, std::greater<>());
   const auto& [mobility1, name1] = grains[0];
-  const auto [mobility2, name2] = grains.size() > 1 ? grains[1] : std::pair(0.0, std::string("a wall"));
+  auto [mobility2, name2] = grains.size() > 1 ? grains[1] : std::pair(0.0, std::string("a wall"));
+  for (const Wall& part : scene.parts()) {
+    const double mobility = mobility_of(part);
+    if (mobility > mobility2) name2 = "part \"" + part.name + '"';
+    mobility2 = std::max(mobility, mobility2);
+  }
   const Spring spring = spring_of(*effect, scene, mobility1 + mobility2);
   const double steps = std::numbers::pi / (scene.time.step * std::sqrt(spring.stiffness * (mobility1 + mobility2)));
   if (!(steps < fx::kLeastContactSteps)) return {};

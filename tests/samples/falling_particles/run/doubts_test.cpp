@@ -489,6 +489,16 @@ TEST_CASE("doubts: springs with contacts of fewer than ten steps are named, as a
                    "may touch for 5 steps", "time.step up to 0.00025 s", "compliance.stiffness up to"});
 }
 
+TEST_CASE("doubts: a light part on springs is named with the grain that it meets") {
+  Scene scene = on_springs(ball(), std::pow(std::numbers::pi / 10 / 5e-4, 2) * mass_of(ball()) / 4);
+  CHECK(doubts_about(scene).empty());
+  scene.walls.push_back({"lid", BoxShape{{0.01, 0.01, 0.01}}, {{0.05, 0.05, 0.2}}});
+  scene.walls.back().drive = Drive{-Vector3::UnitZ(), 0, 1.01 * mass_of(ball()) / 3};
+  CHECK(doubts_about(scene).empty());
+  scene.walls.back().drive->mass = 0.99 * mass_of(ball()) / 3;
+  check_one_doubt(scene, {R"("ball" and part "lid" may touch for 9.)"});
+}
+
 TEST_CASE("doubts: a grain that is hit off its centre turns away, and touches for fewer steps") {
   // The lever of a normal of a spheroid with half-axes a and b is a - b at most, and its moment m (a^2 + b^2) / 5.
   const auto& [a, same, b] = lentil().half_axes;
