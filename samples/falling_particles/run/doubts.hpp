@@ -11,7 +11,8 @@ namespace falling_particles {
 
 class World;
 
-/// The fall of the highest grain of the start to the lowest start, without drag and contacts.
+/// The fall of the highest grain of the start to the bottom of the container, without drag and contacts; of an open container to
+/// the lowest start.
 struct Fall {
   double height;  ///< m
   double speed;   ///< m/s, at the end of the fall

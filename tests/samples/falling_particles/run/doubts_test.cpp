@@ -82,6 +82,24 @@ TEST_CASE("doubts: the fall from the start is compared with the step") {
   check_one_doubt(scene, {"the start is 300 m high", "76.7 m/s", "of the smallest half-axis (0.003 m)", "time.step up to"});
 }
 
+TEST_CASE("doubts: grains fall out of a hopper to its tray") {
+  const auto height_in = [](const Container& container) { return fall_from_start(scene_of(container, {{ball(), 1}}))->height; };
+  const auto hopper = [](double clearance) {
+    return Hopper{.outlet = 0.04,
+                  .wall_angle = 30,
+                  .diameter = 0.08,
+                  .cylinder_height = 0.1,
+                  .segments = 12,
+                  .clearance = clearance,
+                  .tray_width = 0.2,
+                  .opens_at = 0.1};
+  };
+  CHECK(height_in(hopper(0.1)) > 0.1);
+  CHECK(height_in(hopper(2)) == relative(height_in(hopper(0.1)) + 1.9).epsilon(1e-12));
+  Scene scene = scene_of(hopper(300), {{ball(), 1}});
+  check_one_doubt(scene, {"m high", "without drag its last grains fall with 76.", "time.step up to"});
+}
+
 TEST_CASE("doubts: a step in which grains fall far from rest is named, and a longer one is allowed to grains that look ahead") {
   const auto with = [](bool looks_ahead, double way) {  // in half-axes
     Scene scene = scene_of(Box{{0.1, 0.1}}, {{ball(), 1}});
