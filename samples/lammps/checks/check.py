@@ -11,12 +11,13 @@ import collision
 import driven
 import gas
 import ranks
+import refusals
 import sizes
 import surfaces
 import walls
 from driver import Driver
 
-CHECKS = {"bricks": bricks.check, "clusters": clusters.check, "collision": collision.check, "driven": driven.check, "gas": gas.check, "ranks": ranks.check, "sizes": sizes.check, "surfaces": surfaces.check, "walls": walls.check}
+CHECKS = {"bricks": bricks.check, "clusters": clusters.check, "collision": collision.check, "driven": driven.check, "gas": gas.check, "ranks": ranks.check, "refusals": refusals.check, "sizes": sizes.check, "surfaces": surfaces.check, "walls": walls.check}
 
 
 def main():

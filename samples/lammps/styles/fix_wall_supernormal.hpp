@@ -48,8 +48,11 @@ class FixWallSupernormal : public LAMMPS_NS::Fix {
   static constexpr int kSums = 8;         // energy, force, torque, contacts
   static constexpr int kDriveValues = 4;  // position, speed, push, stress
 
+  enum class DriveKind { None, Slides, Turns };
+  DriveKind kind() const;
   /// What a restart file has for the whole wall.
   struct Stored {
+    DriveKind kind;
     Clock::State clock;
     DrivenWall::State driven;
   };
