@@ -9,6 +9,7 @@ import bricks
 import clusters
 import collision
 import driven
+import example
 import gas
 import ranks
 import refusals
@@ -17,7 +18,7 @@ import surfaces
 import walls
 from driver import Driver
 
-CHECKS = {"bricks": bricks.check, "clusters": clusters.check, "collision": collision.check, "driven": driven.check, "gas": gas.check, "ranks": ranks.check, "refusals": refusals.check, "sizes": sizes.check, "surfaces": surfaces.check, "walls": walls.check}
+CHECKS = {"bricks": bricks.check, "clusters": clusters.check, "collision": collision.check, "driven": driven.check, "example": example.check, "gas": gas.check, "ranks": ranks.check, "refusals": refusals.check, "sizes": sizes.check, "surfaces": surfaces.check, "walls": walls.check}
 
 
 def main():
