@@ -44,6 +44,7 @@ def check(driver):
             holds = message in done.stdout + done.stderr and (done.returncode != 0) == does_fail
             yield f"{variable} {value}: {message}", 0 if holds else 1, 0
     yield from check_restart(driver)
+    yield from check_tags(driver)
 
 
 def check_restart(driver):
@@ -54,3 +55,11 @@ def check_restart(driver):
         done, _ = driver.attempt("refusals_again", more=more)
         holds = message in done.stdout and (done.returncode != 0) == bool(message)
         yield f"restarted: {more}: {message or 'no refusal'}", 0 if holds else 1, 0
+
+
+def check_tags(driver):
+    """Clusters keep their particles if others are deleted, unless the particles get other tags."""
+    for compress, message in (("no", ""), ("yes", "the particle with tag")):
+        done, _ = driver.attempt("renumbered", compress=compress)
+        holds = message in done.stdout + done.stderr and (done.returncode != 0) == bool(message)
+        yield f"delete_atoms beside clusters, compress {compress}: {message or 'no refusal'}", 0 if holds else 1, 0
