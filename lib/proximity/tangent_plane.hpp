@@ -20,6 +20,9 @@ inline double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() -
 struct TangentPlane {
   Eigen::Vector3d n, t1, t2;
 
+  /// The plane across the first axis.
+  TangentPlane() : n(Eigen::Vector3d::UnitX()), t1(Eigen::Vector3d::UnitY()), t2(Eigen::Vector3d::UnitZ()) {}
+
   /// t1 is the projection of `direction`, which must not be parallel to the normal.
   TangentPlane(const Eigen::Vector3d& normal, const Eigen::Vector3d& direction) : n(normal) {
     t1 = (direction - n.dot(direction) * n).normalized();

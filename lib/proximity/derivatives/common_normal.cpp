@@ -59,24 +59,26 @@ double rounding_across(const Symmetric2& A, const Matrix3& H) {
   return std::numeric_limits<double>::epsilon() * (beside + std::abs(A.xy));
 }
 
-/// The radii in `own`, aligned with the body, for the basis t1 and t2 (the body's frame).
-BodyCurvature curvature_in(const TangentPlane& own, const Matrix3& H, const Vector3& t1, const Vector3& t2, double flattest) {
-  const Symmetric2 A = Symmetric2::project(own, H);
-  const double cosine = own.t1.dot(t1), sine = own.t1.dot(t2);
+/// The radii of a body in a basis of the tangent plane, both in the body's frame.
+BodyCurvature curvature_in(const TangentPlane& basis, const Matrix3& H, double flattest) {
   BodyCurvature out;
-  if (A.trace() <= flattest) {
-    out.A = rotated(A, cosine, sine);
-    return out;
-  }
+  out.A = Symmetric2::project(basis, H);
+  if (out.A.trace() <= flattest) return out;
+  // In a basis aligned with the body, nothing of a very large radius is in the other.
+  const TangentPlane own = TangentPlane::along_flattest(basis.n, H);
+  const Symmetric2 A = Symmetric2::project(own, H);
   const Eigen2 radii(A);
+  if (radii.high <= flattest) return out;
+  const double cosine = own.t1.dot(basis.t1), sine = own.t1.dot(basis.t2);
   const auto in_basis = [&](const Vector2& v) { return Vector2(cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y()); };
-  if (radii.high > flattest) out.flatten(in_basis(radii.high_vector));
   const Vector2 other = in_basis(radii.low_vector);
+  out.flatten(in_basis(radii.high_vector));
+  out.A = {};
   if (radii.low > flattest) {
     out.flatten(other);
   } else {
     const double low = std::max(radii.low, 0.0);
-    if (radii.high > flattest) out.rounding = rounding_across(A, H);
+    out.rounding = rounding_across(A, H);
     out.A = {low * other.x() * other.x(), low * other.x() * other.y(), low * other.y() * other.y()};
   }
   return out;
@@ -152,13 +154,9 @@ bool CommonNormal::look_at(const Vector3& n, Place& place) {
   const GapJet& jet = place.jet;
   if (!jet.is_finite() || !all_finite(jet.jet1.H) || !all_finite(jet.jet2.H)) return false;
   const double flattest = limits::kFlattest * gap_.length_unit();
-  const TangentPlane own1 = TangentPlane::along_flattest(jet.n, jet.jet1.H),
-                     own2 = TangentPlane::along_flattest(-jet.m, jet.jet2.H);
-  place.plane = own1;
-  const Matrix3& R = gap_.rotation();
-  const Vector3 t1 = R.transpose() * own1.t1, t2 = R.transpose() * own1.t2;
-  place.body1 = curvature_in(own1, jet.jet1.H, own1.t1, own1.t2, flattest);
-  place.body2 = curvature_in(own2, jet.jet2.H, t1, t2, flattest);
+  place.plane = TangentPlane::along_flattest(jet.n, jet.jet1.H);
+  place.body1 = curvature_in(place.plane, jet.jet1.H, flattest);
+  place.body2 = curvature_in(place.plane.rotated(gap_.rotation().transpose()), jet.jet2.H, flattest);
   place.point1 = jet.jet1.r;
   place.point2 = jet.jet2.r;
   place.has_active_set = place.is_near_border = false;

@@ -31,7 +31,7 @@ class CommonNormal {
   /// What is known at one normal.
   struct Place {
     GapJet jet;
-    TangentPlane plane = TangentPlane::at(Vector3::UnitX());
+    TangentPlane plane;
     BodyCurvature body1, body2;
     PiecewiseModel::Peak peak;                                   // over the pieces, if there are several
     Vector3 point1 = Vector3::Zero(), point2 = Vector3::Zero();  // m; each in its body's frame
@@ -50,7 +50,7 @@ class CommonNormal {
 
   GapFunction& gap_;
   const bool has_nonsmooth_points_, has_flat_faces_;
-  TangentPlane plane_ = TangentPlane::at(Vector3::UnitX());
+  TangentPlane plane_;
   TangentResponse response_;
   Vector3 n_ = Vector3::UnitX(), point1_ = Vector3::Zero(), lever2_ = Vector3::Zero();
   double s_ = 0;

@@ -46,17 +46,8 @@ TwistVector gradient_of(const Vector3& n, const Vector3& p1, const Vector3& p2) 
   return gradient;
 }
 
-/// M [p], where [p] w = p x w.
-Matrix3 times_cross(const Matrix3& M, const Vector3& p) { return M.rowwise().cross(p.transpose()); }
-
-/// [p] M.
+/// [p] M, where [p] w = p x w.
 TwistJacobian cross_times(const Vector3& p, const TwistJacobian& M) { return -M.colwise().cross(p); }
-
-/// A map of the tangent plane as a map of space.
-Matrix3 lifted(const Matrix2& M, const std::array<Vector3, 2>& t) {
-  const Vector3 first = M(0, 0) * t[0] + M(1, 0) * t[1], second = M(0, 1) * t[0] + M(1, 1) * t[1];
-  return first * t[0].transpose() + second * t[1].transpose();
-}
 
 /// The motion of a point p of the body: v + w x p.
 void add_rigid(const Vector3& p, int v, TwistJacobian& J) {
@@ -84,15 +75,29 @@ void add_rotation(const Vector3& n, const Vector3& p, double sign, int w, TwistH
 /// as body 1 may be; the same holds for body 2.
 void write_jacobians(const TangentResponse& response, const WorldNormal& at, const DerivativeSettings& settings,
                      ProximityDerivatives& out) {
-  const Matrix3 G = lifted(response.G, at.t), B1 = lifted(response.B1, at.t), B2 = lifted(response.B2, at.t);
-  const Matrix3 W = lifted(response.W, at.t), turn = times_cross(W, at.n), turn_back = times_cross(W.transpose(), at.n);
-  const Vector3 opposite1 = at.p1 + at.s * at.n;  // point 2 from body 1's origin
-  const Vector3 opposite2 = at.p2 - at.s * at.n;  // point 1 from body 2's origin
-  const Matrix3 follow1 = B1.transpose(), follow2 = B2.transpose();
-  out.normal << -G, times_cross(G, at.p1) - times_cross(B1, at.n), G, -times_cross(G, at.p2) - times_cross(B2, at.n);
-  // The points without the motion of their body.
-  out.point1 << -follow1, times_cross(follow1, opposite1) + turn, follow1, -times_cross(follow1, at.p2) - turn;
-  out.point2 << follow2, turn_back - times_cross(follow2, at.p1), -follow2, times_cross(follow2, opposite2) - turn_back;
+  const Vector3 &t1 = at.t[0], &t2 = at.t[1];
+  const Matrix2 follow1 = response.B1.transpose(), follow2 = response.B2.transpose(), turn_back = response.W.transpose();
+  // A rotation w of a body moves its point p along t by t.(w x p) = (p x t).w.
+  const Vector3 tilt1 = at.n.cross(t1), tilt2 = at.n.cross(t2);
+  const Vector3 first1 = at.p1.cross(t1), first2 = at.p1.cross(t2), second1 = at.p2.cross(t1), second2 = at.p2.cross(t2);
+  const auto lift = [&](const Vector2& u) -> Vector3 { return u.x() * t1 + u.y() * t2; };
+  for (int i = 0; i < 3; ++i) {
+    const Vector2 along(t1[i], t2[i]), tilt(tilt1[i], tilt2[i]), first(first1[i], first2[i]), second(second1[i], second2[i]);
+    const Vector2 turn1 = response.W * tilt, turn2 = turn_back * tilt;
+    out.normal.col(kV2 + i) = lift(response.G * along);
+    out.normal.col(kV1 + i) = -out.normal.col(kV2 + i);
+    out.normal.col(kW1 + i) = lift(response.B1 * tilt - response.G * first);
+    out.normal.col(kW2 + i) = lift(response.B2 * tilt + response.G * second);
+    // The points without the motion of their body. Point 2 is opposite a place on body 1, and point 1 one on body 2.
+    out.point1.col(kV2 + i) = lift(follow1 * along);
+    out.point1.col(kV1 + i) = -out.point1.col(kV2 + i);
+    out.point1.col(kW1 + i) = -lift(follow1 * (first + at.s * tilt) + turn1);
+    out.point1.col(kW2 + i) = lift(follow1 * second + turn1);
+    out.point2.col(kV1 + i) = lift(follow2 * along);
+    out.point2.col(kV2 + i) = -out.point2.col(kV1 + i);
+    out.point2.col(kW1 + i) = lift(follow2 * first - turn2);
+    out.point2.col(kW2 + i) = -lift(follow2 * (second - at.s * tilt) - turn2);
+  }
   if (settings.hessian) {
     // The derivative of the gradient. The second derivative along a rotation vector w of exp([w]) R is its symmetric part.
     TwistHessian& H = out.gap_hessian;

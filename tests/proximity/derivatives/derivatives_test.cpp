@@ -95,21 +95,25 @@ TEST_CASE("derivatives: of 6000 flat pairs whose query converges, all but some 6
   CHECK(without <= 9);
 }
 
-TEST_CASE("derivatives: two spheres have the closed forms of two points") {
-  const Sphere sphere1(0.5), sphere2(0.3);
-  const Pose pose2{{2, 1, -2}, kTilted};
-  const ProximityDerivatives d = derivatives(sphere1, {}, sphere2, pose2);
-  const Vector3 n = pose2.position / 3;
-  const Matrix3 tilt = (Matrix3::Identity() - n * n.transpose()) / 3;
-  CHECK(d.status == DerivativeStatus::Smooth);
-  CHECK((d.gap_gradient.segment<3>(6) - n).norm() <= 1e-15);
-  CHECK(d.gap_gradient.segment<3>(9).norm() <= 1e-15);
-  CHECK((d.normal.middleCols<3>(6) - tilt).norm() <= 1e-15);
-  CHECK((d.point1.middleCols<3>(6) - 0.5 * tilt).norm() <= 1e-15);
-  CHECK((d.point2.middleCols<3>(6) - Matrix3::Identity() + 0.3 * tilt).norm() <= 1e-15);
-  CHECK((d.gap_hessian.block<3, 3>(6, 6) - tilt).norm() <= 1e-15);
-  CHECK(d.parameters1.size() == 1);
-  CHECK(d.parameters1[0].value == -1);
+TEST_CASE("derivatives: two spheres have the closed forms of two points, up to a radius of 1e8 smaller ones") {
+  for (const double radius : {0.5, 1e6, 1.6e7, 1.9e7, 2.9e7}) {
+    CAPTURE(radius);
+    const Sphere sphere1(radius), sphere2(0.3);
+    const Vector3 n(2.0 / 3, 1.0 / 3, -2.0 / 3);
+    const Pose pose2{(radius + 2.5) * n, kTilted};
+    const ProximityDerivatives d = derivatives(sphere1, {}, sphere2, pose2);
+    const double distance = pose2.position.norm();
+    const Matrix3 tilt = (Matrix3::Identity() - n * n.transpose()) / distance;
+    CHECK(d.status == DerivativeStatus::Smooth);
+    CHECK((d.gap_gradient.segment<3>(6) - n).norm() <= 1e-15);
+    CHECK(d.gap_gradient.segment<3>(9).norm() <= 1e-15);
+    CHECK((d.normal.middleCols<3>(6) - tilt).norm() <= 1e-15 / distance);
+    CHECK((d.point1.middleCols<3>(6) - radius * tilt).norm() <= 1e-15);
+    CHECK((d.point2.middleCols<3>(6) - Matrix3::Identity() + 0.3 * tilt).norm() <= 1e-15);
+    CHECK((d.gap_hessian.block<3, 3>(6, 6) - tilt).norm() <= 1e-15 / distance);
+    CHECK(d.parameters1.size() == 1);
+    CHECK(d.parameters1[0].value == -1);
+  }
 }
 
 TEST_CASE("derivatives: swapped bodies and moved frames have the same, also far from the origin") {
