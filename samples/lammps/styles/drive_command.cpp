@@ -89,6 +89,7 @@ class Numbers {
  private:
   static std::string names() {
     std::vector<std::string> all;
+    all.reserve(kSizes.size());
     for (const auto& [name, size] : kSizes) all.push_back(name);
     return join(all);
   }

@@ -269,7 +269,8 @@ TEST_CASE("lammps: forces of a side on a plane are the derivatives of the energy
 }
 
 TEST_CASE("lammps: a body that drops on its side rests along a line, and rolls if nothing resists") {
-  for (const auto& [delta, epsilon] : {std::pair(2.0, 20.0), std::pair(2.0, 8.0), std::pair(3.0, 60.0)}) {
+  for (const auto& exponents : {std::pair(2.0, 20.0), std::pair(2.0, 8.0), std::pair(3.0, 60.0)}) {
+    const double delta = exponents.first, epsilon = exponents.second;
     for (const double rolling_length : {0.0, 1e-3}) {
       Floor floor;
       Particle can({0.01, 0.012, 0.02}, delta, epsilon);
