@@ -189,12 +189,13 @@ void PairSupernormal::find_fixes_of_clusters() {
   bodies_->clusters().clear();
   for (int k = 0; k < modify->nfix; ++k) {
     const Fix& fix = *modify->fix[k];
+    const bool is_rigid = fix.rigid_flag != 0, moves = is_rigid || fix.time_integrate != 0;
     const auto* const clusters = dynamic_cast<const RigidClusters*>(&fix);
-    if (clusters != nullptr) fixes_of_clusters_.push_back(clusters);
-    const bool is_ours = clusters != nullptr || dynamic_cast<const FixNveSupernormal*>(&fix) != nullptr;
-    if (!is_ours && (fix.rigid_flag != 0 || fix.time_integrate != 0) && comm->me == 0) {
+    if (clusters != nullptr) {
+      fixes_of_clusters_.push_back(clusters);
+    } else if (moves && dynamic_cast<const FixNveSupernormal*>(&fix) == nullptr && comm->me == 0) {
       error->warning(FLERR, fmt::format("fix {} takes particles as ellipsoids, or does not rotate them: use fix {}/supernormal",
-                                        fix.style, fix.rigid_flag != 0 ? "rigid/nve" : "nve"));
+                                        fix.style, is_rigid ? "rigid/nve" : "nve"));
     }
   }
 }
