@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "kernel/refuse.hpp"
@@ -31,7 +32,8 @@ bool Words::accept(const std::string& word) {
 double Words::number(const std::string& keyword) {
   const std::string word = next(keyword);
   if (!LAMMPS_NS::utils::is_double(word)) throw std::invalid_argument(keyword + " takes a number instead of " + word);
-  const double value = LAMMPS_NS::utils::numeric(FLERR, word.c_str(), false, lammps_);
+  // Of LAMMPS' own functions, some give infinity for numbers that are too large, and some end the program.
+  const double value = std::strtod(word.c_str(), nullptr);
   if (!std::isfinite(value)) refuse(keyword, value, "(-inf, inf)");
   return value;
 }
