@@ -232,6 +232,8 @@ int FixWallSupernormal::maxsize_restart() { return 2 + WallHistory::kMost * Cont
 void FixWallSupernormal::write_restart(FILE* file) {
   if (comm->me != 0) return;
   const Stored stored{kind(), clock_.state(), driven_ ? driven_->state() : DrivenWall::State()};
+  // Otherwise equal runs would write different bytes.
+  static_assert(sizeof(Stored) == sizeof(DriveKind) + sizeof(Clock::State) + sizeof(DrivenWall::State));
   const int bytes = sizeof(stored);
   fwrite(&bytes, sizeof(bytes), 1, file);
   fwrite(&stored, sizeof(stored), 1, file);

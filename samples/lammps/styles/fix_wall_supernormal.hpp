@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -48,7 +49,7 @@ class FixWallSupernormal : public LAMMPS_NS::Fix {
   static constexpr int kSums = 8;         // energy, force, torque, contacts
   static constexpr int kDriveValues = 4;  // position, speed, push, stress
 
-  enum class DriveKind { None, Slides, Turns };
+  enum class DriveKind : std::int64_t { None, Slides, Turns };  // as wide as a number: Stored has no padding
   DriveKind kind() const;
   /// What a restart file has for the whole wall.
   struct Stored {
