@@ -72,7 +72,8 @@ Proximity MovingPair::find(double t, const Vector3* first_normal, double toleran
   if (first_normal != nullptr) start = one.rotation.transpose() * *first_normal;
   Settings settings;
   settings.solver = solver_;
-  settings.tolerance = std::clamp(tolerance / length_unit_, 1e-15, 1.0);
+  // Two points have no size: any tolerance is the largest.
+  settings.tolerance = tolerance < length_unit_ ? std::max(tolerance / length_unit_, 1e-15) : 1;
   settings.max_evaluations = most_evaluations;
   Proximity out = find_proximity(shape1_, one, shape2_, pose2(t), settings, first_normal != nullptr ? &start : nullptr);
   count(out.evaluations);
