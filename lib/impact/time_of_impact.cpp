@@ -164,12 +164,27 @@ class ImpactSearch {
     const double rate = gap_.rate(now_, t_);
     if (!gap_.is_rotating()) return advance_straight(a, rate, left);
     if (a >= gap_.fastest() * left) return move_to(end_, gap_.evaluate(now_.normal, end_));
+    const double as_balls = time_as_balls(left);
+    if (as_balls == left) return move_to(end_, gap_.evaluate(now_.normal, end_));
     const double K = gap_.bound(now_.normal, 0, is_rotating_ ? rotation_.angle : 0);
     const double stride = longest_stride(a, rate, K, left);
+    if (as_balls > stride) {
+      t_ = std::min(t_ + as_balls, end_);
+      now_ = find(t_, &now_.normal);
+      return;
+    }
     const double next = stride == left ? end_ : t_ + stride;
     const bool is_meeting = a + rate * stride < kFarShare * a;
     if (!is_meeting && !is_rotating_) return advance_fixed(a, next, stride);
     look_ahead(a, next, stride);
+  }
+
+  /// How long, at most `left`, the normal of now_ separates the balls about rotating bodies, s; 0 if it does not.
+  double time_as_balls(double left) const {
+    const double a = gap_.gap_of_balls(now_, t_) - rounding_;
+    const double rate = now_.normal.dot(gap_.velocity());
+    if (!(a > 0)) return 0;
+    return -rate * left > a ? a / -rate : left;
   }
 
   /// Tries the normal of now_ for a whole stride. Far from an impact any normal near the best one will do.

@@ -419,3 +419,20 @@ TEST_CASE("balls that spin meet when they would without spin, to the same digits
     }
   }
 }
+
+TEST_CASE("a body that spins beside a wall, farther away than it reaches, takes a few evaluations at any speed") {
+  const Superellipsoid brick(Vector3(1, 0.8, 0.6), 8, 8);
+  const Box wall(Vector3(50, 50, 1));
+  const double reach = Vector3(1, 0.8, 0.6).norm();
+  for (const double spin : {10.0, 1e6, 1e12}) {
+    CAPTURE(spin);
+    const Motion beside = moving({7, 3, 1 + reach + 0.1}, {20, 0, 0}, {0.6 * spin, 0.8 * spin, 0});
+    const Impact apart = find_time_of_impact(brick, beside, wall, {}, 1);
+    CHECK(apart.status == ImpactStatus::Apart);
+    CHECK(apart.evaluations < 200);
+    CHECK(find_plane_time_of_impact(brick, beside, Vector3::UnitZ(), 1, 1).status == ImpactStatus::Apart);
+    // Until the ball about it touches the wall, there is no impact. Rounding grows with the paths of its points.
+    const Motion falling = moving({7, 3, 1 + reach + 0.1}, {20, 0, -1}, {0.6 * spin, 0.8 * spin, 0});
+    CHECK(find_time_of_impact(brick, falling, wall, {}, 1).apart_until >= 0.1 - 1e-9 - 1e-14 * spin);
+  }
+}
