@@ -220,15 +220,21 @@ using Effect =
 /// that exclude each other.
 class SUPERNORMAL_ODE_API BadEffect : public std::invalid_argument {
  public:
-  /// `effect` and `parameter` are the results of the members below, `text` is what().
-  BadEffect(std::string effect, std::string parameter, const std::string& text)
-      : std::invalid_argument(text), effect_(std::move(effect)), parameter_(std::move(parameter)) {}
+  /// The arguments are the results of the members below. what() is `reason`, behind `where` if the effect is refused for some
+  /// contacts only.
+  BadEffect(std::string effect, std::string parameter, const std::string& reason, const std::string& where = {})
+      : std::invalid_argument(where.empty() ? reason : where + "; " + reason),
+        effect_(std::move(effect)),
+        parameter_(std::move(parameter)),
+        reason_(reason) {}
   const std::string& effect() const { return effect_; }        ///< its name as in descriptions()
   const std::string& parameter() const { return parameter_; }  ///< "" if the effect as a whole is refused
+  const std::string& reason() const { return reason_; }        ///< what() without the contacts that the effect is refused for
 
  private:
   std::string effect_;
   std::string parameter_;
+  std::string reason_;
 };
 
 /// Describes an effect in words. There is one description for each alternative of Effect, in its order.
@@ -248,12 +254,15 @@ struct Side {
   dBodyID body = nullptr;  ///< the body whose velocity counts, and to which the joint will be attached; 0: a wall at rest
 };
 
+/// Steps that a contact of Compliance or Hertz should last. With fewer it is implicit in part, and loses energy.
+inline constexpr double kLeastContactSteps = 10;
+
 /// Counts the work for an effect so far.
 struct Cost {
   const char* name;                 ///< its name as in descriptions()
   unsigned long long rows = 0;      ///< constraint rows added
   unsigned long long contacts = 0;  ///< contacts that the effect applied to; for speculative_contacts the contacts ahead of touch
-  unsigned long long coarse = 0;    ///< compliant contacts among them that last fewer than ten steps
+  unsigned long long coarse = 0;    ///< compliant contacts among them that last fewer than kLeastContactSteps
   unsigned long long bodies = 0;    ///< bodies visited
   double seconds = 0;               ///< s; time in its passes, if measured, without the solver's time for the rows
 };

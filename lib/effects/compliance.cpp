@@ -23,8 +23,8 @@
 namespace supernormal::effects {
 namespace {
 
-constexpr double kLeastSteps = 10;  // steps; a contact, half a period of the spring, should last this long
-constexpr double kStiffest = (std::numbers::pi / kLeastSteps) * (std::numbers::pi / kLeastSteps);
+// A contact lasts half a period of the spring.
+constexpr double kStiffest = (std::numbers::pi / kLeastContactSteps) * (std::numbers::pi / kLeastContactSteps);
 // Least B, in mass / step. The row is then as good as rigid, and ODE's solver can still divide by B.
 constexpr double kLeastDamper = 1e-6;
 

@@ -211,9 +211,9 @@ class PairMaterialWriter {
   void require_alone(const char* name, const char* other, int mode_of_other, const char* why) const {
     if ((pair_.surface.mode & mode_of_other) == 0) return;
     const auto text = [](Material m) { return m == kOther ? std::string("the others") : std::to_string(m); };
-    throw BadEffect(name, "",
-                    std::string(name) + " and " + other + " are both listed for contacts of materials " + text(a_) + " and " +
-                        text(b_) + "; " + name + " must be without " + other + ": " + why);
+    throw BadEffect(
+        name, "", std::string(name) + " must be without " + other + ": " + why,
+        std::string(name) + " and " + other + " are both listed for contacts of materials " + text(a_) + " and " + text(b_));
   }
 
   const std::vector<Effect>& list_;

@@ -8,10 +8,12 @@
 namespace supernormal {
 namespace {
 
-/// Adds the sums of the shapes' active vertices: the eight highest along n, highest first.
+/// Adds the sums of the shapes' active vertices: the eight highest along n, highest first. Equal ones are in the order of the
+/// shapes' vertices, whatever the standard library is.
 void add_highest_pairs(const Vector3& n, const ActiveVertices& first, const ActiveVertices& second, ActiveVertices& vertices) {
   struct Pair {
     double height;
+    std::size_t index;
     Vector3 point;
   };
   std::array<Pair, std::size_t{ActiveVertices::kCapacity} * ActiveVertices::kCapacity> pairs;
@@ -19,12 +21,14 @@ void add_highest_pairs(const Vector3& n, const ActiveVertices& first, const Acti
   for (int i = 0; i < first.size(); ++i) {
     for (int j = 0; j < second.size(); ++j) {
       const Vector3 point = first[i] + second[j];
-      pairs[count++] = {n.dot(point), point};
+      pairs[count] = {n.dot(point), count, point};
+      ++count;
     }
   }
   const auto end = pairs.begin() + count;
   const auto kept = std::min<std::ptrdiff_t>(end - pairs.begin(), ActiveVertices::kCapacity);
-  std::partial_sort(pairs.begin(), pairs.begin() + kept, end, [](const Pair& a, const Pair& b) { return a.height > b.height; });
+  std::partial_sort(pairs.begin(), pairs.begin() + kept, end,
+                    [](const Pair& a, const Pair& b) { return a.height != b.height ? a.height > b.height : a.index < b.index; });
   for (auto pair = pairs.begin(); pair != pairs.begin() + kept; ++pair) vertices.add(pair->point);
 }
 

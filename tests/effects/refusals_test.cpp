@@ -80,6 +80,22 @@ TEST_CASE("effects that exclude one another, or lack a required one, are refused
   CHECK(refusal({Compliance{1e9, 0, MaterialSelector::between(1, 1)}, Restitution{0.5, 0, MaterialSelector::of(2)}}).empty());
 }
 
+TEST_CASE("a refusal has its reason without the contacts that it is about") {
+  const auto reason = [](const std::vector<Effect>& list) -> std::string {
+    try {
+      const Effects effects(list, 1e-3);
+    } catch (const BadEffect& error) {
+      return error.reason();
+    }
+    return "";
+  };
+  const std::vector<Effect> excluded = {Hertz{1e9, 0.3, 1, {}}, Restitution{0.5, 0, {}}};
+  CHECK(reason(excluded) == "hertz must be without restitution: it has one of its own");
+  CHECK(refusal(excluded) ==
+        "hertz and restitution are both listed for contacts of materials the others and the others; " + reason(excluded));
+  CHECK(reason({Friction{0, {}}}) == refusal({Friction{0, {}}}));
+}
+
 TEST_CASE("every effect has a description") {
   CHECK(descriptions().size() == std::variant_size_v<Effect>);
   for (const Description& description : descriptions()) {

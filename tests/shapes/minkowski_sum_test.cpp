@@ -3,8 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
@@ -57,6 +59,22 @@ TEST_CASE("Minkowski sum: support function, point and Hessian are sums") {
   CHECK(sum.traits().has_flat_faces);
   CHECK_FALSE(sum.traits().has_nonsmooth_points);
   CHECK(sum.traits().has_hessian);
+}
+
+TEST_CASE("Minkowski sum: of equal heights the first vertices are kept, in their order") {
+  const auto first = std::make_shared<Box>(Vector3(3, 2, 1)), second = std::make_shared<Box>(Vector3(0.5, 1, 2));
+  const Vector3 n = Vector3::UnitZ(), dn(0.3, -0.2, 0.1);
+  ActiveVertices of_first, of_second, vertices;
+  first->add_active_vertices(n, dn, of_first);
+  second->add_active_vertices(n, dn, of_second);
+  MinkowskiSum(first, second).add_active_vertices(n, dn, vertices);
+  std::vector<Vector3> sums;
+  for (int i = 0; i < of_first.size(); ++i) {
+    for (int j = 0; j < of_second.size(); ++j) sums.push_back(of_first[i] + of_second[j]);
+  }
+  std::stable_sort(sums.begin(), sums.end(), [&](const Vector3& a, const Vector3& b) { return n.dot(a) > n.dot(b); });
+  REQUIRE(vertices.size() == ActiveVertices::kCapacity);
+  for (int k = 0; k < vertices.size(); ++k) CHECK(vertices[k] == sums[static_cast<std::size_t>(k)]);
 }
 
 TEST_CASE("Minkowski sum: with a sphere it is the rounded shape, with a point the shape moved") {

@@ -12,14 +12,15 @@ namespace supernormal {
 
 /// A number for each component of the two bodies' twists: (v1, w1, v2, w2), three each. A twist moves body i to the position
 /// p_i + v_i and the orientation exp([w_i]) R_i: it acts at the origin of the body's frame, along the axes of the world. v is in m,
-/// w in rad.
-using TwistVector = Eigen::Matrix<double, 12, 1>;
+/// w in rad. Like the two types below it is not aligned: Eigen's alignment, and so the layout of ProximityDerivatives, would depend
+/// on the instructions that a program is compiled for (-mavx).
+using TwistVector = Eigen::Matrix<double, 12, 1, Eigen::DontAlign>;
 
 /// A vector for each component of the two twists.
-using TwistJacobian = Eigen::Matrix<double, 3, 12>;
+using TwistJacobian = Eigen::Matrix<double, 3, 12, Eigen::DontAlign>;
 
 /// Second derivatives with respect to both twists.
-using TwistHessian = Eigen::Matrix<double, 12, 12>;
+using TwistHessian = Eigen::Matrix<double, 12, 12, Eigen::DontAlign>;
 
 /// Why a derivative exists or not.
 enum class DerivativeStatus {

@@ -185,7 +185,8 @@ std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, con
     }
   }
   std::sort(found_.begin(), found_.end(), [](const MeshManifold& one, const MeshManifold& other) {
-    return one.manifold.deepest.gap < other.manifold.deepest.gap;
+    const double gap1 = one.manifold.deepest.gap, gap2 = other.manifold.deepest.gap;
+    return gap1 != gap2 ? gap1 < gap2 : one.triangle < other.triangle;
   });
   return found_;
 }

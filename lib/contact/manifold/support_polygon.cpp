@@ -77,14 +77,6 @@ double tangent_of_tilt(double reach, double height) {
   return std::min(kLargestTilt, std::sqrt(x * std::sqrt(x * std::sqrt(x))));
 }
 
-/// A point of the body, relative to the support point.
-struct SupportPoint {
-  Tilt along{};           ///< m; along the axes
-  double separation = 0;  ///< m; from the tangent plane
-};
-
-using SupportPoints = std::array<SupportPoint, 4>;
-
 }  // namespace
 
 /// A body and its tangent plane in the body's frame.
@@ -110,6 +102,13 @@ struct SupportPolygon::View {
 /// The points of a body whose normals are tilted against n by the same angle, in units of the half-extents.
 class SupportPolygon::Tilts {
  public:
+  /// A point of the body, relative to the support point.
+  struct SupportPoint {
+    Tilt along{};           ///< m; along the axes
+    double separation = 0;  ///< m; from the tangent plane
+  };
+  using SupportPoints = std::array<SupportPoint, 4>;
+
   Tilts(const View& view, double height, const std::array<double, 2>& extents, const std::array<double, 2>& tangents)
       : shape_(&view.shape),
         n_(view.normal),
@@ -298,7 +297,7 @@ std::array<double, 2> SupportPolygon::widths_by(const Tilts& tilts) {
 }
 
 void SupportPolygon::place_vertices(const Tilts& tilts) {
-  SupportPoints diagonals{};
+  Tilts::SupportPoints diagonals{};
   if (widths_[0] > 0 && widths_[1] > 0) {
     diagonals = tilts.diagonals();
     evaluations_ += 4;
@@ -307,8 +306,8 @@ void SupportPolygon::place_vertices(const Tilts& tilts) {
   const double weight1 = widths_[1] * (1 - widths_[0]);
   const double weight_of_diagonal = widths_[0] * widths_[1];
   for (std::size_t k = 0; k < 4; ++k) {
-    const SupportPoint& end0 = tilts.ends()[kAlong[k][0]];
-    const SupportPoint& end1 = tilts.ends()[kAlong[k][1]];
+    const Tilts::SupportPoint& end0 = tilts.ends()[kAlong[k][0]];
+    const Tilts::SupportPoint& end1 = tilts.ends()[kAlong[k][1]];
     const auto mixed = [&](double of_end0, double of_end1, double of_diagonal) {
       return weight0 * of_end0 + weight1 * of_end1 + weight_of_diagonal * of_diagonal;
     };

@@ -145,7 +145,10 @@ void ExpandingPolytope::climb_from_tops() {
   // Point-symmetric bodies have s(-n) = s(n) - 2 n.c. If they are nearly concentric, they may separate on either side.
   if (rule_.may_evaluate() && std::abs(2 * best_.n.dot(gap_.offset())) < limits_.near) climb_from(-best_.n);
   const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
-  std::sort(tops_.begin(), end, [](const LocalCandidate& a, const LocalCandidate& b) { return a.s > b.s; });
+  // Equal ones stay in their order, which std::sort may change.
+  const auto is_higher = [](const LocalCandidate& a, const LocalCandidate& b) { return a.s > b.s; };
+  for (auto next = tops_.begin(); next != end; ++next)
+    std::rotate(std::upper_bound(tops_.begin(), next, *next, is_higher), next, next + 1);
   for (auto top = tops_.begin(); top != end && rule_.may_evaluate(); ++top) {
     if (top->s > best_.s - limits_.near && top->n.dot(best_.n) < kTuning.same_basin_cosine) climb_from(top->n);
   }

@@ -95,7 +95,11 @@ class InnerPolytope {
     Vector3 normal;         // of the new facet on the edge
   };
 
-  static bool is_farther(const Entry& a, const Entry& b) { return a.distance > b.distance; }
+  /// No two entries are equal, because which of these comes first depends on the standard library.
+  static bool is_farther(const Entry& a, const Entry& b) {
+    if (a.distance != b.distance) return a.distance > b.distance;
+    return a.is_exact != b.is_exact ? b.is_exact : a.facet > b.facet;
+  }
   void reserve();
   double height_above(Index facet, const Vector3& point) const;
   Nearest nearest_of_heap();

@@ -174,13 +174,10 @@ void load_wall_effects(const TomlTable& root, Scene& scene) {
   try {
     const fx::Effects compiled(scene.effects, scene.time.step);
   } catch (const fx::BadEffect& error) {
-    const std::string text = error.what();
-    const std::size_t reason = text.find("; ");  // after it; before it are the numbers of materials
-    const char* const key = text.find("restitution") == std::string::npos ? "friction" : "restitution";
     for (const TomlTable& part : root.tables("part")) {
-      if (!part.has(key)) continue;
-      part.fail(key, part.full_name(key) + " besides an effect of the scene: " +
-                         text.substr(reason == std::string::npos ? 0 : reason + 2) + "; allowed: a part without it");
+      if (!part.has("restitution")) continue;
+      part.fail("restitution", part.full_name("restitution") + " besides an effect of the scene: " + error.reason() +
+                                   "; allowed: a part without it");
     }
     throw;
   }

@@ -38,6 +38,12 @@ double GrainCount::largest_scale() const {
   return is_fed || scales.empty() ? size->largest() : std::ranges::max(scales);
 }
 
+bool Scene::has_grains_of(const GrainCount& kind) const {
+  const auto is_kind = [&](const FedKind& fed) { return &kinds[fed.kind] == &kind; };
+  return kind.count > 0 ||
+         std::ranges::any_of(feeders, [&](const Feeder& feeder) { return std::ranges::any_of(feeder.mixture, is_kind); });
+}
+
 int Scene::grains_at_start() const {
   int sum = 0;
   for (const GrainCount& entry : kinds) sum += entry.count;

@@ -109,6 +109,7 @@ struct Scene {
   std::span<const Wall> parts() const;
 
   int grains_at_start() const;                       ///< at the start
+  bool has_grains_of(const GrainCount& kind) const;  ///< at the start or by a feeder; `kind`: one of `kinds`
   std::size_t kind_of(const GrainKind& kind) const;  ///< index into kinds; the argument must be an element of it
   /// Whether grains are inserted or removed during the run.
   bool changes_population() const { return !feeders.empty() || !sinks.empty(); }

@@ -13,6 +13,7 @@
 #include "model/scene.hpp"
 #include "pair_contact.hpp"
 #include "table_text.hpp"
+#include "triangle_field.hpp"
 #include "world/world.hpp"
 
 namespace falling_particles {
@@ -52,6 +53,8 @@ class Measurement {
   virtual bool has_unwritten() const { return false; }
   /// The bytes of a line of such a table; 0 for other tables.
   virtual double bytes_of_event() const { return 0; }
+  /// What pictures show on the walls of the scene, the most important one first. None for most measurements.
+  virtual std::vector<TriangleField> fields() const { return {}; }
   /// The memory as bytes, and back.
   virtual std::string save() const { return {}; }
   virtual void restore(const std::string& /*memory*/) {}

@@ -125,6 +125,16 @@ void Measuring::finish(double time) {
   }
 }
 
+std::vector<TriangleField> Measuring::fields() const {
+  std::vector<TriangleField> all;
+  for (const Entry& entry : entries_) {
+    for (TriangleField& field : entry.measurement->fields()) {
+      all.push_back({entry.request->name + '_' + field.name, std::move(field.of_walls)});
+    }
+  }
+  return all;
+}
+
 std::vector<MeasurementCost> Measuring::costs() const {
   std::vector<MeasurementCost> costs;
   for (const Entry& entry : entries_) {

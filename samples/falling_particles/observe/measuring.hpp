@@ -94,6 +94,9 @@ class Measuring {
   /// The state so far. The tables up to it survive a power cut.
   MeasuringState save();
 
+  /// The fields of all measurements on the walls of the scene, each with the name of its measurement in front.
+  std::vector<TriangleField> fields() const;
+
   std::vector<MeasurementCost> costs() const;                          ///< of the requested measurements
   double seconds_of_contacts() const { return gathering_.seconds(); }  ///< s, to gather contacts for all measurements
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <map>
 #include <string>
 #include <utility>
@@ -11,7 +10,6 @@
 
 #include "base/archive.hpp"
 #include "measurement.hpp"
-#include "model/two_sided_mesh.hpp"
 #include "simulation.hpp"
 #include "surfaces.hpp"
 #include "world/to_vector.hpp"
@@ -33,16 +31,6 @@ double sliding_work(const MeasuredContact& contact, dGeomID grain, dGeomID wall,
   const Vector3 slip =
       velocity + spin_of_move(body).cross(point - centre) - world.walls().surface_velocity(wall, point, centre, velocity);
   return step * load * (slip - normal.dot(slip) * normal).norm();
-}
-
-using Triangles = std::vector<std::array<unsigned int, 3>>;
-
-/// The triangles of a mesh as contacts number them; empty for other shapes. A two-sided mesh has each distinct triangle once, and
-/// contacts with its other side have higher numbers.
-Triangles triangles_of(const WallShape& shape) {
-  const auto* const mesh = std::get_if<MeshShape>(&shape);
-  if (mesh == nullptr) return {};
-  return mesh->two_sided ? sheets_of(*mesh).triangles : mesh->triangles;
 }
 
 using Polygon = std::vector<Vector3>;  // m, convex and plane
@@ -87,6 +75,23 @@ Extent extent_of(const Polygon& polygon) {
   return extent;
 }
 
+/// The triangles of a mesh as contacts number them; empty for other shapes. Contacts with the other side of a two-sided mesh have
+/// higher numbers.
+std::vector<Extent> triangles_of(const Wall& wall, const PeriodicAxes& axes) {
+  const auto* const mesh = std::get_if<MeshShape>(&wall.shape);
+  if (mesh == nullptr) return {};
+  std::vector<Extent> extents;
+  for (const auto& triangle : mesh->triangles) {
+    Polygon corners;
+    for (const unsigned int vertex : triangle) {
+      const auto& [x, y, z] = mesh->vertices[vertex];
+      corners.emplace_back(wall.start(Vector3(x, y, z)));
+    }
+    extents.push_back(extent_of(part_in_cell(std::move(corners), axes)));
+  }
+  return extents;
+}
+
 class Wear final : public Measurement {
  public:
   enum class Per { Wall, Triangle };
@@ -95,7 +100,8 @@ class Wear final : public Measurement {
   Wear(const World& world, const std::vector<std::string>& names, double worn, Per per) : worn_(worn), per_(per) {
     for (const Wall& wall : world.scene().walls) {
       const bool is_chosen = std::ranges::find(names, wall.name) != names.end();
-      const Triangles& triangles = triangles_.emplace_back(is_chosen ? triangles_of(wall.shape) : Triangles());
+      const std::vector<Extent>& triangles =
+          triangles_.emplace_back(is_chosen ? triangles_of(wall, world.scene().periodic) : std::vector<Extent>());
       work_.emplace_back(is_chosen ? std::max<std::size_t>(triangles.size(), 1) : 0, 0.0);
     }
   }
@@ -123,6 +129,22 @@ class Wear final : public Measurement {
 
   void measure(const Sample& sample, TableText& table) const override {
     per_ == Per::Wall ? write_walls(sample, table) : write_triangles(sample, table);
+  }
+
+  std::vector<TriangleField> fields() const override {
+    const auto has_none = [](const std::vector<Extent>& triangles) { return triangles.empty(); };
+    if (per_ == Per::Wall || std::ranges::all_of(triangles_, has_none)) return {};
+    TriangleField depth{"depth", {}}, volume{"volume", {}};
+    for (std::size_t i = 0; i < work_.size(); ++i) {
+      depth.of_walls.emplace_back();
+      volume.of_walls.emplace_back();
+      for (std::size_t k = 0; k < triangles_[i].size(); ++k) {
+        const double area = triangles_[i][k].area;
+        volume.of_walls.back().push_back(worn_ * work_[i][k]);
+        depth.of_walls.back().push_back(area > 0 ? worn_ * work_[i][k] / area : 0);
+      }
+    }
+    return {depth, volume};
   }
 
   std::string save() const override {
@@ -157,38 +179,33 @@ class Wear final : public Measurement {
   }
 
   void write_triangle(const Sample& sample, std::size_t index, std::size_t triangle, TableText& table) const {
-    const Wall& wall = sample.world.scene().walls[index];
     const double work = work_[index][triangle];
-    table.add(sample.time).add(wall.name);
+    table.add(sample.time).add(sample.world.scene().walls[index].name);
     if (triangles_[index].empty()) {
       constexpr int kOfTriangle = 5;
       table.blank(kOfTriangle).add(work).add(worn_ * work).blank().end_line();
       return;
     }
-    Polygon corners;
-    for (const unsigned int vertex : triangles_[index][triangle]) {
-      const auto& [x, y, z] = std::get<MeshShape>(wall.shape).vertices[vertex];
-      corners.emplace_back(wall.start(Vector3(x, y, z)));
-    }
-    const auto& [area, centroid] = extent_of(part_in_cell(corners, sample.world.scene().periodic));
+    const auto& [area, centroid] = triangles_[index][triangle];
     table.add(triangle).add(centroid).add(area).add(work).add(worn_ * work);
     area > 0 ? table.add(worn_ * work / area).end_line() : table.blank().end_line();
   }
 
   double worn_;
   Per per_;
-  std::vector<Triangles> triangles_;       // of each wall of the scene; empty for walls that are not chosen, or no mesh
-  std::vector<std::vector<double>> work_;  // N m, of each triangle, or of the whole wall; empty for walls that are not chosen
+  std::vector<std::vector<Extent>> triangles_;  // of each wall of the scene; empty for walls that are not chosen, or no mesh
+  std::vector<std::vector<double>> work_;       // N m, of each triangle, or of the whole wall; empty for walls that are not chosen
 };
 
 }  // namespace
 
 MeasurementKind wear_kind() {
+  constexpr double kSoftest = 1e4;   // Pa; as soft as jelly, and above the numbers that hardnesses have in GPa, MPa or HV
   constexpr double kHardest = 1e12;  // Pa; diamond has 1e11
   return {.name = "wear",
           .measures = "the volume that sliding grains have worn off walls since `from`, by Archard's law",
           .parameters = {{"coefficient", "1, in (0, 1]: the wear coefficient k of Archard's law; 1e-8 to 1e-2 is usual"},
-                         {"hardness", "Pa, in (0, 1e12]: of the softer one of wall and grains"},
+                         {"hardness", "Pa, in [1e4, 1e12]: of the softer one of wall and grains"},
                          {"surfaces", "names of walls, as for part_force; without it all"},
                          {"per", "wall or triangle, for triangles of meshes with wear; wall without it"}},
           .columns =
@@ -199,7 +216,7 @@ MeasurementKind wear_kind() {
           .follows = true,
           .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             const double coefficient = table.number("coefficient", Interval::positive(1, ""));
-            const double hardness = table.number("hardness", Interval::positive(kHardest, "Pa"));
+            const double hardness = table.number("hardness", Interval::closed(kSoftest, kHardest, "Pa"));
             const std::vector<std::string> names = read_surfaces(table, scene);
             const bool is_per_triangle = table.has("per") && table.choice("per", {"wall", "triangle"}) == "triangle";
             const auto per = is_per_triangle ? Wear::Per::Triangle : Wear::Per::Wall;

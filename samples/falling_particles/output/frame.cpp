@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "wall_mesh.hpp"
 #include "world/stepper.hpp"
@@ -58,6 +60,15 @@ void add_contacts(Frame& frame, const World& world, const Stepper& stepper, bool
   if (!frame.contacts.empty()) return;
   frame.contacts.reserve(stepper.contact_geoms().size());
   for (const dContactGeom& contact : stepper.contact_geoms()) frame.contacts.push_back(state_of(contact, world));
+}
+
+/// Null for a picture of several walls.
+const Wall* wall_of(std::size_t picture, const Contents& contents) {
+  const std::span<const Wall> parts = contents.scene->parts();
+  const std::size_t sides = contents.walls.size() - parts.size();
+  if (picture >= sides) return &parts[picture - sides];
+  const auto found = std::ranges::find(contents.scene->walls, contents.walls[picture].name, &Wall::name);
+  return found == contents.scene->walls.end() || found->is_part() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -128,6 +139,19 @@ Frame frame_of(double time, const Energy& energy, const Contents& contents, cons
   }
   if (stepper != nullptr) add_contacts(frame, world, *stepper, with_forces);
   return frame;
+}
+
+std::vector<TriangleField> fields_on(const Contents& contents, std::vector<TriangleField> fields) {
+  for (TriangleField& field : fields) {
+    std::vector<std::vector<double>> of_walls;
+    for (std::size_t i = 0; i < contents.walls.size(); ++i) {
+      const Wall* const wall = wall_of(i, contents);
+      const auto index = wall == nullptr ? field.of_walls.size() : static_cast<std::size_t>(wall - contents.scene->walls.data());
+      of_walls.push_back(index < field.of_walls.size() ? field.of_walls[index] : std::vector<double>());
+    }
+    field.of_walls = std::move(of_walls);
+  }
+  return fields;
 }
 
 }  // namespace falling_particles

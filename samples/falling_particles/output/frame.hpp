@@ -10,6 +10,7 @@
 #include "model/scene.hpp"
 #include "observe/container_picture.hpp"
 #include "observe/energy.hpp"
+#include "observe/triangle_field.hpp"
 
 namespace falling_particles {
 
@@ -69,10 +70,11 @@ struct Frame {
   std::vector<GrainState> grains;
   std::vector<ContactState> contacts;  ///< of the last step; none at the start. The contacts of a pair are consecutive
   std::vector<WallPlace> wall_places;  ///< of Contents::walls
+  std::vector<TriangleField> fields;   ///< on Contents::walls
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(time, energy, grains, contacts, wall_places);
+    archive(time, energy, grains, contacts, wall_places, fields);
   }
 };
 
@@ -108,5 +110,8 @@ void add_new_grains(Contents& contents, const World& world);
 /// `stepper`: null before the first step. `with_forces`: shows the contacts with their forces, if the step measured them.
 Frame frame_of(double time, const Energy& energy, const Contents& contents, const World& world, const Stepper* stepper,
                bool with_forces = true);
+
+/// The fields of a measurement, on the walls of the contents instead of those of the scene.
+std::vector<TriangleField> fields_on(const Contents& contents, std::vector<TriangleField> fields);
 
 }  // namespace falling_particles

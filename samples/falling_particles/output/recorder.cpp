@@ -28,11 +28,12 @@ Recorder::Recorder(const OutputFolder& folder, const Scene& scene, const Simulat
   if (logs_frames && !pictures_.empty()) log_.emplace(folder.file(std::string(kFrameLogFile)), saved.log);
 }
 
-void Recorder::record(double time, const Simulation& simulation, bool with_forces) {
+void Recorder::record(double time, const Simulation& simulation, bool with_forces, const std::vector<TriangleField>& fields) {
   if (pictures_.empty()) return;
   add_new_grains(contents_, simulation.world);
   const Energy energy = measure_energy(simulation.world, *contents_.scene);
-  const Frame frame = frame_of(time, energy, contents_, simulation.world, &simulation.stepper, with_forces);
+  Frame frame = frame_of(time, energy, contents_, simulation.world, &simulation.stepper, with_forces);
+  frame.fields = fields_on(contents_, fields);
   for (const std::unique_ptr<Picture>& picture : pictures_) picture->add(frame);
   if (log_) log_->add(frame);
 }

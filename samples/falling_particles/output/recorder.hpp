@@ -32,8 +32,8 @@ class Recorder {
   /// Resumes from the state of another recorder.
   Recorder(const OutputFolder& folder, const Scene& scene, const Simulation& simulation, const RecorderState& saved);
 
-  /// `with_forces`: shows the forces that the last step has measured.
-  void record(double time, const Simulation& simulation, bool with_forces);
+  /// `with_forces`: shows the forces that the last step has measured. `fields`: on the walls of the scene.
+  void record(double time, const Simulation& simulation, bool with_forces, const std::vector<TriangleField>& fields);
 
   /// Whether the contacts of a frame need their forces.
   bool wants_forces() const { return contents_.scene->forces && !pictures_.empty(); }

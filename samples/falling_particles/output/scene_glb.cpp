@@ -20,15 +20,17 @@ namespace {
 // Relative to the smallest half-axis of a grain: most grains have a few hundred triangles and no visible edges.
 constexpr double kAnimationChordError = 0.02;
 
+constexpr std::array<double, 4> kWallColour = {0.25, 0.3, 0.37, 0.16};  // linear, and transparent
+
 /// Builds the glTF model.
 class Builder {
  public:
-  explicit Builder(const Contents& contents) {
+  Builder(const Contents& contents, const std::vector<TriangleField>& fields) {
     model_.asset.version = "2.0";
     model_.asset.generator = "falling_particles";
     model_.buffers.resize(1);
     for (std::size_t index = 0; index < contents.scene->kinds.size(); ++index) add_kind(contents.scene->kinds[index].kind, index);
-    for (const WallPicture& wall : contents.walls) add_wall(wall);
+    for (std::size_t wall = 0; wall < contents.walls.size(); ++wall) add_wall(contents.walls[wall], field_on(wall, fields));
     add_nodes(contents);
   }
 
@@ -163,14 +165,29 @@ class Builder {
     return add_accessor(add_view(TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER), corners, TINYGLTF_TYPE_SCALAR);
   }
 
+  /// The numbers of a field on a wall.
+  struct WallField {
+    std::string name;
+    std::vector<double> numbers;  // of the triangles; empty without a field
+    double most = 0;              // on any wall
+  };
+
+  /// The first field that has numbers on the wall.
+  static WallField field_on(std::size_t wall, const std::vector<TriangleField>& fields) {
+    const auto found = std::ranges::find_if(fields, [&](const TriangleField& field) { return !field.of_walls[wall].empty(); });
+    if (found == fields.end()) return {};
+    WallField field{found->name, found->of_walls[wall]};
+    for (const std::vector<double>& numbers : found->of_walls) {
+      for (const double number : numbers) field.most = std::max(field.most, number);
+    }
+    return field;
+  }
+
   /// Adds a wall: transparent triangles, and edges as lines. Viewers compute flat normals for triangles without normals.
-  void add_wall(const WallPicture& wall) {
-    supernormal::Tessellation points;
-    for (const auto& [x, y, z] : wall.mesh.vertices) points.points.emplace_back(x, y, z);
-    const int positions = add_vectors(points.points);
-    bound(model_.accessors[static_cast<std::size_t>(positions)], points);
+  void add_wall(const WallPicture& wall, const WallField& field) {
     tinygltf::Mesh mesh;
     mesh.name = wall.name;
+    const int positions = add_points(wall.mesh.vertices);
     const auto add = [&](const auto& tuples, int mode) {
       if (tuples.empty()) return;
       tinygltf::Primitive primitive;
@@ -180,12 +197,49 @@ class Builder {
       primitive.indices = add_indices(tuples);
       mesh.primitives.push_back(std::move(primitive));
     };
-    add(wall.mesh.triangles, TINYGLTF_MODE_TRIANGLES);
+    if (field.numbers.empty()) add(wall.mesh.triangles, TINYGLTF_MODE_TRIANGLES);
     add(wall.edges, TINYGLTF_MODE_LINE);
+    add_wall_material(wall.name, kWallColour);
+    if (!field.numbers.empty()) add_coloured(wall, field, mesh);
     model_.meshes.push_back(std::move(mesh));
+  }
+
+  /// Adds triangles with vertices of their own, each with a colour and its number. The colour runs from the one of other walls at
+  /// 0 to red at the largest number.
+  void add_coloured(const WallPicture& wall, const WallField& field, tinygltf::Mesh& mesh) {
+    constexpr std::array<double, 4> kMost = {0.8, 0.05, 0.02, 1};  // linear, and opaque
+    std::vector<std::array<float, 3>> corners;
+    std::vector<float> colours, numbers;
+    for (std::size_t k = 0; k < wall.mesh.triangles.size(); ++k) {
+      const double fraction = field.most > 0 ? field.numbers[k] / field.most : 0;
+      for (const unsigned int vertex : wall.mesh.triangles[k]) {
+        corners.push_back(wall.mesh.vertices[vertex]);
+        numbers.push_back(static_cast<float>(field.numbers[k]));
+        for (std::size_t i = 0; i < 4; ++i) colours.push_back(static_cast<float>(std::lerp(kWallColour[i], kMost[i], fraction)));
+      }
+    }
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.material = static_cast<int>(model_.materials.size());
+    primitive.attributes["POSITION"] = add_points(corners);
+    primitive.attributes["COLOR_0"] = add_accessor(add_view(TINYGLTF_TARGET_ARRAY_BUFFER), colours, TINYGLTF_TYPE_VEC4);
+    primitive.attributes['_' + field.name] = add_accessor(add_view(TINYGLTF_TARGET_ARRAY_BUFFER), numbers, TINYGLTF_TYPE_SCALAR);
+    mesh.primitives.push_back(std::move(primitive));
+    add_wall_material(wall.name + ' ' + field.name, {1, 1, 1, 1});  // a factor on the colours
+  }
+
+  int add_points(const std::vector<std::array<float, 3>>& vertices) {
+    supernormal::Tessellation points;
+    for (const auto& [x, y, z] : vertices) points.points.emplace_back(x, y, z);
+    const int positions = add_vectors(points.points);
+    bound(model_.accessors[static_cast<std::size_t>(positions)], points);
+    return positions;
+  }
+
+  void add_wall_material(std::string name, const std::array<double, 4>& colour) {
     tinygltf::Material material;
-    material.name = wall.name;
-    material.pbrMetallicRoughness.baseColorFactor = {0.25, 0.3, 0.37, 0.16};
+    material.name = std::move(name);
+    material.pbrMetallicRoughness.baseColorFactor.assign(colour.begin(), colour.end());
     material.pbrMetallicRoughness.metallicFactor = 0;
     material.pbrMetallicRoughness.roughnessFactor = 1;
     material.alphaMode = "BLEND";
@@ -280,6 +334,7 @@ void SceneGlb::add(const Frame& frame) {
     const WallPlace& place = frame.wall_places[wall];
     walls_[wall].add(place.position, place.quaternion, place.scale);
   }
+  fields_ = frame.fields;
 }
 
 void SceneGlb::add_grain(std::size_t grain, const GrainState& state) {
@@ -294,7 +349,7 @@ void SceneGlb::add_grain(std::size_t grain, const GrainState& state) {
 }
 
 void SceneGlb::finish(const std::string& /*summary*/) {
-  Builder builder(contents_);
+  Builder builder(contents_, fields_);
   std::size_t node = 0;
   for (const std::vector<Track>* tracks : {&grains_, &walls_}) {
     for (const Track& track : *tracks) {

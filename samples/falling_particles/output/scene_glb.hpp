@@ -12,6 +12,7 @@ namespace falling_particles {
 /// scene.glb: glTF 2.0, binary. It has a mesh per kind of grain with smooth normals. Each grain is a node, in the order of the
 /// indices, with the mesh of its kind and a scale for its size. The translations and rotations of moving grains are animated;
 /// absent grains have scale 0. Each wall is a node, which is scaled when it changes. A root node rotates the z-axis upwards.
+/// A wall has the colours and numbers of the first field with numbers on it, at the end of the run.
 /// Lengths are in m. The file is written at the end of a run; until then a grain needs 28 bytes per frame.
 class SceneGlb final : public Picture {
  public:
@@ -37,7 +38,8 @@ class SceneGlb final : public Picture {
   const Contents& contents_;
   std::vector<float> times_;
   std::vector<Track> grains_;
-  std::vector<Track> walls_;  // of the walls
+  std::vector<Track> walls_;           // of the walls
+  std::vector<TriangleField> fields_;  // of the last frame
 };
 
 }  // namespace falling_particles

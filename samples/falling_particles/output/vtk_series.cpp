@@ -56,8 +56,9 @@ std::string cloud(std::size_t count, const std::string& points, const std::strin
                    "<PointData>\n" + data + "</PointData>\n<Points>\n" + points + "</Points>\n" + cells("Verts", corners));
 }
 
-/// The present walls, as one piece.
-std::string container_of(const std::vector<WallPicture>& walls, const std::vector<WallPlace>& places) {
+/// The present walls, as one piece. Fields are 0 on edges, which come before the triangles, and on walls without numbers.
+std::string container_of(const std::vector<WallPicture>& walls, const Frame& frame) {
+  const std::vector<WallPlace>& places = frame.wall_places;
   std::vector<Point> points;
   std::vector<std::array<unsigned int, 2>> edges;
   std::vector<std::array<unsigned int, 3>> triangles;
@@ -68,9 +69,20 @@ std::string container_of(const std::vector<WallPicture>& walls, const std::vecto
     for (const auto& [a, b] : walls[wall].edges) edges.push_back({first + a, first + b});
     for (const auto& [a, b, c] : walls[wall].mesh.triangles) triangles.push_back({first + a, first + b, first + c});
   }
+  std::string data;
+  for (const TriangleField& field : frame.fields) {
+    std::vector<double> numbers(edges.size());
+    for (std::size_t wall = 0; wall < walls.size(); ++wall) {
+      if (places[wall].scale == 0) continue;
+      numbers.insert(numbers.end(), field.of_walls[wall].begin(), field.of_walls[wall].end());
+      if (field.of_walls[wall].empty()) numbers.resize(numbers.size() + walls[wall].mesh.triangles.size());
+    }
+    data += array(field.name, "Float64", numbers.size(), [&](std::size_t k) { return std::array{numbers[k]}; });
+  }
   return poly_data(points.size(), {0, edges.size(), triangles.size()},
-                   "<Points>\n" + array("position", "Float64", points.size(), [&](std::size_t k) { return points[k]; }) +
-                       "</Points>\n" + cells("Lines", edges) + cells("Polys", triangles));
+                   (data.empty() ? "" : "<CellData>\n" + data + "</CellData>\n") + "<Points>\n" +
+                       array("position", "Float64", points.size(), [&](std::size_t k) { return points[k]; }) + "</Points>\n" +
+                       cells("Lines", edges) + cells("Polys", triangles));
 }
 
 std::string contacts_of(const Frame& frame, bool has_forces) {
@@ -105,10 +117,11 @@ VtkSeries::VtkSeries(const OutputFolder& folder, const Contents& contents)
 void VtkSeries::add(const Frame& frame) {
   list(grains_, frame.time, write("grains", grains_of(frame)));
   list(contacts_, frame.time, write("contacts", contacts_of(frame, contents_.scene->forces)));
-  if (frames_ == 0 || frame.wall_places != wall_places_) {
-    container_ = write("container", container_of(contents_.walls, frame.wall_places));
+  if (frames_ == 0 || frame.wall_places != wall_places_ || frame.fields != fields_) {
+    container_ = write("container", container_of(contents_.walls, frame));
   }
   wall_places_ = frame.wall_places;
+  fields_ = frame.fields;
   list(containers_, frame.time, container_);
   ++frames_;
 }

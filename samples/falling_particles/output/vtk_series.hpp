@@ -17,8 +17,8 @@ namespace falling_particles {
 /// (delta, epsilon), rounding (m), velocity (m/s) and angular velocity (rad/s). A compound has a point per component. A capsule
 /// is the ellipsoid of its size. In scenes with compounds, feeders or sinks, `grain` is the index of the point's grain. Absent
 /// grains are left out. A contact is a point with its normal (unit, towards grain 1), depth (m) and the two grains (-1: a wall). If
-/// the scene requests forces, it has the force on grain 1 (N). The container's triangles face the grains; there is a new file
-/// whenever a wall has changed.
+/// the scene requests forces, it has the force on grain 1 (N). The container's triangles face the grains, and have the
+/// fields of measurements; there is a new file whenever a wall has changed.
 class VtkSeries final : public Picture {
  public:
   static constexpr std::string_view kFramesFolder = "vtk";  ///< within the folder of the results
@@ -38,6 +38,7 @@ class VtkSeries final : public Picture {
   std::string grains_, contacts_, containers_;  // entries of the lists
   std::string container_;                       // the latest file of the container
   std::vector<WallPlace> wall_places_;          // of the walls in this file
+  std::vector<TriangleField> fields_;           // on the walls in this file
   int frames_ = 0;
 };
 

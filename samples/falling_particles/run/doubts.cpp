@@ -57,16 +57,6 @@ double normal_speed(const WallMotion& motion, const SurfacePoint& point, bool tu
   return 0;  // a conveyor stands
 }
 
-/// m, the displacement of a driven wall in its first step, from rest without resistance; of its farthest point if it turns.
-double first_way_of(const Wall& wall, double step) {
-  const Drive& drive = *wall.drive;
-  if (drive.servo) return step * std::min(drive.servo->largest_speed, drive.servo->gain * drive.servo->stress);
-  const double way = step * step * std::abs(push_of(drive, 0, step)) / (drive.mass + step * drive.damping);
-  const double radius = bounding_radius(wall.shape);
-  if (!drive.turns() || !std::isfinite(radius)) return way;
-  return way * (radius + drive.axis.cross(wall.start.position - *drive.point).norm());
-}
-
 /// What would make the first displacement of a driven wall smaller, by `factor`.
 std::string slower(const Drive& drive, double factor) {
   if (drive.servo) return "part.drive.largest_speed up to " + rounded(drive.servo->largest_speed / factor) + " m/s would do";
@@ -76,10 +66,6 @@ std::string slower(const Drive& drive, double factor) {
 
 std::string in_half_axes(double way, const Scene& scene) {
   return rounded(way / scene.smallest_half_axis()) + " of the smallest half-axis (" + shortest(scene.smallest_half_axis()) + " m)";
-}
-
-std::string moves_too_far(const std::string& who, double way, const Scene& scene) {
-  return who + " " + rounded(way) + " m in a step, " + in_half_axes(way, scene) + ": it may pass through what is in its way; ";
 }
 
 /// Adds a doubt about a time that is no multiple of the step.
@@ -133,6 +119,23 @@ bool has_soft_contacts(const Scene& scene) {
   return has_effect<supernormal::effects::Compliance>(scene) || has_effect<supernormal::effects::Hertz>(scene);
 }
 
+// Adds a doubt about a step in which gravity moves grains so far from rest that their beds sink. README.md, "Before a run", has the
+// measurement. A start on a lattice without look-ahead has the doubt about its fall.
+void add_sinking(const Scene& scene, std::vector<std::string>& doubts) {
+  constexpr double kFar = 0.1;      // of the smallest half-axis; twice as far, beds sink by up to 0.2 of it
+  constexpr double kFarAhead = 10;  // the same for grains that look ahead, which sink by up to 0.12
+  const auto* const gravity = scene.gravity();
+  if (gravity == nullptr || has_soft_contacts(scene) || scene.compression) return;
+  const std::optional<Fall> fall = fall_from_start(scene);
+  if (!scene.looks_ahead() && fall && fall->way > scene.smallest_half_axis()) return;
+  const double acceleration = gravity->acceleration.norm();
+  const double way = acceleration * scene.time.step * scene.time.step;
+  const double most = (scene.looks_ahead() ? kFarAhead : kFar) * scene.smallest_half_axis();
+  if (way <= most) return;
+  doubts.push_back("from rest, grains fall " + rounded(way) + " m in a step, " + in_half_axes(way, scene) +
+                   ": their beds sink and shake; time.step up to " + rounded(std::sqrt(most / acceleration)) + " s would do");
+}
+
 void add_solver(const Scene& scene, std::vector<std::string>& doubts) {
   constexpr double kSunk = 0.1;  // of the smallest half-axis
   if (has_soft_contacts(scene) || scene.compression) return;
@@ -155,15 +158,10 @@ struct Extremes {
   double least = INFINITY;  // kg
 };
 
-bool is_brought(const GrainCount& entry, const Scene& scene) {
-  const auto is_entry = [&](const FedKind& fed) { return &scene.kinds[fed.kind] == &entry; };
-  return std::ranges::any_of(scene.feeders, [&](const Feeder& feeder) { return std::ranges::any_of(feeder.mixture, is_entry); });
-}
-
 Extremes extremes_of(const Scene& scene) {
   Extremes found;
   for (const GrainCount& entry : scene.kinds) {
-    if (entry.count == 0 && !is_brought(entry, scene)) continue;
+    if (!scene.has_grains_of(entry)) continue;
     const double mass = mass_of(entry.kind);
     const double most = std::pow(entry.largest_scale(), 3) * mass;
     const double least = std::pow(entry.smallest_scale(), 3) * mass;
@@ -385,7 +383,9 @@ std::map<std::string, WallPose, std::less<>> poses_left_in(const std::filesystem
 
 /// Adds doubts about free parts that do not start where the run that left the state has left them: a state holds grains alone.
 void add_left_parts(const Scene& scene, std::vector<std::string>& doubts) {
-  constexpr double kTyped = 0.01;  // of the smallest half-axis: typed numbers may have three digits
+  // Of the smallest half-axis. In the scene plate this moves grains as another seed does, 0.02 ten times as far; 0.001 doubts
+  // numbers with four digits, 0.1 is silent about three.
+  constexpr double kTyped = 0.01;
   if (!scene.start || std::ranges::none_of(scene.parts(), [](const Wall& part) { return part.flight.has_value(); })) return;
   const std::filesystem::path file = scene.start->file.parent_path() / "parts.csv";
   const auto poses = poses_left_in(file);
@@ -478,6 +478,19 @@ void refuse_start_in_parts(const World& world) {
 
 }  // namespace
 
+double first_way_of(const Wall& wall, double step) {
+  const Drive& drive = *wall.drive;
+  if (drive.servo) return step * std::min(drive.servo->largest_speed, drive.servo->gain * drive.servo->stress);
+  const double way = step * step * std::abs(push_of(drive, 0, step)) / (drive.mass + step * drive.damping);
+  const double radius = bounding_radius(wall.shape);
+  if (!drive.turns() || !std::isfinite(radius)) return way;
+  return way * (radius + drive.axis.cross(wall.start.position - *drive.point).norm());
+}
+
+std::string moves_too_far(const std::string& who, double way, const Scene& scene) {
+  return who + " " + rounded(way) + " m in a step, " + in_half_axes(way, scene) + ": it may pass through what is in its way; ";
+}
+
 std::optional<Fall> fall_from_start(const Scene& scene) {
   const auto* const gravity = scene.gravity();
   const bool is_on_lattice = scene.grains_at_start() > 0 && !scene.start && !std::holds_alternative<Periodic>(scene.container);
@@ -526,6 +539,7 @@ std::vector<std::string> doubts_about(const Scene& scene) {
   add_fall(scene, doubts);
   add_speed(scene, doubts);
   add_left_parts(scene, doubts);
+  add_sinking(scene, doubts);
   add_solver(scene, doubts);
   add_mass_ratio(scene, doubts);
   add_layer(scene, doubts);
@@ -533,6 +547,7 @@ std::vector<std::string> doubts_about(const Scene& scene) {
   add_rolling(scene, doubts);
   add_walls(scene, doubts);
   add_feeders(scene, doubts);
+  std::ranges::move(doubts_about_springs(scene), std::back_inserter(doubts));
   std::ranges::move(doubts_about_origins(scene), std::back_inserter(doubts));
   std::ranges::move(doubts_about_measurements(scene), std::back_inserter(doubts));
   return doubts;

@@ -29,6 +29,12 @@ std::optional<double> step_for_look_ahead(const Scene& scene);
 /// are added.
 double normal_way_of(const Wall& wall, const Scene& scene);
 
+/// m, the displacement of a driven wall in its first step, from rest without resistance; of its farthest point if it turns.
+double first_way_of(const Wall& wall, double step);
+
+/// A sentence about something that moves by more than a half-axis in a step, without its end: a remedy.
+std::string moves_too_far(const std::string& who, double way, const Scene& scene);
+
 /// A sentence for each doubt about a valid scene, with a remedy.
 std::vector<std::string> doubts_about(const Scene& scene);
 
@@ -38,6 +44,9 @@ std::vector<std::string> doubts_about_origins(const Scene& scene);
 
 /// Sentences about measurements whose box or plane no grain reaches (reach.cpp).
 std::vector<std::string> doubts_about_measurements(const Scene& scene);
+
+/// Sentences about springs of contacts that last fewer than ten steps (springs.cpp). A run counts these contacts as coarse.
+std::vector<std::string> doubts_about_springs(const Scene& scene);
 
 /// Throws InputError when a grain of the start overlaps a wall. It would be pushed out on either side, or not at all. The grains of
 /// a state may overlap one another and walls by StartState::overlap, and must be within the container.

@@ -165,6 +165,52 @@ void add_servos(const World& world, const std::vector<Lookout>& origins, std::ve
   }
 }
 
+/// m along the axis of a drive: of the foremost point of its wall at the start, or of a plane.
+double front_along(const Wall& wall, dGeomID geom) {
+  const Vector3& axis = wall.drive->axis;
+  if (std::holds_alternative<PlaneShape>(wall.shape)) return axis.dot(wall.start.position);
+  dReal box[6];
+  dGeomGetAABB(geom, box);
+  double front = 0;
+  for (int i = 0; i < 3; ++i) front += axis[i] * box[2 * i + (axis[i] > 0 ? 1 : 0)];
+  return front;
+}
+
+/// m/s, of a wall that slides from rest, without grains.
+double speed_after(double way, const Drive& drive, const Vector3& gravity) {
+  const double force = drive.force + drive.mass * gravity.dot(drive.axis);
+  double speed = std::sqrt(2 * std::max(0.0, force) / drive.mass * way);
+  if (drive.damping > 0) speed = std::min(speed, force / drive.damping);
+  if (drive.power > 0) speed = std::min(speed, std::cbrt(3 * drive.power * way / drive.mass));
+  return speed;
+}
+
+/// Adds doubts about walls that become so fast before they meet a grain that they may jump over it.
+void add_fast(const World& world, const std::vector<Lookout>& origins, std::vector<std::string>& doubts) {
+  const Scene& scene = world.scene();
+  if (scene.looks_ahead()) return;
+  const Vector3 gravity = scene.gravity() == nullptr ? Vector3::Zero() : scene.gravity()->acceleration;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    const Wall& wall = scene.walls[i];
+    if (!wall.drive || wall.drive->servo || wall.drive->turns()) continue;
+    if (first_way_of(wall, scene.time.step) > scene.smallest_half_axis()) continue;  // a doubt of its own
+    const double front = front_along(wall, world.walls().geoms()[i]) + scene.largest_bounding_radius();
+    double way = INFINITY;
+    for (const Lookout& origin : origins) {
+      for (const Point& place : origin.places) {
+        const double ahead = wall.drive->axis.dot(Vector3(place[0], place[1], place[2])) - front;
+        if (ahead > 0) way = std::min(way, ahead);
+      }
+    }
+    way = std::min(way, wall.drive->travel[1]);
+    const double speed = std::isfinite(way) ? speed_after(way, *wall.drive, gravity) : 0;
+    if (!(speed * scene.time.step > scene.smallest_half_axis())) continue;
+    doubts.push_back(moves_too_far("part \"" + wall.name + "\" is driven up to the first grain with " + rounded(speed) + " m/s,",
+                                   speed * scene.time.step, scene) +
+                     "time.step up to " + rounded(scene.smallest_half_axis() / speed) + " s would do");
+  }
+}
+
 std::string name_of(dGeomID solid, const World& world) {
   const Wall* wall = world.walls().wall_of(solid);
   return wall != nullptr && wall->is_part() ? "part \"" + wall->name + '"' : "the container";
@@ -219,6 +265,7 @@ std::vector<std::string> doubts_about_origins(const Scene& scene) {
   }
   add_unreached(world, doubts);
   add_servos(world, origins, doubts);
+  add_fast(world, origins, doubts);
   return doubts;
 }
 

@@ -15,7 +15,9 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kHigher = 9;  // times as high as before rebounds a light grain from a heavy one that falls with it
+// Times as high as before rebounds a light grain from a heavy one that falls with it. 1 : 1000 in mass reached 7.6, a bed with a
+// restitution of 0.95 reached 4.3, which 4 doubts; 18 is silent about a height in mm for one in cm.
+constexpr double kHigher = 9;
 
 /// An interval of an axis, m.
 struct Span {

@@ -149,7 +149,7 @@ void StepwiseRun::record() {
   recorded_step_ = step_;
   if (!files_) return;
   measuring_->after_watches(step_, time(), true);
-  recorder_->record(time(), *simulation_, results_need_forces_);
+  recorder_->record(time(), *simulation_, results_need_forces_, measuring_->fields());
 }
 
 void StepwiseRun::advance_to(int until, Progress* progress) {

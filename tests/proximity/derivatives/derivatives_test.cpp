@@ -228,6 +228,10 @@ TEST_CASE("derivatives: a body and a plane have the derivatives of the explicit 
         DerivativeStatus::InvalidInput);
 }
 
+TEST_CASE("derivatives: their layout does not depend on the instructions that a program is compiled for") {
+  CHECK(alignof(ProximityDerivatives) == alignof(double));  // Eigen aligns to a vector of the processor, if anything
+}
+
 TEST_CASE("derivatives: the status says what is not defined, and nothing is NaN") {
   const Box box(Vector3(1, 2, 3));
   const Superellipsoid sharp(Vector3(1, 1, 1), 1.01, 1.01), brick(Vector3(1, 1, 1), 200, 200);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -14,6 +15,9 @@
 #include "observe/measuring.hpp"
 #include "observe/simulation.hpp"
 #include "output/picture.hpp"
+#include "read_array.hpp"
+#include "run/checkpoints.hpp"
+#include "run/stepwise_run.hpp"
 #include "samples/complaint.hpp"
 #include "support/relative.hpp"
 #include "support/temporary_folder.hpp"
@@ -198,6 +202,49 @@ TEST_CASE("wear: each triangle has the wear of the way across it") {
   CHECK(sum == relative(weight * 0.04).epsilon(0.01));
 }
 
+TEST_CASE("wear: VTK and glTF files show the wear of each triangle of a mesh, and all triangles have the wear of the wall") {
+  const TemporaryFolder folder;
+  // The strip of the test above, and a box, whose triangles are those of its picture alone.
+  const std::string mesh =
+      folder.write("strip.obj",
+                   "v -0.02 -0.02 0\nv 0.02 -0.02 0\nv 0.06 -0.02 0\nv -0.02 0.02 0\nv 0.02 0.02 0\nv 0.06 0.02 "
+                   "0\nf 1 2 5\nf 1 5 4\nf 2 3 6\nf 2 6 5\n");
+  const std::string strip =
+      "[[part]]\nname = \"block\"\nshape = \"box\"\nsize = [0.01, 0.01, 0.01]\nposition = [1, 1, 1]\n"
+      "[[part]]\nname = \"strip\"\nshape = \"mesh\"\nunit = \"m\"\ntwo_sided = true\nfile = \"" +
+      mesh + "\"\n";
+  Scene scene = with_grains(
+      open_scene(strip + wear_every(0.1) + wear_every(0.1, "name = \"worn\"\nper = \"triangle\"\n"), 0.1, kGravity, kNoFriction),
+      {moving(kDie, {0, 0, 6e-3 - 1e-6}, {0.4, 0, 0})});
+  scene.pictures = {"vtk", "glb"};
+  OutputFolder results(folder.path() / "out", scene.name, result_names());
+  Checkpoints checkpoints(results, scene, 0);
+  StepwiseRun steps(scene, 1, StepwiseRun::Files{results, checkpoints});
+  steps.advance(scene.time.steps(), nullptr);
+  steps.finish();
+  const std::filesystem::path out = results.path();
+
+  const std::string last = read_file(out / "vtk" / "container_000010.vtp");
+  const std::vector<double> volumes = read_array(last, "worn_volume"), depths = read_array(last, "worn_depth");
+  const std::size_t edges = read_array(last, "offsets").size();
+  REQUIRE(volumes.size() == edges + 12 + 4);  // the triangles of the block come before those of the strip
+  REQUIRE(depths.size() == volumes.size());
+  const MeasuredTable table = parsed(read_file(out / "measurements" / "worn.csv"));
+  double sum = 0;
+  for (std::size_t k = 0; k < volumes.size(); ++k) {
+    if (k < edges + 12) CHECK(volumes[k] == 0);
+    CHECK(std::abs(8e-4 * depths[k] - volumes[k]) <= 1e-6 * volumes[k]);
+    sum += volumes[k];
+  }
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    CHECK(volumes[edges + 12 + static_cast<std::size_t>(table.number("triangle", row))] ==
+          relative(table.number("worn_volume_m3", row)).epsilon(1e-9));
+  }
+  const MeasuredTable total = parsed(read_file(out / "measurements" / "wear.csv"));
+  CHECK(sum == relative(total.number("worn_volume_m3", 1)).epsilon(1e-12));
+  CHECK(sum == relative(kCoefficient / kHardness * grain_mass(scene, kDie) * kGravity * 0.4 * 0.1).epsilon(0.01));
+}
+
 TEST_CASE("wear: in a periodic cell the area and centroid of a triangle belong to its part in the cell") {
   const TemporaryFolder folder;
   // 80 mm along x; along y 30 mm longer than the cell at both ends. The diagonal is at x = 20 mm in the middle.
@@ -217,6 +264,13 @@ TEST_CASE("wear: in a periodic cell the area and centroid of a triangle belong t
     const double shift_y = 0.1 * (0.065 - 0.015) / (6 * (0.065 + 0.015));
     CHECK(table.number("y_m", row) == relative(0.05 - sign * shift_y).epsilon(1e-6));
     CHECK(table.number("worn_depth_m", row) == relative(table.number("worn_volume_m3", row) / 4e-3).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("wear: a hardness in GPa, MPa or HV is refused") {
+  for (const char* const hardness : {"1.5", "1500", "200"}) {
+    const std::string text = complaint(open_scene(kFloor + replaced(wear_every(0.1), "1.5e9", hardness), 0.1));
+    check_says(text, {"measurement.hardness is", hardness, "1e+12] Pa"});
   }
 }
 
@@ -524,7 +578,7 @@ TEST_CASE("measurements that follow a run: mistakes are told with what is allowe
   const std::vector<std::pair<std::string, std::vector<const char*>>> mistakes = {
       {"kind = \"wear\"\nhardness = 1e9\n", {"measurement.coefficient is missing", "(0, 1]"}},
       {"kind = \"wear\"\ncoefficient = 2\nhardness = 1e9\n", {"measurement.coefficient is 2", "(0, 1]"}},
-      {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 0\n", {"measurement.hardness is 0", "(0, 1e+12] Pa"}},
+      {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 0\n", {"measurement.hardness is 0", "[10000, 1e+12] Pa"}},
       {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 1e9\nsurfaces = [\"flor\"]\n", {"surfaces[0]", "did you mean \"floor\"?"}},
       {"kind = \"wear\"\ncoefficient = 1e-3\nhardness = 1e9\nsurfaces = [\"floor\", \"floor\"]\n",
        {"surfaces[1] is the string \"floor\" for the second time; allowed"}},

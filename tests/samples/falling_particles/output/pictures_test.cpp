@@ -15,6 +15,7 @@
 #include "model/picture_names.hpp"
 #include "output/picture.hpp"
 #include "output/wall_mesh.hpp"
+#include "read_array.hpp"
 #include "scenes.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -104,15 +105,6 @@ std::vector<float> read(const tinygltf::Model& model, int accessor) {
   return numbers;
 }
 
-/// The numbers of the array of that name in a .vtp file.
-std::vector<double> read_array(const std::string& text, const std::string& name) {
-  const std::size_t at = text.find("Name=\"" + name + "\"");
-  REQUIRE(at != std::string::npos);
-  const std::size_t start = text.find('>', at) + 1;
-  std::istringstream stream(text.substr(start, text.find('<', start) - start));
-  return {std::istream_iterator<double>(stream), {}};
-}
-
 std::size_t count_of(const std::string& text, const std::string& part) {
   std::size_t count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
@@ -160,6 +152,48 @@ TEST_CASE("glb: a mesh a kind, and the tracks of the bodies that move") {
   }
   // The one that stands still is placed, not animated.
   CHECK(model.nodes[kBodies - 1].translation[0] == doctest::Approx(frame_at(0).grains[kBodies - 1].position[0]).epsilon(1e-7));
+}
+
+TEST_CASE("glb: a wall with a field has a colour and a number for each triangle, and edges as other walls") {
+  const TemporaryFolder folder;
+  const Scene scene = scene_of_two_kinds();
+  const Contents contents{&scene, {0, 1, 0, 1, 0}, walls_of_scene(scene)};
+  const OutputFolder out(folder.path(), "pictures", result_names());
+  const PictureFormat& format = *find_picture_format("glb");
+  const std::unique_ptr<Picture> picture = format.make(out, format, contents);
+  Frame frame = frame_at(0);
+  frame.fields = {{"wear_depth", {{}, {}, std::vector<double>(12)}}, {"wear_volume", {{}, {}, std::vector<double>(12, 1)}}};
+  for (std::size_t k = 0; k < 12; ++k) frame.fields[0].of_walls[2][k] = 1e-9 * static_cast<double>(k);
+  picture->add(frame);
+  picture->finish(kSummary);
+  tinygltf::Model model;
+  std::string error, warning;
+  REQUIRE(tinygltf::TinyGLTF().LoadBinaryFromFile(&model, &error, &warning, out.file("scene.glb").string()));
+  CHECK((error + warning).empty());
+  const auto colour_of = [&](const tinygltf::Primitive& primitive) {
+    return model.materials[static_cast<std::size_t>(primitive.material)].pbrMetallicRoughness.baseColorFactor;
+  };
+  const std::vector<tinygltf::Primitive>& floor = model.meshes[2].primitives;
+  const std::vector<tinygltf::Primitive>& plate = model.meshes[4].primitives;
+  REQUIRE(floor.size() == 2);
+  REQUIRE(plate.size() == 2);
+  CHECK(plate[0].mode == TINYGLTF_MODE_LINE);
+  CHECK(colour_of(plate[0]) == colour_of(floor[0]));
+  CHECK(colour_of(plate[1]) == std::vector<double>{1, 1, 1, 1});
+  const std::vector<float> numbers = read(model, plate[1].attributes.at("_wear_depth"));
+  const std::vector<float> colours = read(model, plate[1].attributes.at("COLOR_0"));
+  const std::vector<float> corners = read(model, plate[1].attributes.at("POSITION"));
+  REQUIRE(numbers.size() == 36);
+  REQUIRE(colours.size() == 4 * 36);
+  const Mesh& mesh = contents.walls[2].mesh;
+  for (std::size_t k = 0; k < 36; ++k) {
+    const std::size_t triangle = k / 3;
+    CHECK(numbers[k] == static_cast<float>(1e-9 * static_cast<double>(triangle)));
+    for (std::size_t i = 0; i < 3; ++i) CHECK(corners[3 * k + i] == mesh.vertices[mesh.triangles[triangle][k % 3]][i]);
+    const double opaque = 0.16 + 0.84 * static_cast<double>(triangle) / 11;
+    CHECK(colours[4 * k + 3] == doctest::Approx(opaque).epsilon(1e-6));
+  }
+  for (std::size_t i = 0; i < 4; ++i) CHECK(colours[i] == static_cast<float>(colour_of(floor[0])[i]));
 }
 
 TEST_CASE("page: what it needs is in it, and names cannot end a script") {

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -10,6 +11,8 @@
 
 #include "base/interval.hpp"
 #include "complaint.hpp"
+#include "model/grain_shape.hpp"
+#include "observe/simulation.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"
 
@@ -79,6 +82,22 @@ TEST_CASE("doubts: the fall from the start is compared with the step") {
   check_one_doubt(scene, {"the start is 300 m high", "76.7 m/s", "of the smallest half-axis (0.003 m)", "time.step up to"});
 }
 
+TEST_CASE("doubts: a step in which grains fall far from rest is named, and a longer one is allowed to grains that look ahead") {
+  const auto with = [](bool looks_ahead, double way) {  // in half-axes
+    Scene scene = scene_of(Box{{0.1, 0.1}}, {{ball(), 1}});
+    scene.start = StartState{.grains = {{.position = {0.05, 0.05, 0.005}}}};
+    scene.time.step = std::sqrt(way * 5e-3 / 9.81);
+    scene.time.frame = scene.time.duration = 100 * scene.time.step;
+    if (looks_ahead) scene.effects.back() = supernormal::effects::SpeculativeContacts{};
+    return scene;
+  };
+  CHECK(doubts_about(with(false, 0.099)).empty());
+  check_one_doubt(with(false, 0.8), {"from rest, grains fall 0.004 m in a step, 0.8 of the smallest half-axis (0.005 m)",
+                                     "time.step up to 0.00714 s would do"});
+  CHECK(doubts_about(with(true, 9.9)).empty());
+  check_one_doubt(with(true, 10.1), {"from rest, grains fall 0.0505 m", "time.step up to 0.0714 s would do"});
+}
+
 TEST_CASE("doubts: a part whose surface moves by more than a half-axis in a step may pass through grains") {
   const std::string paddle = "shape = \"box\"\nsize = [0.01, 0.04, 0.04]\nposition = [1, 0, 1]\n[[part.motion]]\n";
   check_one_doubt(with_part(paddle + "kind = \"velocity\"\nvelocity = [1000, 0, 0]\n"), {"part \"p\" moves 0.5 m in a step"});
@@ -98,9 +117,27 @@ TEST_CASE("doubts: a driven part that jumps over a half-axis in its first step i
       "shape = \"box\"\nsize = [0.04, 0.04, 0.01]\nposition = [0.025, 0.03, 1]\n[part.drive]\naxis = [0, 0, -1]\nforce = 10\n";
   check_one_doubt(with_part(lid + "mass = 1e-6\n"),
                   {"part \"p\" is driven 2.5 m in a step", "part.drive.mass from 0.000833 kg on"});
-  CHECK(doubts_about(with_part(replaced(lid, "force = 10", "force = 0.1") + "mass = 0.01\n")).empty());
+  CHECK(doubts_about(with_part(replaced(lid, "force = 10", "force = 0.05") + "mass = 0.01\n")).empty());
   check_says(complaint(std::string(kSceneText) + "[[part]]\nname = \"p\"\n" + lid + "mass = 1e-160\n"),
              {"part.drive.mass is 1e-160; allowed: a number in [1e-12, 1e+06] kg"});
+}
+
+TEST_CASE("doubts: a driven part that jumps over a half-axis when it meets the first grain is named") {
+  // The grains start at [0.02, 0.02, 0.1], and 0.006 m is the largest bounding radius of a sphere about them.
+  const auto driven = [](const std::string& rest) {
+    Scene scene = with_part(
+        "shape = \"box\"\nsize = [0.04, 0.04, 0.01]\nposition = [0.025, 0.03, 1]\n[part.drive]\naxis = [0, 0, -1]\n" + rest);
+    scene.start = StartState{.grains = {{.position = {0.02, 0.02, 0.1}}}};
+    return scene;
+  };
+  const double way = 1 - 0.005 - 0.1 - driven("force = 1\nmass = 1\n").largest_bounding_radius();
+  const double force = 0.01 * (std::pow(3e-3 / 5e-4, 2) / (2 * way) - 9.81);  // N on 10 g, for 6 m/s
+  CHECK(doubts_about(driven("mass = 0.01\nforce = " + shortest(0.99 * force) + "\n")).empty());
+  check_one_doubt(driven("mass = 0.01\nforce = " + shortest(1.02 * force) + "\n"),
+                  {"part \"p\" is driven up to the first grain with 6.0", "m/s, 0.003", "time.step up to"});
+  CHECK(doubts_about(driven("mass = 0.01\ntravel = [0, 0.5]\nforce = " + shortest(1.02 * force) + "\n")).empty());
+  CHECK(doubts_about(driven("mass = 0.01\ndamping = 1\nforce = " + shortest(1.02 * force) + "\n")).empty());
+  CHECK(doubts_about(driven("mass = 0.01\npower = 0.1\nlargest_force = " + shortest(1.02 * force) + "\n")).empty());
 }
 
 TEST_CASE("doubts: a part that a torque or a servo moves by more than a half-axis in a step is named") {
@@ -115,15 +152,14 @@ TEST_CASE("doubts: a part that a torque or a servo moves by more than a half-axi
   check_one_doubt(with_part(servo + "largest_speed = 10\n"),
                   {"part \"p\" is driven 0.005 m in a step", "part.drive.largest_speed up to 6 m/s"});
   CHECK(doubts_about(with_part(servo + "largest_speed = 1\n")).empty());
-  // On springs the gain has a limit: 4 x (0.006 m)^2 / (1e4 N/m x 5e-4 s).
+  // On springs the gain has a limit: 4 x (0.006 m)^2 / (10 N/m x 5e-4 s).
   const auto on_springs = [&](const char* gain) {
-    const std::string text =
-        replaced(kSceneText, "[max_correcting_velocity]\nvelocity = 0.05\n", "[compliance]\nstiffness = 1e4\n");
+    const std::string text = replaced(kSceneText, "[max_correcting_velocity]\nvelocity = 0.05\n", "[compliance]\nstiffness = 10\n");
     return scene_of(text + "[[part]]\nname = \"p\"\n" + replaced(servo, "gain = 1\n", gain) + "largest_speed = 1\n");
   };
-  check_one_doubt(on_springs("gain = 3e-5\n"),
-                  {"part \"p\" is a servo with a gain of 3e-05 m/(s Pa)", "part.drive.gain up to 2.88e-05 m/(s Pa)"});
-  CHECK(doubts_about(on_springs("gain = 2.8e-5\n")).empty());
+  check_one_doubt(on_springs("gain = 0.03\n"),
+                  {"part \"p\" is a servo with a gain of 0.03 m/(s Pa)", "part.drive.gain up to 0.0288 m/(s Pa)"});
+  CHECK(doubts_about(on_springs("gain = 0.028\n")).empty());
 }
 
 TEST_CASE("doubts: a grain may not start inside a part") {
@@ -271,7 +307,7 @@ TEST_CASE("doubts: a part with a mass is compared with the grains that bear it, 
   const double allowed = 0.01 * 3e-3 * 0.2 / 9.81 / (5e-4 * 5e-4);           // f / (1 - f) with f = (q / (1 + q))^20
   const double largest_part = 1 / std::expm1(std::log1p(1 / allowed) / 20);  // q
   const auto lid = [](const std::string& shape, const std::string& law) {
-    return with_part(shape + "position = [0.025, 0.03, 1]\n" + law);
+    return with_part(shape + "position = [0.025, 0.03, 0.3]\n" + law);
   };
   const auto free_part = [&](const std::string& shape, double mass) {
     return lid(shape, "free = { mass = " + shortest(mass) + " }\n");
@@ -413,4 +449,81 @@ TEST_CASE("doubts: a servo that turns its back to all grains is named, with the 
       "largest_speed = 1\narea = 1\naxis = ";
   CHECK(doubts_about(with_part(plane + "[0, 0, -1]\n")).empty());
   check_one_doubt(with_part(plane + "[0, 0, 1]\n"), {"points away from all grains"});
+}
+
+namespace {
+
+/// Two grains of a kind that meet without weight, on springs of this stiffness (N/m).
+Scene on_springs(const GrainKind& kind, double stiffness) {
+  Scene scene = scene_of(Box{{0.1, 0.1}}, {{kind, 2}});
+  scene.effects = {supernormal::effects::Compliance{stiffness, 0, {}}};
+  scene.time.duration = 0.02;
+  const double x = 0.05, y = kind.bounding_radius();
+  scene.start = StartState{.has_velocities = true,
+                           .overlap = 0.1,
+                           .grains = {{.position = {x, x, 0.05}, .velocity = {0.1, 0, 0}},
+                                      {.position = {x + 2 * y + 1e-6, x, 0.05}, .velocity = {-0.1, 0, 0}}}};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("doubts: springs with contacts of fewer than ten steps are named, as a run counts them") {
+  const double step = 5e-4;
+  const double tenth = std::numbers::pi / 10 / step;  // rad/s
+  const double stiffness = tenth * tenth * mass_of(ball()) / 2;
+  for (const bool is_coarse : {true, false}) {
+    CAPTURE(is_coarse);
+    const Scene scene = on_springs(ball(), (is_coarse ? 1.001 : 0.999) * stiffness);
+    Simulation simulation(scene, 1);
+    for (int i = 0; i < scene.time.steps(); ++i) simulation.stepper.step(false);
+    const auto costs = simulation.effect_costs();
+    const auto cost = std::ranges::find_if(costs, [](const auto& of) { return std::string(of.name) == "compliance"; });
+    REQUIRE(cost != costs.end());
+    CHECK(cost->contacts >= 9);
+    CHECK((cost->coarse > 0) == is_coarse);
+    CHECK(doubts_about(scene).size() == (is_coarse ? 1 : 0));
+  }
+  check_one_doubt(on_springs(ball(), 4 * stiffness),
+                  {"compliance has contacts of fewer than ten steps: a shorter step would be better", R"("ball" and "ball")",
+                   "may touch for 5 steps", "time.step up to 0.00025 s", "compliance.stiffness up to"});
+}
+
+TEST_CASE("doubts: a light part on springs is named with the grain that it meets") {
+  Scene scene = on_springs(ball(), std::pow(std::numbers::pi / 10 / 5e-4, 2) * mass_of(ball()) / 4);
+  CHECK(doubts_about(scene).empty());
+  scene.walls.push_back({"lid", BoxShape{{0.01, 0.01, 0.01}}, {{0.05, 0.05, 0.2}}});
+  scene.walls.back().drive = Drive{-Vector3::UnitZ(), 0, 1.01 * mass_of(ball()) / 3};
+  CHECK(doubts_about(scene).empty());
+  scene.walls.back().drive->mass = 0.99 * mass_of(ball()) / 3;
+  check_one_doubt(scene, {R"("ball" and part "lid" may touch for 9.)"});
+}
+
+TEST_CASE("doubts: a grain that is hit off its centre turns away, and touches for fewer steps") {
+  // The lever of a normal of a spheroid with half-axes a and b is a - b at most, and its moment m (a^2 + b^2) / 5.
+  const auto& [a, same, b] = lentil().half_axes;
+  const double mobility = (1 + 5 * (a - b) * (a - b) / (a * a + b * b)) / mass_of(lentil());
+  const double stiffness = std::pow(std::numbers::pi / 10 / 5e-4, 2) / (2 * mobility);
+  CHECK(doubts_about(on_springs(lentil(), stiffness)).empty());
+  CHECK(doubts_about(on_springs(lentil(), 1.02 * stiffness)).size() == 1);
+}
+
+TEST_CASE("doubts: Hertz's contacts of the fall from the start are named if they last fewer than ten steps") {
+  const auto with = [](double modulus) {
+    Scene scene = scene_of(Box{{0.1, 0.1}}, {{ball(), 8}});
+    scene.effects = {supernormal::effects::Gravity{{0, 0, -9.81}}, supernormal::effects::Hertz{modulus, 0.3, 1, {}}};
+    return scene;
+  };
+  const double speed = fall_from_start(with(1e6))->speed;
+  const double mass = mass_of(ball()) / 2, radius = 5e-3 / 2;
+  // s, half a period at the depth of (15 m v^2 / (16 E* sqrt(R)))^0.4.
+  const auto half_period = [&](double effective) {
+    const double depth = std::pow(15 * mass * speed * speed / (16 * effective * std::sqrt(radius)), 0.4);
+    return std::numbers::pi * std::sqrt(mass / (2 * effective * std::sqrt(radius * depth)));
+  };
+  const double modulus = std::pow(half_period(1) / (10 * 5e-4), 2.5);  // E*, since the half-period is as E*^-0.4
+  CHECK(half_period(modulus) == relative(10 * 5e-4).epsilon(1e-9));
+  const double youngs = 2 * modulus * (1 - 0.3 * 0.3);
+  CHECK(doubts_about(with(0.99 * youngs)).empty());
+  check_one_doubt(with(1.01 * youngs), {"hertz has contacts of fewer than ten steps", "hertz.youngs_modulus up to"});
 }
