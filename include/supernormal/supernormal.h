@@ -41,7 +41,7 @@ SUPERNORMAL_ODE_API const char* snLastError(void);
  * dCollide handles our geoms with each other and with all of ODE's own: dSphere, dBox, dCapsule, dCylinder, dPlane, dConvex,
  * dRay, dTriMesh and dHeightfield, also inside spaces and dGeomTransform. For a user class of another program it asks that
  * class. A geom with a length that is not finite, or above 1e30 (except for a dRay), makes no contacts, and snLastError reports
- * it.
+ * it. So does a geom that looks ahead with a velocity that is not finite or above 1e75.
  *
  * The first contact is the deepest, with the depth of the overlap. Round bodies make one contact, and so does every pair with
  * room for one. Flat bodies have the two to four manifold points of the region on which they rest, deepest first. Each is as
@@ -362,7 +362,8 @@ SUPERNORMAL_ODE_API snBatchID snBatchCreate(int threads);
 /** Calls task(context, i) once for every i in [0, count), on any threads, and returns when all calls have returned. */
 typedef void snParallelFor(void* pool, int count, void (*task)(void* context, int i), void* context);
 
-/** Creates a batch that uses the threads of the program: `run` is called with `pool`, once in every snBatchCollide. */
+/** Creates a batch that uses the threads of the program: `run` is called with `pool`, once in every snBatchCollide. snBatchCollide
+ * refuses the pairs of a `run` that leaves out a call of `task`, or repeats one. */
 SUPERNORMAL_ODE_API snBatchID snBatchCreateOn(snParallelFor* run, void* pool);
 
 /** Ends its threads and frees its memory. Does nothing for 0. */
@@ -384,7 +385,8 @@ typedef void snContactsCallback(void* data, dGeomID g1, dGeomID g2, const dConta
  * Until it returns, nothing may move or change a geom. A second call with the batch, from a callback or another thread, is refused
  * meanwhile. Callbacks of snCreateConvex are called on all threads. Statistics count on the calling thread. A
  * dSetColliderOverride for two geoms of our class is not called. No memory is allocated unless there are more pairs than ever
- * before. Returns the number of contacts; -1 (and snLastError) if an argument is refused or there is no more memory. */
+ * before. Returns the number of contacts; -1 (and snLastError) if an argument is refused, there is no more memory, or a callback
+ * written in C++ throws. */
 SUPERNORMAL_ODE_API int snBatchCollide(snBatchID batch, dSpaceID space, int max_contacts, void* data, snPairFilter* wanted,
                                        snContactsCallback* contacts);
 

@@ -91,6 +91,12 @@ void BodyRotation::use_axis(const Shape& shape, const Motion& motion) {
   follow_acceleration_ = follow_speed_ * speed_ * std::abs(axis.dot(axis_));
 }
 
+double BodyRotation::fastest() const {
+  const double plain = speed_ * axis_distance_;
+  if (!is_revolved_) return plain;
+  return std::min(plain, speed_ * pivot_distance_ + follow_speed_ * (reach_ + pivot_distance_));
+}
+
 // A point on a circle about the axis has the velocity W x q and the acceleration W x (W x q). The product with n equals the product
 // of W x (W x n) with the part of q across the axis.
 double BodyRotation::bound(const Vector3& n, double angle, double normal_rate) const {

@@ -18,8 +18,9 @@ class BodyRotation {
   /// The radius of a ball about the centre that contains the body, m. An estimate if the body does not rotate.
   double reach() const { return reach_; }
 
-  /// Upper bound of the speed of the body's points about the centre, m/s.
-  double fastest() const { return speed_ * axis_distance_; }
+  /// Upper bound of the speed of the body's points about the centre, m/s. The points of a body of revolution do not spin about its
+  /// axis, as in bound().
+  double fastest() const;
 
   /// Upper bound of n.q'' + 2 n'.q', m/s^2, for every point q of the body, relative to its centre. The unit normal rotates from n
   /// by at most `angle` (rad). Its rate is at most `normal_rate` (rad/s). In a body of revolution the points do not spin about its

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "impact/usable_motion.hpp"
 #include "supernormal/shapes/polytope.hpp"
 
 namespace supernormal {
@@ -29,6 +30,8 @@ bool is_first(const Impact& one, const Impact& other) {
 
 MeshImpact find_mesh_time_of_impact(const Shape& shape, const Motion& motion, std::span<const MeshTriangle> triangles,
                                     const Motion& mesh_motion, double horizon, const Settings& settings) {
+  require_usable(horizon, settings);
+  if (!is_usable(motion, horizon) || !is_usable(mesh_motion, horizon)) return {};
   MeshImpact first;
   first.impact.status = ImpactStatus::Apart;
   first.impact.time = first.impact.apart_until = horizon;

@@ -49,6 +49,13 @@ double MovingGap::rate(const Proximity& proximity, double t) const {
   return proximity.normal.dot(velocity_ + by_rotation2 - by_rotation1);
 }
 
+double MovingGap::gap_of_balls(const Proximity& proximity, double t) const {
+  const Vector3& n = proximity.normal;
+  const double reach1 = rotation1_.is_rotating() ? rotation1_.reach() : n.dot(proximity.point1);
+  const double reach2 = rotation2_.is_rotating() ? rotation2_.reach() : n.dot(offset(t) - proximity.point2);
+  return n.dot(offset(t)) - reach1 - reach2;
+}
+
 MovingPair::MovingPair(const Shape& shape1, const Motion& motion1, const Shape& shape2, const Motion& motion2, Solver solver)
     : MovingGap(motion1, motion2, BodyRotation(shape1, motion1), BodyRotation(shape2, motion2)),
       shape1_(shape1),
@@ -72,7 +79,8 @@ Proximity MovingPair::find(double t, const Vector3* first_normal, double toleran
   if (first_normal != nullptr) start = one.rotation.transpose() * *first_normal;
   Settings settings;
   settings.solver = solver_;
-  settings.tolerance = std::clamp(tolerance / length_unit_, 1e-15, 1.0);
+  // Two points have no size: any tolerance is the largest.
+  settings.tolerance = tolerance < length_unit_ ? std::max(tolerance / length_unit_, 1e-15) : 1;
   settings.max_evaluations = most_evaluations;
   Proximity out = find_proximity(shape1_, one, shape2_, pose2(t), settings, first_normal != nullptr ? &start : nullptr);
   count(out.evaluations);

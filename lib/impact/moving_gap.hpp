@@ -42,6 +42,12 @@ class MovingGap {
   /// The rate of s at time t, at the normal of the proximity, m/s. An estimate: on a face another point may determine it.
   double rate(const Proximity& proximity, double t) const;
 
+  /// A lower bound of s at the normal of the proximity, which is of time t, however the bodies rotate afterwards: a rotating body
+  /// counts as the ball about its centre, m. Its rate is the product of the normal and velocity().
+  double gap_of_balls(const Proximity& proximity, double t) const;
+
+  const Vector3& velocity() const { return velocity_; }  ///< m/s; of the centre of body 2 relative to the centre of body 1
+
   /// Upper bound of the rate of any gap, m/s.
   double fastest() const { return velocity_.norm() + rotation1_.fastest() + rotation2_.fastest(); }
 
@@ -65,7 +71,6 @@ class MovingGap {
 
   /// From the centre of body 1 to the centre of body 2, m.
   Vector3 offset(double t) const { return centre_offset_ + t * velocity_; }
-  const Vector3& velocity() const { return velocity_; }  // m/s; of the centre of body 2 relative to the centre of body 1
 
   /// The sum of the sizes and distances at time 0 that enter s, m.
   virtual double terms() const = 0;

@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "impact/moving_gap.hpp"
-#include "proximity/usable_pose.hpp"
-#include "shapes/validation.hpp"
+#include "impact/usable_motion.hpp"
 
 namespace supernormal {
 namespace {
@@ -103,7 +102,7 @@ class ImpactSearch {
       if (now_.gap < -tolerance_) return end(ImpactStatus::Overlapping);
       if (!part()) return end(ImpactStatus::Hits);
     }
-    while (now_.status != Status::InvalidInput && now_.gap > tolerance_) {
+    while (now_.status != Status::InvalidInput && !is_impact()) {
       if (t_ == horizon_) return end(ImpactStatus::Apart);
       if (++strides_ > most_evaluations_) return end(ImpactStatus::NotConverged);
       if (t_ == end_) {
@@ -144,6 +143,13 @@ class ImpactSearch {
 
   void look_farther() { look_until(std::min(kWindowGrowth * end_, horizon_)); }
 
+  /// Whether the gap is within the tolerance. A normal that need not be a common normal gives a lower bound of the gap alone: then
+  /// a query finds the gap.
+  bool is_impact() {
+    if (now_.gap <= tolerance_ && now_.status == Status::Apart) now_ = find(t_, &now_.normal);
+    return now_.gap <= tolerance_;
+  }
+
   bool is_known(ImpactStatus status) const {
     if (now_.status == Status::Converged || now_.is_global) return true;
     return status == ImpactStatus::Apart || (status == ImpactStatus::Overlapping && now_.gap + now_.global_error < 0);
@@ -157,13 +163,28 @@ class ImpactSearch {
     const double a = now_.gap - rounding_;
     const double rate = gap_.rate(now_, t_);
     if (!gap_.is_rotating()) return advance_straight(a, rate, left);
-    if (a >= gap_.fastest() * left) return move_to_end(gap_.evaluate(now_.normal, end_));
+    if (a >= gap_.fastest() * left) return move_to(end_, gap_.evaluate(now_.normal, end_));
+    const double as_balls = time_as_balls(left);
+    if (as_balls == left) return move_to(end_, gap_.evaluate(now_.normal, end_));
     const double K = gap_.bound(now_.normal, 0, is_rotating_ ? rotation_.angle : 0);
     const double stride = longest_stride(a, rate, K, left);
+    if (as_balls > stride) {
+      t_ = std::min(t_ + as_balls, end_);
+      now_ = find(t_, &now_.normal);
+      return;
+    }
     const double next = stride == left ? end_ : t_ + stride;
     const bool is_meeting = a + rate * stride < kFarShare * a;
     if (!is_meeting && !is_rotating_) return advance_fixed(a, next, stride);
     look_ahead(a, next, stride);
+  }
+
+  /// How long, at most `left`, the normal of now_ separates the balls about rotating bodies, s; 0 if it does not.
+  double time_as_balls(double left) const {
+    const double a = gap_.gap_of_balls(now_, t_) - rounding_;
+    const double rate = now_.normal.dot(gap_.velocity());
+    if (!(a > 0)) return 0;
+    return -rate * left > a ? a / -rate : left;
   }
 
   /// Tries the normal of now_ for a whole stride. Far from an impact any normal near the best one will do.
@@ -171,7 +192,7 @@ class ImpactSearch {
     const Proximity there = gap_.evaluate(now_.normal, next);
     const bool is_valid = there.status != Status::InvalidInput;
     const double share = is_valid ? proved_share(a, there, stride) : 1;
-    if (share == 1 && (!is_valid || next == end_)) return move_to_end(there);
+    if (share == 1 && (!is_valid || next == end_)) return move_to(end_, there);
     if (share == 1 && there.gap > kGoodShare * now_.gap) return move_to(next, there);
     is_rotating_ = share < kPoorShare;
     t_ = share == 1 ? next : std::min(t_ + share * stride, next);
@@ -199,7 +220,7 @@ class ImpactSearch {
 
   /// Without rotation, s at a fixed normal is linear in time.
   void advance_straight(double a, double rate, double left) {
-    if (-rate * left < a) return move_to_end(gap_.evaluate(now_.normal, end_));
+    if (-rate * left < a) return move_to(end_, gap_.evaluate(now_.normal, end_));
     t_ = std::min(t_ + a / -rate, end_);
     now_ = find(t_, &now_.normal);
   }
@@ -207,12 +228,6 @@ class ImpactSearch {
   void move_to(double t, const Proximity& proximity) {
     t_ = t;
     now_ = proximity;
-  }
-
-  /// `there` proves the bodies separate until the end of the window. If they are near, a query finds how near.
-  void move_to_end(const Proximity& there) {
-    move_to(end_, there);
-    if (there.status != Status::InvalidInput && there.gap <= tolerance_) now_ = find(end_, &there.normal);
   }
 
   /// The fraction of a stride in which the normals from now_ to `there` prove the bodies separate.
@@ -264,23 +279,11 @@ class ImpactSearch {
   bool is_rotating_ = false;                      // whether the next stride rotates the normal
 };
 
-void check(double horizon, const Settings& settings) {
-  require_in("horizon", horizon, 0, kMaxHorizon, "s");
-  require_in("tolerance", settings.tolerance, 1e-15, 1);
-  require_in("max_evaluations", settings.max_evaluations, 1, 1e6);
-}
-
-bool is_usable(const Motion& motion, double horizon) {
-  const bool is_in_range = all_within(motion.velocity, kMaxMotion) && all_within(motion.angular_velocity, kMaxMotion) &&
-                           all_within(motion.centre, kMaxMotion) && all_within(motion.pose.position, kMaxMotion);
-  return is_in_range && is_usable(motion.pose) && all_within(horizon * motion.angular_velocity, kMaxMotion);
-}
-
 }  // namespace
 
 Impact find_time_of_impact(const Shape& shape1, const Motion& motion1, const Shape& shape2, const Motion& motion2, double horizon,
                            const Settings& settings, const Vector3* first_normal) {
-  check(horizon, settings);
+  require_usable(horizon, settings);
   if (!is_usable(motion1, horizon) || !is_usable(motion2, horizon)) return {};
   MovingPair pair(shape1, motion1, shape2, motion2, settings.solver);
   ImpactSearch search(pair, horizon, settings);
@@ -293,8 +296,9 @@ Impact find_time_of_impact(const Shape& shape1, const Motion& motion1, const Sha
 
 Impact find_plane_time_of_impact(const Shape& shape, const Motion& motion, const Vector3& plane_normal, double plane_offset,
                                  double horizon, const Settings& settings) {
-  check(horizon, settings);
-  const bool is_plane_usable = all_within(plane_normal, 2) && std::islessequal(std::abs(plane_offset), kMaxMotion);
+  require_usable(horizon, settings);
+  require_unit("plane_normal", plane_normal);
+  const bool is_plane_usable = all_finite(plane_normal) && std::islessequal(std::abs(plane_offset), kMaxMotion);
   if (!is_usable(motion, horizon) || !is_plane_usable) return {};
   MovingOverPlane gap(shape, motion, plane_normal, plane_offset);
   return ImpactSearch(gap, horizon, settings).run(0, nullptr);

@@ -3,10 +3,12 @@
 #include <cmath>
 
 #include "proximity/usable_pose.hpp"
+#include "shapes/validation.hpp"
 
 namespace supernormal {
 
 Proximity find_plane_proximity(const Shape& shape, const Pose& pose, const Vector3& plane_normal, double plane_offset) {
+  require_unit("plane_normal", plane_normal);
   if (!is_usable(pose) || !all_finite(plane_normal) || !std::isfinite(plane_offset)) return {};
   Jet jet;
   shape.evaluate(-(pose.rotation.transpose() * plane_normal), Order::Point, jet);

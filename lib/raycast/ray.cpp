@@ -20,7 +20,7 @@ void check(const Vector3& direction, double length, const Settings& settings) {
   require_in("tolerance", settings.tolerance, 1e-15, 1);
   require_in("max_evaluations", settings.max_evaluations, 1, 1e6);
   require_in("length of the ray", length, 0, std::numeric_limits<double>::infinity(), "m");
-  if (all_finite(direction)) require_in("length of the ray's direction", direction.norm(), 1 - 1e-6, 1 + 1e-6);
+  require_unit("the ray's direction", direction);
 }
 
 /// A ray in the body's frame: its origin is foot + start v. The foot is the point of the line nearest to the body's origin. So a

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "shapes/finite.hpp"
 #include "shapes/validation.hpp"
 
 namespace supernormal {
@@ -20,9 +21,14 @@ constexpr double kClosest = 1e-9;
 
 constexpr Index kWhole = ~Index{0};
 
+// How far a boundary point may be outside the ball of the bounding radius, relative to it: the precision of a callback
+// (callback_shape.cpp). Edges to points that are not finite or not in the ball would be halved without end.
+constexpr double kOutside = 1e-6;
+
 class Tessellator {
  public:
-  Tessellator(const Shape& shape, double chord_error) : shape_(shape), chord_error_(chord_error) {}
+  Tessellator(const Shape& shape, double chord_error)
+      : shape_(shape), chord_error_(chord_error), farthest_((1 + kOutside) * shape.bounding_radius()) {}
 
   Tessellation run() {
     for (const int axis : {0, 1, 2}) {
@@ -46,8 +52,14 @@ class Tessellator {
   using Triangle = std::array<Index, 3>;
 
   Index add(const Vector3& normal) {
+    const Vector3 point = shape_.point(normal);
+    if (!(all_within(point, farthest_) && point.norm() <= farthest_)) {
+      throw std::domain_error("a boundary point of the shape is " + to_text(point.norm()) +
+                              " m from its origin, but must be within its bounding radius of " + to_text(shape_.bounding_radius()) +
+                              " m");
+    }
     mesh_.normals.push_back(normal);
-    mesh_.points.push_back(shape_.point(normal));
+    mesh_.points.push_back(point);
     return static_cast<Index>(mesh_.points.size() - 1);
   }
 
@@ -119,6 +131,7 @@ class Tessellator {
 
   const Shape& shape_;
   double chord_error_;
+  double farthest_;  // m
   Tessellation mesh_;
   std::map<std::pair<Index, Index>, Index> middles_;
 };

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "shapes/finite.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {
@@ -30,6 +31,15 @@ inline double require_in(const char* name, double value, double low, double high
   const std::string tail = *unit == '\0' ? std::string() : std::string(" ") + unit;
   throw std::invalid_argument(std::string(name) + " = " + to_text(value) + tail + " is outside [" + to_text(low) + ", " +
                               to_text(high) + "]" + tail);
+}
+
+/// Throws std::invalid_argument if a direction has not unit length, to 1e-6. Directions that are not finite pass: queries return a
+/// status for them.
+inline void require_unit(const char* name, const Vector3& direction) {
+  if (!all_finite(direction)) return;
+  const double length = direction.stableNorm();
+  if (std::abs(length - 1) <= 1e-6) return;
+  require_in((std::string("length of ") + name).c_str(), length, 1 - 1e-6, 1 + 1e-6);
 }
 
 /// Throws std::invalid_argument if an array of answers has another length than the queries.

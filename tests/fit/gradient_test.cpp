@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <tuple>
 
 #include "model/distance.hpp"
 #include "model/noise_offset.hpp"
@@ -51,6 +52,26 @@ TEST_CASE("the gradient of the distance agrees with finite differences") {
         CAPTURE(k);
         CAPTURE(i);
         CHECK(gradient[i] == doctest::Approx((above - below) / (2 * kStep)).epsilon(1e-5).scale(1));
+      }
+    }
+  }
+}
+
+TEST_CASE("boundary points have the distance 0, and their derivatives agree with finite differences") {
+  for (const auto& [delta, epsilon, taper] : {std::tuple{2.5, 4.0, 0.0}, {1.01, 1.01, 0.0}, {20.0, 12.0, 0.0}, {1.7, 5.0, 0.2}}) {
+    const Body body{Family::Superovoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), {1.5, 1.1, 0.8}, delta, epsilon, taper};
+    const DistanceFunction function(body);
+    for (int k = 0; k < 20; ++k) {
+      const Vector3 u = k == 0 ? Vector3::UnitZ() : Vector3(std::cos(k), std::sin(2.3 * k), std::cos(1.7 * k + 1)).normalized();
+      PointDerivatives derivatives;
+      CHECK(std::abs(function.find(boundary_point(body, u, &derivatives))->distance) < 1e-9);
+      CHECK(derivatives.leftCols<kLogAxes>().isZero(0));
+      for (int i = kLogAxes; i < kParameters; ++i) {
+        constexpr double kStep = 1e-5;
+        const Vector3 difference = boundary_point(varied(body, i, kStep), u) - boundary_point(varied(body, i, -kStep), u);
+        CAPTURE(k);
+        CAPTURE(i);
+        CHECK((derivatives.col(i) - difference / (2 * kStep)).norm() < 1e-6);
       }
     }
   }

@@ -87,7 +87,6 @@ TEST_CASE("a body of the families enters no empty space, with and without normal
       const Cloud cloud = scatter(truth, {.points = 2000, .noise = noise, .has_normals = has_normals});
       const Extent extent = extent_of(cloud.points);
       const EmptySpace space = find_empty_space(normalized(cloud, extent));
-      CHECK(space.centres.size() > 500);
       const Body body = moved(truth, 1 / extent.size, -extent.centre / extent.size);
       CHECK(penalty_of(body, space) < 1e-6);
       Body longer = body;
@@ -95,6 +94,52 @@ TEST_CASE("a body of the families enters no empty space, with and without normal
       CHECK(penalty_of(longer, space) > 1e-3);
     }
   }
+}
+
+TEST_CASE("the empty space begins at a margin from a sphere and grows with its distance, also of a moved sphere") {
+  const Body sphere{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Ones()};
+  const EmptySpace space = find_empty_space(scatter(sphere, {.points = 20000, .has_normals = true}));
+  const EmptySpace larger = moved(space, 3, {1, 2, 0.5});
+  double last = 0;
+  for (const double radius : {0.3, 0.95, 1.01, 1.3, 1.6, 3.0}) {
+    const Vector3 x = radius * Vector3(2, -1, 2).normalized();
+    const EmptySpace::Excess excess = space.beyond(x), image = larger.beyond(3 * x + Vector3(1, 2, 0.5));
+    CHECK(image.length == doctest::Approx(3 * excess.length));
+    CHECK((excess.length > last) == (radius > 1.1));
+    last = excess.length;
+    for (int i = 0; i < 3; ++i) {
+      const Vector3 step = 1e-6 * Vector3::Unit(i);
+      const double difference = (space.beyond(x + step).length - space.beyond(x - step).length) / 2e-6;
+      CHECK(excess.slope[i] == doctest::Approx(difference).epsilon(1e-4));
+      CHECK(image.slope[i] == doctest::Approx(excess.slope[i]));
+    }
+  }
+}
+
+TEST_CASE("a thin body that extends beyond the data by its tips costs more than one of full width that is as large") {
+  const Body sphere{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Ones()};
+  const EmptySpace space = find_empty_space(scatter(sphere, {.points = 2000}));
+  Body spike = sphere;
+  spike.half_axes = {1.5, 0.05, 0.05};
+  CHECK(penalty_of(spike, space) > 0.1);
+  CHECK(penalty_of(sphere, space) == 0);
+}
+
+TEST_CASE("the openness of a surface is the missing fraction of a sphere, and what is hidden is not outside") {
+  const Body sphere{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Ones()};
+  Cloud whole = scatter(sphere, {.points = 4000, .has_normals = true}), cap;
+  for (const double height : {-1.1, -0.5, 0.0}) {  // of the plane that cuts the sphere
+    cap = {};
+    for (std::size_t i = 0; i < whole.points.size(); ++i) {
+      if (whole.points[i].z() < height) continue;
+      cap.points.push_back(whole.points[i]);
+      cap.normals.push_back(whole.normals[i]);
+    }
+    CHECK(make_surface(cap).openness == doctest::Approx(std::max(0.0, (1 + height) / 2)).epsilon(0.1).scale(0.1));
+  }
+  const Vector3 hidden(0, 0, -0.3), outside(0, 0, 1.2);
+  CHECK_FALSE(is_outside(make_surface(cap), hidden));
+  CHECK(is_outside(make_surface(cap), outside));
 }
 
 TEST_CASE("winding numbers distinguish inside and outside of a concave body, also of points without normals") {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/fit_error.hpp"
 #include "model/fit_union.hpp"
 #include "study/compounds.hpp"
 
@@ -20,6 +21,27 @@ TEST_CASE("a dumbbell is fitted by two bodies") {
     CHECK((nearest->body.half_axes - part.half_axes).cwiseAbs().maxCoeff() < 1e-3);
     CHECK(std::abs(nearest->body.epsilon / part.epsilon - 1) < 0.1);
   }
+}
+
+TEST_CASE("the six bodies of an animal end with its points") {
+  const auto ball = [](const Vector3& position, const Vector3& half_axes) {
+    return Body{Family::Ellipsoid, position, Eigen::Quaterniond::Identity(), half_axes};
+  };
+  std::vector<Body> truth = {ball({0, 0, 0}, {1, 0.4, 0.45}), ball({1.2, 0, 0.3}, {0.35, 0.2, 0.25})};
+  for (const double x : {-0.7, 0.7}) {
+    for (const double y : {-0.25, 0.25}) truth.push_back(ball({x, y, -0.6}, {0.12, 0.1, 0.5}));
+  }
+  const Data data{scatter_union(truth, 500, 2e-3, 1), {}, ""};
+  const std::vector<FittedBody> fitted = fit_union(data.vertices, 6, {.family = Family::Ellipsoid});
+  std::vector<Body> bodies;
+  for (const FittedBody& each : fitted) bodies.push_back(each.body);
+  FitError error = find_error(bodies, data);
+  add_uncertainty(error, fitted);
+  CHECK(bodies.size() == 6);
+  // The reach of the truth is the spacing of the points.
+  CHECK(error.reach < 1.1 * find_error(truth, data).reach);
+  CHECK(error.rms < 0.02 * error.radius);
+  CHECK(std::abs(error.body.volume - integrate_union(truth).solid.volume) < 2 * error.volume_error);
 }
 
 TEST_CASE("a cube is fitted by one body, with and without noise") {

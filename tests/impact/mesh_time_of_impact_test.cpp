@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "random_motions.hpp"
@@ -101,4 +103,20 @@ TEST_CASE("triangles: without triangles bodies are apart") {
   CHECK(found.impact.status == ImpactStatus::Apart);
   CHECK(found.impact.time == 2);
   CHECK(found.triangle == -1);
+}
+
+TEST_CASE("triangles: without triangles, too, arguments out of range are refused") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double horizon : {-1.0, nan, 2e30}) {
+    CHECK_THROWS_WITH_AS(find_mesh_time_of_impact(Sphere(1), {}, {}, {}, horizon), doctest::Contains("horizon = "),
+                         std::invalid_argument);
+  }
+  Settings settings;
+  settings.tolerance = 7;
+  CHECK_THROWS_WITH_AS(find_mesh_time_of_impact(Sphere(1), {}, {}, {}, 1, settings), doctest::Contains("tolerance = 7"),
+                       std::invalid_argument);
+  Motion lost;
+  lost.velocity.x() = nan;
+  CHECK(find_mesh_time_of_impact(Sphere(1), lost, {}, {}, 1).impact.status == ImpactStatus::InvalidInput);
+  CHECK(find_mesh_time_of_impact(Sphere(1), {}, {}, lost, 1).impact.status == ImpactStatus::InvalidInput);
 }

@@ -381,3 +381,58 @@ TEST_CASE("time of impact: arguments out of range are refused, and motions that 
   CHECK(find_time_of_impact(ball, {}, ball, there, 0).status == ImpactStatus::Apart);
   CHECK(find_time_of_impact(ball, {}, ball, moving({2, 0, 0}, {-1, 0, 0}), 0).status == ImpactStatus::Hits);
 }
+
+TEST_CASE("time of impact: a plane's normal without unit length is refused") {
+  const Sphere ball(1);
+  const Motion there = moving({5, 0, 0}, {-1, 0, 0});
+  for (const double length : {0.0, 1e-200, 0.5, 1 + 1e-5, 2.0, 1e200}) {
+    CHECK_THROWS_WITH_AS(find_plane_time_of_impact(ball, there, length * Vector3::UnitX(), 0, 10),
+                         doctest::Contains("length of plane_normal = "), std::invalid_argument);
+  }
+  CHECK(find_plane_time_of_impact(ball, there, (1 + 1e-7) * Vector3::UnitX(), 0, 10).status == ImpactStatus::Hits);
+}
+
+TEST_CASE("points meet when they are at one place") {
+  const Sphere point(0);
+  CHECK(find_time_of_impact(point, {}, point, {}, 1).status == ImpactStatus::Hits);
+  CHECK(find_time_of_impact(point, {}, point, moving({0, 0, 0}, {1, 0, 0}), 1).may_hit());
+  const Impact straight = find_time_of_impact(point, {}, point, moving({3, 0, 0}, {-1, 0, 0}), 10);
+  CHECK(straight.status == ImpactStatus::Hits);
+  CHECK(std::abs(straight.time - 3) < 1e-13);
+  CHECK(find_time_of_impact(point, {}, point, moving({3, 1e-3, 0}, {-1, 0, 0}), 10).status == ImpactStatus::Apart);
+}
+
+TEST_CASE("balls that spin meet when they would without spin, to the same digits") {
+  for (const double radius : {1e-3, 1.0, 1e7}) {
+    for (const double spin : {1.0, 1e3, 1e6}) {
+      CAPTURE(radius);
+      CAPTURE(spin);
+      const Motion here = moving({0, 0, 0}, {0, 0, 0}, {0, spin, 0});
+      for (const double speed : {-1e-6, 1e-6, 1.0, 1e3}) {
+        CAPTURE(speed);
+        const double gap = 1e-4 * radius;
+        const Motion there = moving({radius + 0.1 + gap, 0, 0}, {-speed, 0, 0}, {0, 0, -spin});
+        const Impact impact = find_time_of_impact(Sphere(radius), here, Sphere(0.1), there, 1e12);
+        CHECK(impact.status == (speed > 0 ? ImpactStatus::Hits : ImpactStatus::Apart));
+        if (speed > 0) CHECK(std::abs(impact.time * speed - gap) < 1e-9 * std::min(radius, 0.1) + 1e-13 * radius);
+      }
+    }
+  }
+}
+
+TEST_CASE("a body that spins beside a wall, farther away than it reaches, takes a few evaluations at any speed") {
+  const Superellipsoid brick(Vector3(1, 0.8, 0.6), 8, 8);
+  const Box wall(Vector3(50, 50, 1));
+  const double reach = Vector3(1, 0.8, 0.6).norm();
+  for (const double spin : {10.0, 1e6, 1e12}) {
+    CAPTURE(spin);
+    const Motion beside = moving({7, 3, 1 + reach + 0.1}, {20, 0, 0}, {0.6 * spin, 0.8 * spin, 0});
+    const Impact apart = find_time_of_impact(brick, beside, wall, {}, 1);
+    CHECK(apart.status == ImpactStatus::Apart);
+    CHECK(apart.evaluations < 200);
+    CHECK(find_plane_time_of_impact(brick, beside, Vector3::UnitZ(), 1, 1).status == ImpactStatus::Apart);
+    // Until the ball about it touches the wall, there is no impact. Rounding grows with the paths of its points.
+    const Motion falling = moving({7, 3, 1 + reach + 0.1}, {20, 0, -1}, {0.6 * spin, 0.8 * spin, 0});
+    CHECK(find_time_of_impact(brick, falling, wall, {}, 1).apart_until >= 0.1 - 1e-9 - 1e-14 * spin);
+  }
+}

@@ -287,6 +287,16 @@ TEST_CASE("a matrix that is no rotation is called invalid input by every query, 
   }
 }
 
+TEST_CASE("a plane's normal without unit length is refused") {
+  const Ellipsoid body(Vector3(1, 2, 3));
+  for (const double length : {0.0, 0.5, 1 + 1e-5, 2.0, 1e200}) {
+    CHECK_THROWS_WITH_AS(find_plane_proximity(body, {}, length * Vector3::UnitZ(), 0),
+                         doctest::Contains("length of plane_normal = "), std::invalid_argument);
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(find_plane_proximity(body, {}, Vector3(nan, 0, 1), 0).status == Status::InvalidInput);
+}
+
 TEST_CASE(
     "a shape that delivers a support function and boundary points, and says no more, is as good as one that is made of both") {
   /// An ellipsoid as short as a program can write one.

@@ -121,3 +121,22 @@ TEST_CASE("a chord error out of range is refused") {
     CHECK_THROWS_WITH_AS(tessellate(body, wrong), doctest::Contains("chord_error ="), std::invalid_argument);
   }
 }
+
+TEST_CASE(
+    "a shape that delivers points that are not finite, or beyond its bounding radius, is refused and not halved without end") {
+  class Broken final : public Shape {
+   public:
+    explicit Broken(double x) : x_(x) {}
+    void evaluate(const Vector3& n, Order /*order*/, Jet& jet) const override {
+      jet.h = 1;
+      jet.r = n;
+      if (n.minCoeff() > 0.4) jet.r.x() = x_;
+    }
+
+   private:
+    double x_;
+  };
+  for (const double x : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300, -5.0}) {
+    CHECK_THROWS_WITH_AS(tessellate(Broken(x), 0.01), doctest::Contains("must be within its bounding radius"), std::domain_error);
+  }
+}

@@ -52,7 +52,8 @@ SUPERNORMAL_API Impact find_time_of_impact(const Shape& shape1, const Motion& mo
                                            double horizon, const Settings& settings = {}, const Vector3* first_normal = nullptr);
 
 /// The same for a body (body 1) and the half-space plane_normal . x <= plane_offset (body 2), which is at rest. plane_normal has
-/// unit length and points out of the half-space; plane_offset is in m. Evaluations are evaluations of the support function.
+/// unit length, to 1e-6, and points out of the half-space; plane_offset is in m. Evaluations are evaluations of the support
+/// function. Also throws std::invalid_argument if plane_normal has another length.
 SUPERNORMAL_API Impact find_plane_time_of_impact(const Shape& shape, const Motion& motion, const Vector3& plane_normal,
                                                  double plane_offset, double horizon, const Settings& settings = {});
 

@@ -26,7 +26,8 @@ struct Tessellation {
 /// nearly one normal, and few triangles. A sharp edge has most normals, and the mesh follows it as it bends.
 ///
 /// Throws std::invalid_argument if chord_error is not in [kLeastChordError times the body's largest half-extent, inf). At the lower
-/// end a sphere has four million triangles.
+/// end a sphere has four million triangles. Throws std::domain_error if a point from the shape is not finite, or outside the ball
+/// of the shape's bounding radius.
 SUPERNORMAL_API Tessellation tessellate(const Shape& shape, double chord_error);
 
 /// The smallest chord error, in units of the largest half-extent.

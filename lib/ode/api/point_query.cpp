@@ -36,8 +36,11 @@ extern "C" int snGeomSupport(dGeomID geom, const dVector3 direction, dVector3 po
     const double scale = normal.cwiseAbs().maxCoeff();  // the square of a very long or short vector overflows or underflows
     if (scale == 0) throw std::invalid_argument("direction = (0, 0, 0), but must have a length");
     const Pose pose = pose_of(geom);
+    if (!is_usable(pose)) throw std::invalid_argument("the pose of geom" + no_answer_because());
     const Vector3 boundary_point = body.shape().point(pose.rotation.transpose() * (normal / scale).normalized());
-    from_vector(pose.position + pose.rotation * boundary_point, point);
+    const Vector3 found = pose.position + pose.rotation * boundary_point;
+    if (!all_finite(found)) throw std::invalid_argument("the pose of geom" + no_answer_because());
+    from_vector(found, point);
     return 1;
   });
 }

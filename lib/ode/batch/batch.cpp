@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <new>
+#include <stdexcept>
+#include <string>
 
 #include "ode/colliders/contact.hpp"
 #include "ode/geom/body.hpp"
@@ -27,29 +28,30 @@ int Batch::collide(dSpaceID space, int max_contacts, const BatchCallbacks& callb
   max_contacts_ = max_contacts;
   max_contacts_of_job_ = std::min(max_contacts, ContactManifold::kMaxCorners);
   callbacks_ = &callbacks;
-  has_run_out_ = false;
+  failure_ = nullptr;
   items_.clear();
   jobs_.clear();
   other_contacts_.clear();
   dSpaceCollide(space, this, list_pair);
-  if (has_run_out_) throw std::bad_alloc();
+  if (failure_) std::rethrow_exception(failure_);
   for (std::size_t i = 0; i < items_.size(); ++i) prepare(i);
   solve_jobs();
   return report(callbacks);
 }
 
-// ODE calls this function. No exception may pass through ODE.
+// ODE calls this function. No exception may pass through ODE, which would leave its space locked: also none of the callback.
 void Batch::list_pair(void* self, dGeomID g1, dGeomID g2) {
   auto& batch = *static_cast<Batch*>(self);
   if (dGeomIsSpace(g1) != 0 || dGeomIsSpace(g2) != 0) {
     dSpaceCollide2(g1, g2, self, list_pair);
     return;
   }
-  if (batch.callbacks_->wanted != nullptr && batch.callbacks_->wanted(batch.callbacks_->data, g1, g2) == 0) return;
+  if (batch.failure_) return;
   try {
-    batch.add_item(g1, g2);
+    const BatchCallbacks& callbacks = *batch.callbacks_;
+    if (callbacks.wanted == nullptr || callbacks.wanted(callbacks.data, g1, g2) != 0) batch.add_item(g1, g2);
   } catch (...) {
-    batch.has_run_out_ = true;
+    batch.failure_ = std::current_exception();
   }
 }
 
@@ -86,6 +88,7 @@ void Batch::solve_jobs() {
   const std::size_t contacts = jobs_.size() * static_cast<std::size_t>(max_contacts_of_job_);
   if (job_contacts_.size() < contacts) job_contacts_.resize(contacts);
   statistics_ = {};
+  solved_ = 0;
   const int chunks = static_cast<int>((jobs_.size() + kJobsAtOnce - 1) / kJobsAtOnce);
   if (pool_) {
     pool_->run(chunks, solve_some, this);
@@ -93,6 +96,9 @@ void Batch::solve_jobs() {
     run_(run_pool_, chunks, solve_some, this);
   }
   add_statistics(statistics_);
+  if (solved_ == chunks) return;
+  throw std::logic_error("run called task " + std::to_string(solved_) + " times, but must call it once for each i in [0, " +
+                         std::to_string(chunks) + ")");
 }
 
 void Batch::solve_some(void* self, int chunk) {
@@ -106,6 +112,7 @@ void Batch::solve_some(void* self, int chunk) {
   const snStatistics mine = exchange_statistics(batch.statistics_);
   add_statistics(of_jobs);
   batch.statistics_ = exchange_statistics(mine);
+  ++batch.solved_;
 }
 
 // The pairs with the settings of the first, which are nearly always all, are solved together.

@@ -4,6 +4,7 @@
 #include <ode/ode.h>
 
 #include <cstddef>
+#include <exception>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -70,13 +71,14 @@ class Batch {
   int max_contacts_ = 0;         // most contacts of a pair
   int max_contacts_of_job_ = 0;  // most contacts of a pair of our bodies
   const BatchCallbacks* callbacks_ = nullptr;
-  bool has_run_out_ = false;  // memory ran out in a callback of ODE
+  std::exception_ptr failure_;  // thrown in a callback of ODE
   std::vector<Item> items_;
   std::vector<Job> jobs_;
   std::vector<dContactGeom> job_contacts_;    // max_contacts_of_job_ contacts for each job
   std::vector<dContactGeom> other_contacts_;  // contacts of the other pairs, consecutive
   std::mutex statistics_mutex_;
-  snStatistics statistics_{};  // statistics of the jobs
+  snStatistics statistics_{};  // statistics of the jobs; guarded by statistics_mutex_, like the next
+  int solved_ = 0;             // calls of solve_some() that have ended
 };
 
 }  // namespace supernormal::ode

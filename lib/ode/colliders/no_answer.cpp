@@ -36,7 +36,7 @@ void refuse_pair(dGeomID ours, dGeomID collider, const char* our_name, const cha
   require_usable_pose(ours, our_name);
   require_usable_pose(collider, collider_name);
   throw std::invalid_argument("the numbers that describe " + named(collider, collider_name) +
-                              " and its pose, or what a user-defined body returned, are not finite");
+                              " and its pose, or what a user-defined body returned, are not finite, or a width is not positive");
 }
 
 void refuse_class(dGeomID collider, const char* name) {

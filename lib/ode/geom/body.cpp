@@ -8,6 +8,7 @@
 #include "ode/geom/geom_class.hpp"
 #include "ode/geom/look_ahead.hpp"
 #include "ode/geom/solver_settings.hpp"
+#include "ode/support/last_error.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
@@ -20,7 +21,11 @@ class ReleaseCallback {
  public:
   ReleaseCallback(void (*release)(void*), void* user) : release_(release), user_(user) {}
   ~ReleaseCallback() {
-    if (is_armed_) release_(user_);
+    if (!is_armed_) return;
+    guarded("release", 0, [&] {
+      release_(user_);
+      return 1;
+    });
   }
   ReleaseCallback(const ReleaseCallback&) = delete;
   ReleaseCallback(ReleaseCallback&&) = delete;

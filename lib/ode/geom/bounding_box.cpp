@@ -38,7 +38,7 @@ int write_finite_aabb(dGeomID geom, dReal* aabb) {
     const double position = pose.position[axis];
     const double low = box.low[axis];
     const double high = box.high[axis];
-    if (!std::isfinite(low) || !std::isfinite(high)) return 0;
+    if (!std::isfinite(low) || !std::isfinite(high) || low > high) return 0;  // a user-defined body may return anything
     const double margin = rounding_of(std::abs(position) + std::abs(high - position) + std::abs(position - low));
     aabb[2 * axis] = to_real(low - margin);
     aabb[2 * axis + 1] = to_real(high + margin);

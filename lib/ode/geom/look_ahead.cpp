@@ -3,8 +3,13 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <atomic>
+#include <string>
 
 #include "ode/geom/convert.hpp"
+#include "ode/geom/geom_class.hpp"
+#include "shapes/finite.hpp"
+#include "shapes/validation.hpp"
+#include "supernormal/impact/motion.hpp"
 
 namespace supernormal::ode {
 namespace {
@@ -15,6 +20,18 @@ std::atomic<double> default_time{0};
 Matrix3 turning_of(dBodyID body, const dMass& mass) {
   const Matrix3 rotation = to_rotation(dBodyGetRotation(body));
   return double{mass.mass} * (rotation * to_rotation(mass.I).inverse() * rotation.transpose());
+}
+
+// ODE aborts on a box that is not finite.
+void require_in_range(const MotionAhead& motion, dGeomID geom) {
+  const auto within = [&](const char* what, const Vector3& value, const char* unit) {
+    if (all_within(value, kMaxMotion)) return;
+    const std::string name = what + (" of the body of " + geom_class_name(geom));
+    for (const double number : value) require_in(name.c_str(), number, -kMaxMotion, kMaxMotion, unit);
+  };
+  within("angular velocity", motion.angular_velocity, "rad/s");
+  within("velocity", motion.velocity, "m/s");
+  within("acceleration", Vector3::Constant(motion.acceleration), "m/s^2");
 }
 
 }  // namespace
@@ -53,6 +70,7 @@ MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius) 
   motion.velocity = to_vector(dBodyGetLinearVel(body)) + motion.angular_velocity.cross(from_centre);
   motion.arm = radius + 2 * from_centre.norm();
   if (motion.mobility > 0) motion.acceleration = acceleration_of(body, mass).norm();
+  require_in_range(motion, geom);
   return motion;
 }
 

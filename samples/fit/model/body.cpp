@@ -99,6 +99,33 @@ Gradient support_gradient(const Body& body, const Vector3& n, const Vector3& r) 
   return gradient;
 }
 
+Vector3 boundary_point(const Body& body, const Vector3& u, PointDerivatives* derivatives) {
+  // The gauge of u is G = (L^epsilon + z^epsilon)^(1/epsilon) with the gauge L = (x^delta + y^delta)^(1/delta) of the section.
+  // Powers of ratios cannot overflow.
+  const double delta = body.delta, epsilon = body.epsilon;
+  const Vector3 size = u.cwiseAbs();
+  const double wide = std::max(size.x(), size.y()), narrow = std::min(size.x(), size.y());
+  const double ratio = wide > 0 ? std::pow(narrow / wide, delta) : 0;
+  const double section = wide * std::pow(1 + ratio, 1 / delta);
+  const double larger = std::max(section, size.z());
+  const double flat = std::pow(section / larger, epsilon), high = std::pow(size.z() / larger, epsilon);
+  const double gauge = larger * std::pow(flat + high, 1 / epsilon);
+  const double zeta = u.z() / gauge, width = 1 + body.taper * zeta;
+  const Vector3 s = u / gauge;
+  const Vector3 r = body.half_axes.cwiseProduct(Vector3(s.x() * width, s.y() * width, s.z()));
+  if (derivatives == nullptr) return r;
+  // The derivatives of ln L and ln G by the exponents are negative entropies of the shares of their terms.
+  const double by_delta = -entropy(1, ratio) / (delta * delta) * flat / (flat + high);
+  const double by_epsilon = -entropy(flat, high) / (epsilon * epsilon);
+  const Vector3 by_log_gauge = -r - body.half_axes.cwiseProduct(Vector3(s.x(), s.y(), 0)) * (body.taper * zeta);
+  derivatives->setZero();
+  for (int i = 0; i < 3; ++i) (*derivatives)(i, kLogAxes + i) = r[i];
+  derivatives->col(kLogDelta) = (delta - 1) * by_delta * by_log_gauge;
+  derivatives->col(kLogEpsilon) = (epsilon - 1) * by_epsilon * by_log_gauge;
+  derivatives->col(kTaper) = body.half_axes.cwiseProduct(Vector3(s.x(), s.y(), 0)) * zeta;
+  return r;
+}
+
 std::array<bool, kParameters> fixed_parameters(const ShapeLimits& limits) {
   std::array<bool, kParameters> is_fixed{};
   is_fixed[kLogAxes + 1] = limits.has_round_section;

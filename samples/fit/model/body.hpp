@@ -73,6 +73,11 @@ using Gradient = Eigen::Matrix<double, kParameters, 1>;
 /// meridian is analogous.
 Gradient support_gradient(const Body& body, const Vector3& n, const Vector3& r);
 
+/// The boundary point in the body's frame whose direction, after the half-axes become 1 and the taper 0, is u (not 0).
+/// `derivatives`: one column for each parameter; 0 for position and rotation.
+using PointDerivatives = Eigen::Matrix<double, 3, kParameters>;
+Vector3 boundary_point(const Body& body, const Vector3& u, PointDerivatives* derivatives = nullptr);
+
 /// What a fit may not change.
 struct ShapeLimits {
   double max_exponent = 1000;            ///< in (1, 1000]; without unit

@@ -16,11 +16,7 @@ constexpr double kShallow = 0.1;
 }  // namespace
 
 DistanceFunction::DistanceFunction(const Body& body, double tolerance)
-    : body_(body),
-      tolerance_(tolerance),
-      radius_((1 + std::abs(body.taper)) * body.half_axes.norm()),
-      rotation_(body.rotation()),
-      shape_(make_shape(body)) {}
+    : body_(body), tolerance_(tolerance), rotation_(body.rotation()), shape_(make_shape(body)) {}
 
 // The normal at x of the scaled image of the body through x (body's frame), which is the gradient of the implicit function. Near
 // the boundary it is so close to the normal of the witness that it halves the time of the search.
@@ -53,10 +49,6 @@ bool DistanceFunction::contains(const Vector3& x) const {
   if (!(u < 1) || !(v < 1)) return false;
   const double sum = std::pow(u, body_.delta) + std::pow(v, body_.delta);
   return std::pow(sum, body_.epsilon / body_.delta) + std::pow(std::abs(z), body_.epsilon) < 1;
-}
-
-bool DistanceFunction::is_farther(const Vector3& x, double distance) const {
-  return (x - body_.position).norm() > radius_ + distance;
 }
 
 std::optional<Witness> DistanceFunction::find(const Vector3& x) const {

@@ -31,9 +31,6 @@ class DistanceFunction {
   /// Whether the body contains a point. Uses the implicit function, which is much faster than a distance.
   bool contains(const Vector3& x) const;
 
-  /// Whether the distance of a point is provably larger: the point is far from the ball around the body.
-  bool is_farther(const Vector3& x, double distance) const;
-
   /// The derivative of the distance by the body's parameters. The distance is a maximum over n, so this is the derivative at fixed
   /// n.
   Gradient gradient(const Witness& witness) const;
@@ -48,7 +45,6 @@ class DistanceFunction {
 
   Body body_;
   double tolerance_;
-  double radius_;  // of a ball around the body
   Matrix3 rotation_;
   std::unique_ptr<supernormal::Shape> shape_;
 };

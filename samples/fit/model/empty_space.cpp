@@ -16,9 +16,7 @@ namespace {
 constexpr std::size_t kSurfacePoints = 2000;  // of the winding number
 constexpr std::size_t kNeighbours = 12;       // of a plane through neighbours
 constexpr int kSightDirections = 60;
-constexpr int kHalfSpaces = 200;
-constexpr std::size_t kBalls = 800;  // that touch the surface
-constexpr double kFar = 100;         // radius of the balls that are half-spaces: they bulge by 1/200 of the extent
+constexpr double kCell = 0.06;  // edge of a cell of the grid, for data of extent 1
 
 double median_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -57,11 +55,34 @@ Vector3 open_side(const std::vector<Vector3>& points, const Vector3& x, double s
 
 }  // namespace
 
-Surface make_surface(const Cloud& cloud) {
+/// The signed distance from the data, and from the points that close their holes, at the vertices of cubes; positive outside.
+struct DistanceGrid {
+  Vector3 low;                 // the first vertex
+  std::array<int, 3> counts;   // of vertices
+  std::vector<double> values;  // x varies fastest
+  double margin = 0;
+
+  std::size_t index(int i, int j, int k) const {
+    const auto nx = static_cast<std::size_t>(counts[0]), ny = static_cast<std::size_t>(counts[1]);
+    return static_cast<std::size_t>(i) + nx * (static_cast<std::size_t>(j) + ny * static_cast<std::size_t>(k));
+  }
+
+  void for_each_vertex(const auto& visit) const {
+    for (int k = 0; k < counts[2]; ++k) {
+      for (int j = 0; j < counts[1]; ++j) {
+        for (int i = 0; i < counts[0]; ++i) visit(std::array<int, 3>{i, j, k}, Vector3(low + kCell * Vector3(i, j, k)));
+      }
+    }
+  }
+};
+
+namespace {
+
+Surface surface_of(const Cloud& cloud) {
   const Cloud data = thinned(cloud, kSurfacePoints);
   const PointTree tree(data.points);
   Surface surface{data.points, data.normals, {}, 0};
-  std::vector<double> sizes, heights;
+  std::vector<double> sizes;
   std::vector<Vector3> planes;
   for (const Vector3& x : data.points) {
     const std::vector<std::uint32_t> near = tree.nearest(x, kNeighbours);
@@ -69,11 +90,7 @@ Surface make_surface(const Cloud& cloud) {
     sizes.push_back(radius);
     surface.areas.push_back(std::numbers::pi * radius * radius / static_cast<double>(near.size()));
     planes.push_back(plane_normal(data.points, near));
-    double square = 0;
-    for (const std::uint32_t i : near) square += std::pow(planes.back().dot(data.points[i] - x), 2);
-    heights.push_back(std::sqrt(square / static_cast<double>(near.size())));
   }
-  surface.noise = median_of(heights);
   if (!surface.normals.empty()) return surface;
   surface.normals = planes;
   const double size = median_of(sizes) / 2;
@@ -83,68 +100,170 @@ Surface make_surface(const Cloud& cloud) {
   return surface;
 }
 
+}  // namespace
+
+Surface make_surface(const Cloud& cloud) {
+  Surface surface = surface_of(cloud);
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t i = 0; i < surface.areas.size(); ++i) sum += surface.areas[i] * surface.normals[i];
+  surface.openness = sum.norm() / std::accumulate(surface.areas.begin(), surface.areas.end(), 0.0);
+  return surface;
+}
+
 double winding_number(const Surface& surface, const Vector3& x) {
   double sum = 0;
   for (std::size_t i = 0; i < surface.points.size(); ++i) {
     const Vector3 way = surface.points[i] - x;
-    sum += surface.areas[i] * surface.normals[i].dot(way) / std::pow(way.squaredNorm(), 1.5);
+    const double square = way.squaredNorm();
+    sum += surface.areas[i] * surface.normals[i].dot(way) / (square * std::sqrt(square));
   }
   return sum / (4 * std::numbers::pi);
 }
 
+namespace {
+
+double threshold_of(const Surface& surface) { return (1 - surface.openness) / 2; }
+
+}  // namespace
+
+bool is_outside(const Surface& surface, const Vector3& x) { return winding_number(surface, x) < threshold_of(surface); }
+
+namespace {
+
+/// The median distance of points from the plane through their neighbours.
+double noise_of(const std::vector<Vector3>& points, const PointTree& tree) {
+  std::vector<double> heights;
+  const std::size_t step = (points.size() + kSurfacePoints - 1) / kSurfacePoints;
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    const std::vector<std::uint32_t> near = tree.nearest(points[i], kNeighbours);
+    const Vector3 normal = plane_normal(points, near);
+    double square = 0;
+    for (const std::uint32_t k : near) square += std::pow(normal.dot(points[k] - points[i]), 2);
+    heights.push_back(std::sqrt(square / static_cast<double>(near.size())));
+  }
+  return median_of(heights);
+}
+
+}  // namespace
+
+namespace {
+
+/// A grid around points. Its values are the winding number less its threshold.
+DistanceGrid winding_grid(const std::vector<Vector3>& points, const Surface& surface) {
+  DistanceGrid grid;
+  Vector3 low = points.front(), high = low;
+  for (const Vector3& x : points) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  grid.low = low.array() - kCell;
+  for (int i = 0; i < 3; ++i) grid.counts[static_cast<std::size_t>(i)] = 3 + static_cast<int>((high[i] - low[i]) / kCell);
+  grid.for_each_vertex(
+      [&](const auto&, const Vector3& x) { grid.values.push_back(winding_number(surface, x) - threshold_of(surface)); });
+  return grid;
+}
+
+/// Where the winding number crosses its threshold on the edges of a grid, farther from the data than an edge.
+std::vector<Vector3> crossings(const DistanceGrid& grid, const PointTree& tree) {
+  std::vector<Vector3> points;
+  grid.for_each_vertex([&](const std::array<int, 3>& vertex, const Vector3& x) {
+    const double here = grid.values[grid.index(vertex[0], vertex[1], vertex[2])];
+    for (int axis = 0; axis < 3; ++axis) {
+      std::array<int, 3> next = vertex;
+      if (++next[static_cast<std::size_t>(axis)] == grid.counts[static_cast<std::size_t>(axis)]) continue;
+      const double there = grid.values[grid.index(next[0], next[1], next[2])];
+      if ((here < 0) == (there < 0)) continue;
+      const Vector3 point = x + kCell * here / (here - there) * Vector3::Unit(axis);
+      if (tree.distance(point) > kCell) points.push_back(point);
+    }
+  });
+  return points;
+}
+
+}  // namespace
+
+std::vector<Vector3> closing_points(const Cloud& data) {
+  return crossings(winding_grid(data.points, make_surface(data)), PointTree(data.points));
+}
+
 EmptySpace find_empty_space(const Cloud& data) {
-  const PointTree all(data.points);
+  const PointTree tree(data.points);
   const Surface surface = make_surface(data);
+  auto grid = std::make_shared<DistanceGrid>(winding_grid(data.points, surface));
+  std::vector<Vector3> all = crossings(*grid, tree);
+  all.insert(all.end(), data.points.begin(), data.points.end());
+  const PointTree closed(std::move(all));
+  std::size_t i = 0;
+  grid->for_each_vertex([&](const auto&, const Vector3& x) {
+    double& value = grid->values[i++];
+    value = value < 0 ? closed.distance(x) : -closed.distance(x);
+  });
   const double area = std::accumulate(surface.areas.begin(), surface.areas.end(), 0.0);
   // The vertices and edges of a body lie between the points, by up to twice their mean spacing.
   const double spacing = std::sqrt(area / static_cast<double>(data.points.size()));
-  const double margin = 2 * (surface.noise + spacing);
-  EmptySpace space;
-  const auto add = [&](const Vector3& centre) {
-    const double radius = all.distance(centre) - margin;
-    if (!(radius > 0)) return;
-    space.centres.push_back(centre);
-    space.radii.push_back(radius);
-  };
-  for (const Vector3& direction : spread_directions(kHalfSpaces)) add(kFar * direction);
-  constexpr std::array kHeights = {0.05, 0.1, 0.2, 0.4, 0.8};
-  for (std::size_t i = 0; i < std::min(surface.points.size(), kBalls); ++i) {
-    // One ball at each point: neighbours have those of other heights.
-    const double height = kHeights[i % kHeights.size()];
-    const Vector3 centre = surface.points[i] + height * surface.normals[i];
-    // Elsewhere the ball touches another part of the surface, whose own balls are nearer to it.
-    const bool touches = all.distance(centre) > 0.5 * height;
-    if (touches && winding_number(surface, centre) < 0.5) add(centre);
+  grid->margin = 2 * (noise_of(data.points, tree) + spacing);
+  return {.grid = std::move(grid)};
+}
+
+EmptySpace::Excess EmptySpace::beyond(const Vector3& x) const {
+  if (!grid) return {};
+  // Beyond the grid: at its nearest point, and the distance from there.
+  const Vector3 place = (scale * x + offset - grid->low) / kCell;
+  Vector3 last;
+  for (int i = 0; i < 3; ++i) last[i] = grid->counts[static_cast<std::size_t>(i)] - 1;
+  const Vector3 inside = place.cwiseMax(0).cwiseMin(last);
+  const Vector3 way = kCell * (place - inside);
+  std::array<int, 3> cell{};
+  Vector3 t;
+  for (int i = 0; i < 3; ++i) {
+    cell[static_cast<std::size_t>(i)] = std::min(static_cast<int>(inside[i]), static_cast<int>(last[i]) - 1);
+    t[i] = inside[i] - cell[static_cast<std::size_t>(i)];
   }
-  return space;
+  double value = 0;
+  Vector3 slope = Vector3::Zero();
+  for (int corner = 0; corner < 8; ++corner) {
+    const std::array<int, 3> up = {corner & 1, (corner >> 1) & 1, corner >> 2};
+    const double at = grid->values[grid->index(cell[0] + up[0], cell[1] + up[1], cell[2] + up[2])];
+    Vector3 share;
+    for (int i = 0; i < 3; ++i) share[i] = up[static_cast<std::size_t>(i)] == 1 ? t[i] : 1 - t[i];
+    value += at * share.prod();
+    for (int i = 0; i < 3; ++i) {
+      const double rest = share[(i + 1) % 3] * share[(i + 2) % 3];
+      slope[i] += (up[static_cast<std::size_t>(i)] == 1 ? at : -at) * rest / kCell;
+    }
+  }
+  for (int i = 0; i < 3; ++i) slope[i] = way[i] == 0 ? slope[i] : 0;
+  const double far = way.norm(), length = value + far - grid->margin;
+  if (!(length > 0)) return {};
+  if (far > 0) slope += way / far;
+  return {length * (1 + length / steep) / scale, (1 + 2 * length / steep) * slope};
 }
 
 EmptySpace moved(const EmptySpace& space, double scale, const Vector3& offset) {
-  EmptySpace result = space;
-  for (Vector3& centre : result.centres) centre = scale * centre + offset;
-  for (double& radius : result.radii) radius *= scale;
-  return result;
+  // y = scale x + offset is the new place, and the place of the grid is s x + o = s / scale (y - offset) + o.
+  const double inverse = space.scale / scale;
+  return {space.grid, inverse, space.offset - inverse * offset, space.steep};
 }
 
-EmptySpace thinned(const EmptySpace& space, std::size_t step) {
-  EmptySpace result;
-  for (std::size_t i = 0; i < space.centres.size(); i += step) {
-    result.centres.push_back(space.centres[i]);
-    result.radii.push_back(space.radii[i]);
-  }
-  return result;
+const std::vector<Vector3>& boundary_directions() {
+  constexpr int kBetween = 600;
+  static const std::vector<Vector3> directions = [] {
+    std::vector<Vector3> all = spread_directions(kBetween);
+    for (int i = 0; i < 27; ++i) {
+      const int row = i / 3, layer = i / 9;
+      const Vector3 u(i % 3 - 1, row % 3 - 1, layer - 1);
+      if (i != 13) all.push_back(u.normalized());
+    }
+    return all;
+  }();
+  return directions;
 }
 
 double penalty_of(const Body& body, const EmptySpace& space) {
-  if (space.centres.empty()) return 0;
-  const DistanceFunction function(body, kRoughTolerance);
+  if (!space.grid) return 0;
   double sum = 0;
-  for (std::size_t i = 0; i < space.centres.size(); ++i) {
-    if (function.is_farther(space.centres[i], space.radii[i])) continue;
-    const std::optional<Witness> witness = function.find(space.centres[i]);
-    if (witness) sum += std::pow(std::max(0.0, space.radii[i] - witness->distance), 2);
+  for (const Vector3& u : boundary_directions()) {
+    const double length = space.beyond(body.position + body.rotation() * boundary_point(body, u)).length;
+    sum += length * length;
   }
-  return kEmptyWeight * sum / static_cast<double>(space.centres.size());
+  return kEmptyWeight * sum / static_cast<double>(boundary_directions().size());
 }
 
 }  // namespace fit

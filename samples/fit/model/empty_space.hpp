@@ -1,6 +1,8 @@
 // The empty space around the data.
 #pragma once
 
+#include <limits>
+#include <memory>
 #include <vector>
 
 #include "body.hpp"
@@ -12,7 +14,8 @@ namespace fit {
 struct Surface {
   std::vector<Vector3> points, normals;
   std::vector<double> areas;
-  double noise = 0;  ///< the median distance of neighbours from the tangent plane
+  /// The length of the vector area over the area: 0 of a closed surface, 1/2 of half a sphere, 1 of a plane.
+  double openness = 0;
 };
 
 /// The surface of at most 2000 of the points. Points without normals get the normals of the planes through their neighbours. They
@@ -23,32 +26,45 @@ Surface make_surface(const Cloud& cloud);
 /// et al. 2018).
 double winding_number(const Surface& surface, const Vector3& x);
 
-/// Balls outside the data: a body that enters one extends beyond the data. The depth to which it enters is a lower bound of the
-/// distance of its surface from the data.
+/// Whether a place is outside the data: its winding number is below (1 - openness) / 2. What a one-sided scan hides is not outside.
+bool is_outside(const Surface& surface, const Vector3& x);
+
+/// Points of the surface that closes the holes of data of extent 1: where the winding number crosses the threshold of is_outside(),
+/// except near the data. None if there are no holes.
+std::vector<Vector3> closing_points(const Cloud& data);
+
+struct DistanceGrid;
+
+/// How far a place lies beyond the data and the surface that closes their holes: 0 inside and up to a margin outside. Without a
+/// grid it is 0 everywhere.
 struct EmptySpace {
-  std::vector<Vector3> centres;
-  std::vector<double> radii;
+  std::shared_ptr<const DistanceGrid> grid;
+  double scale = 1;  ///< x is at scale x + offset in the grid
+  Vector3 offset = Vector3::Zero();
+  /// Beyond this excess, in extents of the data, the penalty grows as its fourth power.
+  double steep = std::numeric_limits<double>::infinity();
+
+  struct Excess {
+    double length = 0;                ///< e (1 + e/s) with s = steep and e, the distance from the data less the margin
+    Vector3 slope = Vector3::Zero();  ///< its derivative by the place
+  };
+  Excess beyond(const Vector3& x) const;
 };
 
-/// The empty space around points of a surface, of extent 1. Two kinds of balls:
-/// - very large ones in 200 directions, which are half-spaces: a body may not extend beyond the convex hull;
-/// - balls that touch the surface from outside, which fill its concavities.
-/// The radii are smaller than the distance from the data by twice the noise and twice the mean spacing of the points.
-///
-/// A point is outside if its winding number is below 1/2.
+/// The empty space around points of a surface, of extent 1. The margin is twice the noise and twice the mean spacing of the points.
 EmptySpace find_empty_space(const Cloud& data);
-
-/// Each `step`-th ball.
-EmptySpace thinned(const EmptySpace& space, std::size_t step);
 
 /// The image under x -> scale x + offset.
 EmptySpace moved(const EmptySpace& space, double scale, const Vector3& offset);
 
-/// The penalty of a body that enters the balls: the mean square of its depths in them, times a weight. It adds to the mean square
-/// of the distances of the data from the body.
+/// The penalty of a body that extends beyond the data: the mean square of the excess of its boundary_directions(), times a weight.
+/// It adds to the mean square of the distances of the data from the body.
 double penalty_of(const Body& body, const EmptySpace& space);
 
-/// The weight of penalty_of(), without unit: a depth counts as much as a distance sqrt(20) times as large. See README.md for
+/// The directions in which a body is examined: its faces, edges and vertices, and directions between them.
+const std::vector<Vector3>& boundary_directions();
+
+/// The weight of penalty_of(), without unit: an excess counts as much as a distance sqrt(20) times as large. See README.md for
 /// others.
 constexpr double kEmptyWeight = 20;
 

@@ -227,7 +227,7 @@ FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& clo
   fitted.uncertainty.covariance.middleCols<3>(kPosition) *= extent.size;
   fitted.uncertainty.standard_error.segment<3>(kLogAxes) *= extent.size;
   fitted.is_at_largest_size = descent.body.half_axes.maxCoeff() > 0.999 * settings.largest_over_radius * radius_of(cloud.points);
-  fitted.is_bounded_by_data = !settings.empty.centres.empty();
+  fitted.is_bounded_by_data = settings.empty.grid != nullptr;
   fitted.body = moved(descent.body, extent.size, extent.centre);
   return fitted;
 }
@@ -262,7 +262,7 @@ Candidate best_descent(const std::vector<Body>& starts, const Cloud& cloud, cons
   settings.tolerance = 1e-3;
   settings.loss_width = 0.1;
   if (search.is_whole) settings.distance_tolerance = kRoughTolerance;
-  settings.empty = thinned(search.empty, 4);
+  settings.empty = search.empty;
   settings.volume = search.volume;
   settings.limits = search.limits;
   std::vector<Candidate> candidates(starts.size());

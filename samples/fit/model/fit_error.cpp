@@ -225,12 +225,18 @@ namespace {
 /// The distances of the bodies' surface from the data.
 void measure_surface(std::span<const DistanceFunction> functions, const Data& data, FitError& error) {
   const DataDistance to_data(data);
-  const Surface surface =
-      make_surface(data.triangles.empty() ? data.vertices : sample_triangles(data.vertices.points, data.triangles, kSamples, 2));
+  const Cloud cloud = data.triangles.empty() ? data.vertices : sample_triangles(data.vertices.points, data.triangles, kSamples, 2);
+  const Surface surface = make_surface(cloud);
+  error.openness = surface.openness;
+  const Extent extent = extent_of(cloud.points);
+  std::vector<Vector3> closing = closing_points(normalized(cloud, extent));
+  for (Vector3& x : closing) x = extent.centre + extent.size * x;
+  const PointTree holes(std::move(closing));
   for (const Vector3& x : free_surface(functions, kSamples)) {
     const double distance = to_data(x);
     error.to_data = std::max(error.to_data, distance);
-    if (distance > error.reach && winding_number(surface, x) < 0.5) error.reach = distance;
+    const double beyond = holes.points().empty() ? distance : std::min(distance, holes.distance(x));
+    if (beyond > error.reach && is_outside(surface, x)) error.reach = beyond;
   }
 }
 
@@ -261,13 +267,16 @@ void add_uncertainty(FitError& error, std::span<const FittedBody> fitted) {
     square += (slopes * fitted[k].uncertainty.covariance * slopes.transpose()).diagonal();
   }
   const double volume = error.body.volume, missing = error.is_hull ? area * error.mean : error.data.volume - volume;
-  square[0] += missing * missing + error.body_error * error.body_error;
+  // Of the volume. If a body of the families fits, its other sides follow.
+  const double hidden = error.is_hull && std::ranges::any_of(fitted, &FittedBody::is_bounded_by_data) ? error.openness : 0;
+  square[0] += missing * missing + error.body_error * error.body_error + std::pow(hidden * volume, 2);
   for (int i = 0; i < 3; ++i) {
     const double moment = principal.eigenvalues()[i];
     // A layer of constant thickness changes the moments by 5/3 of the relative change of the volume.
     const Eigen::SelfAdjointEigenSolver<Matrix3> of_data(error.data.inertia, Eigen::EigenvaluesOnly);
     const double misfit = error.is_hull ? 5.0 / 3 * missing / volume * moment : of_data.eigenvalues()[i] - moment;
-    square[1 + i] += misfit * misfit + std::pow(5.0 / 3 * error.body_error / volume * moment, 2);
+    square[1 + i] +=
+        misfit * misfit + std::pow(5.0 / 3 * error.body_error / volume * moment, 2) + std::pow(5.0 / 3 * hidden * moment, 2);
   }
   error.volume_error = std::sqrt(square[0]);
   error.moment_errors = square.tail<3>().cwiseSqrt();

@@ -20,15 +20,16 @@ struct Solid {
 };
 
 struct FitError {
-  double rms = 0;           ///< distances of the data points from the surface of the body
-  double to_body = 0;       ///< largest distance of a data point from the surface of the body
-  double mean = 0;          ///< mean signed distance of the data from the surface; positive: the data are outside
-  double to_data = 0;       ///< largest distance of a point of the body's surface from the data
-  double reach = 0;         ///< the same of the points that are outside the data: how far the body extends beyond them
-  double radius = 0;        ///< of the data, about their centre
-  Solid body;               ///< union of the bodies: overlaps count once
-  double body_error = 0;    ///< standard error of a Monte Carlo volume; 0: closed form
-  double volume_error = 0;  ///< standard error of the volume of `body`, see add_uncertainty()
+  double rms = 0;                           ///< distances of the data points from the surface of the body
+  double to_body = 0;                       ///< largest distance of a data point from the surface of the body
+  double mean = 0;                          ///< mean signed distance of the data from the surface; positive: the data are outside
+  double to_data = 0;                       ///< largest distance of a point of the body's surface from the data
+  double reach = 0;                         ///< how far the body extends beyond the data and the surface that closes their holes
+  double radius = 0;                        ///< of the data, about their centre
+  double openness = 0;                      ///< of the surface of the data (Surface::openness)
+  Solid body;                               ///< union of the bodies: overlaps count once
+  double body_error = 0;                    ///< standard error of a Monte Carlo volume; 0: closed form
+  double volume_error = 0;                  ///< standard error of the volume of `body`, see add_uncertainty()
   Vector3 moment_errors = Vector3::Zero();  ///< and of its principal moments of inertia, in ascending order
   Solid data;                               ///< mesh if closed, else convex hull
   bool is_hull = false;                     ///< whether `data` is the convex hull
@@ -54,7 +55,8 @@ VolumeIntegral integrate_union(std::span<const Body> bodies);
 
 /// Adds standard errors of volume and moments of inertia. Each is the root of a sum of squares: the error that follows from the
 /// covariance of the parameters, the error of Monte Carlo, and the misfit. The misfit is the difference from a closed mesh. For
-/// other data it is the mean signed distance of the data from the surface, times the area of the surface.
+/// other data it is the mean signed distance of the data from the surface, times the area of the surface, and the openness of the
+/// data times the volume if no body of the families fits: so much of a sphere would be hidden.
 ///
 /// If a parameter moves the surface by dh along its normal, an integral of f over the body changes by the integral of f dh over the
 /// surface (Reynolds' transport theorem).

@@ -16,6 +16,9 @@ namespace {
 // The lengths below are for data of extent 1.
 constexpr double kLoss = 0.02;  // loss width while points still change owners
 
+// The excess beyond which empty space costs steeply: the reach is a largest value. Other bodies can take what one has to leave.
+constexpr double kSteep = 0.03;
+
 // Required decrease of the root mean square by a further body. Descents from other clusters differ by some per cent.
 constexpr double kLeastGain = 0.05;
 
@@ -127,18 +130,24 @@ Model alternate(std::vector<Body> bodies, const Cloud& cloud, const FitSettings&
   return {bodies, mean_loss(assignment.distances) + penalty};
 }
 
+/// The best ellipsoid of a part of the data, or none.
+std::optional<Body> find_ellipsoid(const Cloud& part, const FitSettings& search) {
+  if (part.points.size() < 2 * least_points(Family::Ellipsoid)) return std::nullopt;
+  // Normalize by the extent of the part: the search expects data of size 1.
+  const Extent extent = extent_of(part.points);
+  const Candidate found = search_body(normalized(part, extent), Family::Ellipsoid, search_settings(search, extent));
+  if (!std::isfinite(found.mean_square)) return std::nullopt;
+  return moved(found.body, extent.size, extent.centre);
+}
+
 /// Ellipsoids from k-means clusters.
 Model start_from_clusters(const Cloud& cloud, const FitSettings& search, int count, std::uint64_t seed) {
   const std::vector<int> cluster = find_clusters(cloud.points, count, seed);
   std::vector<Body> bodies;
   for (int k = 0; k < count; ++k) {
-    const Cloud part = owned(cloud, cluster, static_cast<std::size_t>(k));
-    if (part.points.size() < 2 * least_points(Family::Ellipsoid)) return {};
-    // Normalize by the extent of the part: the search expects data of size 1.
-    const Extent extent = extent_of(part.points);
-    const Candidate found = search_body(normalized(part, extent), Family::Ellipsoid, search_settings(search, extent));
-    if (!std::isfinite(found.mean_square)) return {};
-    bodies.push_back(moved(found.body, extent.size, extent.centre));
+    const std::optional<Body> found = find_ellipsoid(owned(cloud, cluster, static_cast<std::size_t>(k)), search);
+    if (!found) return {};
+    bodies.push_back(*found);
   }
   const Model model = alternate(bodies, cloud, search, Distance::Surface, 8);
   return std::isfinite(model.mean_square) ? alternate(model.bodies, cloud, search, Distance::Union, 8) : model;
@@ -166,14 +175,15 @@ Body promoted(const Body& ellipsoid, const Cloud& points, const FitSettings& sea
   return best.body;
 }
 
-/// Converts all bodies of a model and repeats the alternation.
+/// Converts the ellipsoids of a model and repeats the alternation.
 Model with_family(const Model& model, const Cloud& cloud, const FitSettings& search, Family family) {
   if (family == Family::Ellipsoid || !std::isfinite(model.mean_square)) return model;
   const Assignment assignment = assign(model.bodies, cloud, Distance::Union);
   if (!has_enough(assignment, family)) return {};
   std::vector<Body> bodies;
   for (std::size_t k = 0; k < model.bodies.size(); ++k) {
-    bodies.push_back(promoted(model.bodies[k], owned(cloud, assignment.owner, k), search, family));
+    const Body& body = model.bodies[k];
+    bodies.push_back(body.family == family ? body : promoted(body, owned(cloud, assignment.owner, k), search, family));
   }
   return alternate(bodies, cloud, search, Distance::Union, 20);
 }
@@ -218,12 +228,17 @@ double criterion(const Model& model, std::size_t points) {
   return n * std::log(resolved_square(model)) + numbers * std::log(n);
 }
 
+/// Whether the root mean square is smaller by the required decrease.
+bool gains(const Model& model, const Model& other) {
+  return std::isfinite(model.mean_square) &&
+         std::sqrt(resolved_square(model)) < (1 - kLeastGain) * std::sqrt(resolved_square(other));
+}
+
 /// Whether a model justifies its additional bodies.
 bool is_better(const Model& more, const Model& fewer, std::size_t points) {
   if (!std::isfinite(more.mean_square)) return false;
   if (!std::isfinite(fewer.mean_square)) return true;
-  return criterion(more, points) < criterion(fewer, points) &&
-         std::sqrt(resolved_square(more)) < (1 - kLeastGain) * std::sqrt(resolved_square(fewer));
+  return criterion(more, points) < criterion(fewer, points) && gains(more, fewer);
 }
 
 /// One body from all starts of a single fit. So a second body is never taken because of a poor first one.
@@ -236,9 +251,50 @@ Model best_of_one(const Cloud& cloud, Family family, const FitSettings& settings
   return {bodies, mean_loss(assign(bodies, cloud, Distance::Union).distances) + penalty_of(bodies.front(), settings.empty)};
 }
 
+/// Sets with one more body than a model: an ellipsoid for each cluster of points outside the union, or two for the points of a body
+/// that fits badly.
+std::vector<std::vector<Body>> enlarged(const Model& model, const Cloud& cloud, const FitSettings& search) {
+  constexpr int kClusters = 4;            // of the points outside
+  constexpr std::size_t kMostHalved = 2;  // bodies
+  std::vector<std::vector<Body>> sets;
+  const Assignment assignment = assign(model.bodies, cloud, Distance::Union);
+  const double outside = std::sqrt(mean_loss(assignment.distances));
+  std::vector<std::size_t> far;
+  std::vector<double> losses(model.bodies.size());
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const double distance = assignment.distances[i];
+    if (distance > outside) far.push_back(i);
+    losses[static_cast<std::size_t>(assignment.owner[i])] += distance * distance;
+  }
+  const Cloud beyond = selected(cloud, far);
+  if (far.size() >= static_cast<std::size_t>(kClusters)) {
+    const std::vector<int> cluster = find_clusters(beyond.points, kClusters, 1);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(kClusters); ++k) {
+      const std::optional<Body> more = find_ellipsoid(owned(beyond, cluster, k), search);
+      if (!more) continue;
+      sets.push_back(model.bodies);
+      sets.back().push_back(*more);
+    }
+  }
+  for (std::size_t turn = 0; turn < std::min(kMostHalved, losses.size()); ++turn) {
+    const auto worst = static_cast<std::size_t>(std::ranges::max_element(losses) - losses.begin());
+    losses[worst] = -1;
+    const Cloud part = owned(cloud, assignment.owner, worst);
+    if (part.points.size() < 2) continue;
+    const std::vector<int> half = find_clusters(part.points, 2, 1);
+    const std::optional<Body> first = find_ellipsoid(owned(part, half, 0), search),
+                              second = find_ellipsoid(owned(part, half, 1), search);
+    if (!first || !second) continue;
+    sets.push_back(model.bodies);
+    sets.back()[worst] = *first;
+    sets.back().push_back(*second);
+  }
+  return sets;
+}
+
 /// The best model from several clusterings. Clusterings with the same ellipsoids are used once.
 Model best_of_clusterings(const Cloud& cloud, const FitSettings& search, int count, Family family) {
-  constexpr int kSeeds = 6;
+  constexpr int kSeeds = 2;
   constexpr double kAlike = 0.01;
   Model best;
   std::vector<double> known;
@@ -251,6 +307,46 @@ Model best_of_clusterings(const Cloud& cloud, const FitSettings& search, int cou
     if (model.mean_square < best.mean_square) best = model;
   }
   return best;
+}
+
+/// The best model with one more body than `fewer`.
+Model best_enlarged(const Model& fewer, const Cloud& cloud, const FitSettings& search, Family family) {
+  Model best;
+  if (!std::isfinite(fewer.mean_square)) return best;
+  for (const std::vector<Body>& bodies : enlarged(fewer, cloud, search)) {
+    const Model model = with_family(alternate(bodies, cloud, search, Distance::Union, 8), cloud, search, family);
+    if (model.mean_square < best.mean_square) best = model;
+  }
+  return best;
+}
+
+/// The model without the body that the others replace best.
+Model reduced(const Model& model, const Cloud& cloud, const FitSettings& search) {
+  std::vector<Body> kept;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < model.bodies.size(); ++k) {
+    std::vector<Body> others = model.bodies;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    const double loss = mean_loss(assign(others, cloud, Distance::Union).distances);
+    if (!(loss < least)) continue;
+    least = loss;
+    kept = others;
+  }
+  return alternate(kept, cloud, search, Distance::Union, 8);
+}
+
+/// The best model with `count` bodies: from clusterings, and from the best model `fewer` with one body less. Bodies that the others
+/// replace move to where they are missed (split and merge; Ueda et al., Neural Computation 12, 2000).
+Model best_of_count(const Model& fewer, const Cloud& cloud, const FitSettings& search, int count, Family family) {
+  Model best = best_of_clusterings(cloud, search, count, family);
+  const Model more = best_enlarged(fewer, cloud, search, family);
+  if (more.mean_square < best.mean_square) best = more;
+  if (!std::isfinite(best.mean_square)) return best;
+  for (;;) {
+    const Model other = best_enlarged(reduced(best, cloud, search), cloud, search, family);
+    if (!gains(other, best)) return other.mean_square < best.mean_square ? other : best;
+    best = other;
+  }
 }
 
 /// The final descents, on all points and with error bars.
@@ -292,13 +388,12 @@ std::vector<FittedBody> unite(const Cloud& cloud, int largest_count, const FitSe
                     (one.mean_square < kSharpestEdge * kSharpestEdge || is_well_fitted(one.bodies.front(), few));
   if (settings.sides == Sides::All || (settings.sides == Sides::Auto && !fits))
     of_data.empty = find_empty_space(settings.surface.points.empty() ? data : normalized(settings.surface, extent));
-  FitSettings of_search = of_data;
-  of_search.empty = thinned(of_data.empty, 4);  // all balls for all clusterings would take most of the time
+  of_data.empty.steep = kSteep;
 
-  Model best;
+  Model best, of_count;
   for (int count = 1; count <= largest_count; ++count) {
     if (progress) progress(count, largest_count);
-    const Model of_count = count == 1 ? best_of_one(few, family, of_search) : best_of_clusterings(few, of_search, count, family);
+    of_count = count == 1 ? best_of_one(few, family, of_data) : best_of_count(of_count, few, of_data, count, family);
     if (is_better(of_count, best, few.points.size())) best = of_count;
   }
   if (best.bodies.size() <= 1) return {fit_body(cloud, settings)};

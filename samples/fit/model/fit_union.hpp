@@ -14,10 +14,11 @@ namespace fit {
 /// the joint problem. The joint Jacobian consists of the Jacobians of the bodies, so their covariances are also valid for the
 /// union.
 ///
-/// The starts are ellipsoids from several k-means clusterings. A further body is accepted if it lowers the Bayesian information
-/// criterion, and the root mean square by a twentieth. Distances below the error of the sharpest edge count as equal, so a box is
-/// one body. Throws like fit_body(), and std::invalid_argument when largest_count is out of range. Calls `progress` with the number
-/// of bodies to fit next, and the largest number.
+/// The starts are ellipsoids from k-means clusterings, and the best union with one body less: with one more for a cluster of points
+/// outside it, or with two for the points of a body that fits badly. A further body is accepted if it lowers the Bayesian
+/// information criterion, and the root mean square by a twentieth. Distances below the error of the sharpest edge count as equal,
+/// so a box is one body. Throws like fit_body(), and std::invalid_argument when largest_count is out of range. Calls `progress`
+/// with the number of bodies to fit next, and the largest number.
 using Progress = std::function<void(int count, int largest_count)>;
 std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const FitSettings& settings = {},
                                   const Progress& progress = {});

@@ -69,25 +69,54 @@ Body body_of(Family family, const ShapeLimits& limits, const double* const* bloc
   return body;
 }
 
-/// How the distances of points become residuals.
-struct Measure {
-  double loss_width = std::numeric_limits<double>::infinity();  ///< Huber: a distance d beyond it becomes sqrt(2 w d - w^2)
-  double weight = 1;
-  bool counts_above = true;  ///< whether distances above their targets count
-};
+/// Row i of the Jacobian in the unknowns of Ceres, from the gradient in ours.
+void write_row(std::size_t i, const Body& body, const ShapeLimits& limits, const Gradient& gradient, const double* const* blocks,
+               double** jacobians) {
+  const auto row = [&](int block) {
+    return jacobians[block] + i * static_cast<std::size_t>(kBlockSizes[static_cast<std::size_t>(block)]);
+  };
+  if (jacobians[kPositionBlock] != nullptr) Eigen::Map<Vector3>(row(kPositionBlock)) = gradient.segment<3>(kPosition);
+  if (jacobians[kOrientationBlock] != nullptr) {
+    // ceres::EigenQuaternionManifold rotates by twice its step, about the axes of the data. The columns of its derivative are
+    // orthonormal, so their transpose maps the row back to the coefficients of the quaternion.
+    const Vector3 step = 2 * (body.rotation() * gradient.segment<3>(kRotation));
+    const Eigen::Map<const Eigen::Quaterniond> q(blocks[kOrientationBlock]);
+    Eigen::Map<Eigen::Vector4d> out(row(kOrientationBlock));
+    out.head<3>() = q.w() * step - q.vec().cross(step);
+    out[3] = -q.vec().dot(step);
+  }
+  if (jacobians[kAxesBlock] != nullptr) {
+    Eigen::Map<Vector3> out(row(kAxesBlock));
+    out = gradient.segment<3>(kLogAxes);
+    if (limits.has_round_section) out = Vector3(out.x() + out.y(), 0, out.z());
+  }
+  const double artanh = blocks[kTaperBlock][0];
+  if (jacobians[kExponentsBlock] != nullptr) {
+    double* const out = row(kExponentsBlock);
+    out[0] = gradient[kLogDelta];
+    // The limit of the taper depends on epsilon.
+    out[1] = gradient[kLogEpsilon] + gradient[kTaper] * taper_limit_slope(body.epsilon) * std::tanh(artanh);
+    const std::array<bool, kParameters> is_fixed = fixed_parameters(limits);
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (is_fixed[kLogDelta + k]) out[k] = 0;
+    }
+  }
+  if (jacobians[kTaperBlock] != nullptr) {
+    const double cosh = std::cosh(artanh);
+    *row(kTaperBlock) = gradient[kTaper] * taper_limit(body.epsilon) / (cosh * cosh);
+  }
+}
 
 /// The residuals of some points.
 class Distances final : public ceres::CostFunction {
  public:
-  Distances(Family family, std::span<const Vector3> points, std::span<const double> offsets, const Measure& measure,
-            const LeastSquaresSettings& settings)
+  Distances(Family family, std::span<const Vector3> points, std::span<const double> offsets, const LeastSquaresSettings& settings)
       : family_(family),
         points_(points),
         offsets_(offsets),
-        measure_(measure),
+        loss_width_(settings.loss_width),
         limits_(settings.limits),
-        // Depths in empty space need few digits.
-        tolerance_(measure.counts_above ? settings.distance_tolerance : kRoughTolerance) {
+        tolerance_(settings.distance_tolerance) {
     set_num_residuals(static_cast<int>(points.size()));
     mutable_parameter_block_sizes()->assign(kBlockSizes.begin(), kBlockSizes.end());
   }
@@ -99,10 +128,7 @@ class Distances final : public ceres::CostFunction {
       const double excess = witnesses_[i].distance - (offsets_.empty() ? 0 : offsets_[i]);
       double slope = 1;
       residuals[i] = with_loss(excess, slope);
-      if (excess > 0 && !measure_.counts_above) residuals[i] = slope = 0;
-      residuals[i] *= measure_.weight;
-      slope *= measure_.weight;
-      if (jacobians != nullptr) write_row(i, function, slope * function.gradient(witnesses_[i]), blocks, jacobians);
+      if (jacobians != nullptr) write_row(i, function.body(), limits_, slope * function.gradient(witnesses_[i]), blocks, jacobians);
     }
     return true;
   }
@@ -117,10 +143,6 @@ class Distances final : public ceres::CostFunction {
     place_.clear();
     witnesses_.clear();
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (!measure_.counts_above && function.is_farther(points_[i], offsets_[i])) {
-        witnesses_.push_back({std::numeric_limits<double>::infinity()});
-        continue;
-      }
       const std::optional<Witness> witness = function.find(points_[i]);
       if (!witness) return false;
       witnesses_.push_back(*witness);
@@ -129,62 +151,58 @@ class Distances final : public ceres::CostFunction {
     return true;
   }
 
+  /// Huber: a distance d beyond the width w becomes sqrt(2 w d - w^2).
   double with_loss(double excess, double& slope) const {
     const double size = std::abs(excess);
-    const double width = measure_.loss_width;
+    const double width = loss_width_;
     if (!(size > width)) return excess;
     const double root = std::sqrt(width * (2 * size - width));
     slope = width / root;
     return std::copysign(root, excess);
   }
 
-  /// Row i of the Jacobian in the unknowns of Ceres, from the gradient in ours.
-  void write_row(std::size_t i, const DistanceFunction& function, const Gradient& gradient, const double* const* blocks,
-                 double** jacobians) const {
-    const Body& body = function.body();
-    const auto row = [&](int block) {
-      return jacobians[block] + i * static_cast<std::size_t>(kBlockSizes[static_cast<std::size_t>(block)]);
-    };
-    if (jacobians[kPositionBlock] != nullptr) Eigen::Map<Vector3>(row(kPositionBlock)) = gradient.segment<3>(kPosition);
-    if (jacobians[kOrientationBlock] != nullptr) {
-      // ceres::EigenQuaternionManifold rotates by twice its step, about the axes of the data. The columns of its derivative are
-      // orthonormal, so their transpose maps the row back to the coefficients of the quaternion.
-      const Vector3 step = 2 * (body.rotation() * gradient.segment<3>(kRotation));
-      const Eigen::Map<const Eigen::Quaterniond> q(blocks[kOrientationBlock]);
-      Eigen::Map<Eigen::Vector4d> out(row(kOrientationBlock));
-      out.head<3>() = q.w() * step - q.vec().cross(step);
-      out[3] = -q.vec().dot(step);
-    }
-    if (jacobians[kAxesBlock] != nullptr) {
-      Eigen::Map<Vector3> out(row(kAxesBlock));
-      out = gradient.segment<3>(kLogAxes);
-      if (limits_.has_round_section) out = Vector3(out.x() + out.y(), 0, out.z());
-    }
-    const double artanh = blocks[kTaperBlock][0];
-    if (jacobians[kExponentsBlock] != nullptr) {
-      double* const out = row(kExponentsBlock);
-      out[0] = gradient[kLogDelta];
-      // The limit of the taper depends on epsilon.
-      out[1] = gradient[kLogEpsilon] + gradient[kTaper] * taper_limit_slope(body.epsilon) * std::tanh(artanh);
-      const std::array<bool, kParameters> is_fixed = fixed_parameters(limits_);
-      for (std::size_t k = 0; k < 2; ++k) {
-        if (is_fixed[kLogDelta + k]) out[k] = 0;
-      }
-    }
-    if (jacobians[kTaperBlock] != nullptr) {
-      const double cosh = std::cosh(artanh);
-      *row(kTaperBlock) = gradient[kTaper] * taper_limit(body.epsilon) / (cosh * cosh);
-    }
-  }
-
   Family family_;
   std::span<const Vector3> points_;
   std::span<const double> offsets_;
-  Measure measure_;
+  double loss_width_;
   ShapeLimits limits_;
   double tolerance_;
   mutable std::vector<double> place_;       // the unknowns of the cached witnesses
   mutable std::vector<Witness> witnesses_;  // one for each point
+};
+
+/// How far the body extends into the empty space: penalty_of() as a sum of squares, times `weight`^2 over kEmptyWeight.
+class Reach final : public ceres::CostFunction {
+ public:
+  Reach(Family family, const ShapeLimits& limits, const EmptySpace& space, double weight)
+      : family_(family), limits_(limits), space_(space), weight_(weight) {
+    set_num_residuals(static_cast<int>(boundary_directions().size()));
+    mutable_parameter_block_sizes()->assign(kBlockSizes.begin(), kBlockSizes.end());
+  }
+
+  bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
+    const Body body = body_of(family_, limits_, blocks);
+    const Matrix3 R = body.rotation();
+    for (std::size_t i = 0; i < boundary_directions().size(); ++i) {
+      PointDerivatives derivatives;
+      const Vector3 r = boundary_point(body, boundary_directions()[i], jacobians == nullptr ? nullptr : &derivatives);
+      const EmptySpace::Excess excess = space_.beyond(body.position + R * r);
+      residuals[i] = weight_ * excess.length;
+      if (jacobians == nullptr) continue;
+      const Vector3 slope = R.transpose() * excess.slope;
+      Gradient gradient = derivatives.transpose() * slope;
+      gradient.segment<3>(kPosition) = excess.slope;
+      gradient.segment<3>(kRotation) = r.cross(slope);
+      write_row(i, body, limits_, weight_ * gradient, blocks, jacobians);
+    }
+    return true;
+  }
+
+ private:
+  Family family_;
+  ShapeLimits limits_;
+  EmptySpace space_;
+  double weight_;
 };
 
 /// The difference of the volume from its target, as a mean distance of the surfaces.
@@ -287,22 +305,20 @@ LeastSquaresResult minimize_distances(const Body& start, std::span<const Vector3
   set_bounds(problem, unknowns, settings);
   if (start.family == Family::Ellipsoid) problem.SetParameterBlockConstant(unknowns.log_exponents.data());
   if (start.family != Family::Superovoid) problem.SetParameterBlockConstant(unknowns.artanh_taper.data());
-  const auto add = [&](std::span<const Vector3> places, std::span<const double> targets, const Measure& measure) {
-    for (std::size_t first = 0; first < places.size(); first += kChunk) {
-      const std::size_t count = std::min(kChunk, places.size() - first);
-      const std::span<const double> their_targets = targets.empty() ? targets : targets.subspan(first, count);
-      problem.AddResidualBlock(new Distances(start.family, places.subspan(first, count), their_targets, measure, settings), nullptr,
-                               std::vector<double*>(blocks.begin(), blocks.end()));
-    }
-  };
-  add(points, offsets, {.loss_width = settings.loss_width});
+  const std::vector<double*> all(blocks.begin(), blocks.end());
+  for (std::size_t first = 0; first < points.size(); first += kChunk) {
+    const std::size_t count = std::min(kChunk, points.size() - first);
+    const std::span<const double> targets = offsets.empty() ? offsets : offsets.subspan(first, count);
+    problem.AddResidualBlock(new Distances(start.family, points.subspan(first, count), targets, settings), nullptr, all);
+  }
   const auto count = static_cast<double>(points.size());
-  const double depth_weight = std::sqrt(kEmptyWeight * count / std::max(1.0, static_cast<double>(settings.empty.centres.size())));
-  add(settings.empty.centres, settings.empty.radii, {.weight = depth_weight, .counts_above = false});
+  if (settings.empty.grid) {
+    const double weight = std::sqrt(kEmptyWeight * count / static_cast<double>(boundary_directions().size()));
+    problem.AddResidualBlock(new Reach(start.family, settings.limits, settings.empty, weight), nullptr, all);
+  }
   if (settings.volume) {
     problem.AddResidualBlock(
-        new VolumeDifference(start.family, settings.limits, *settings.volume, std::sqrt(kVolumeWeight * count)), nullptr,
-        std::vector<double*>(blocks.begin(), blocks.end()));
+        new VolumeDifference(start.family, settings.limits, *settings.volume, std::sqrt(kVolumeWeight * count)), nullptr, all);
   }
   // Ceres rejects a step that it cannot evaluate. The user needs no warning of this.
   FLAGS_minloglevel = google::GLOG_FATAL;

@@ -121,7 +121,7 @@ std::string describe_outliers(std::span<const FittedBody> fitted, const Cloud& c
 }
 
 std::vector<std::string> doubts_about(std::span<const FittedBody> fitted, const FitError& error) {
-  constexpr double kMostDistance = 0.05, kMostReach = 0.05, kMostVolume = 0.1, kMostOutliers = 0.2;
+  constexpr double kMostDistance = 0.05, kMostReach = 0.05, kMostVolume = 0.1, kMostOutliers = 0.2, kMostOpenness = 0.2;
   std::vector<std::string> doubts;
   const auto add = [&](const std::string& what, double value, double most, const std::string& of, const char* advice) {
     if (value > most)
@@ -134,6 +134,9 @@ std::vector<std::string> doubts_about(std::span<const FittedBody> fitted, const 
   if (!error.is_hull)
     add("the volume differs by", std::abs(error.body.volume / error.data.volume - 1), kMostVolume, "the closed mesh's",
         kMoreBodies);
+  const bool is_bounded = std::ranges::any_of(fitted, &FittedBody::is_bounded_by_data);
+  if (error.is_hull && is_bounded)
+    add("no body of the families fits, and the data hide", error.openness, kMostOpenness, "the surface", "scan more sides");
   std::size_t outliers = 0, points = 0;
   for (std::size_t k = 0; k < fitted.size(); ++k) {
     outliers += fitted[k].outliers.size();

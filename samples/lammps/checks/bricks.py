@@ -1,4 +1,4 @@
-"""Bricks rest on their faces: one as in ODE, and a wall of them."""
+"""Bricks rest on their faces: one as in ODE, and a wall of them. A rod rests on its side."""
 
 import csv
 import subprocess
@@ -79,7 +79,17 @@ def check_wall(driver):
     yield "wall of bricks: weight on the floor", abs(table[-1]["v_borne"] - 1), 1e-6
 
 
+def check_rod(driver):
+    """A rod with an oval outline drops on its side."""
+    (table,) = driver.run("rod", 1, exponents="2 20", steps=STEPS, every=STEPS // 50)
+    end = table[-1]
+    yield "rod on its side after 0.5 s: slope, rad", abs(end["c_slope"]), 1e-9
+    yield "rod: kinetic energy, J", end["v_kinetic"], 1e-20
+    yield "rod: weight on the floor", abs(end["v_borne"] - 1), 1e-9
+
+
 def check(driver):
     """Yields the name, the value and the limit of each comparison."""
     yield from check_ode(driver)
     yield from check_wall(driver)
+    yield from check_rod(driver)

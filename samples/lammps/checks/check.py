@@ -9,14 +9,16 @@ import bricks
 import clusters
 import collision
 import driven
+import example
 import gas
 import ranks
+import refusals
 import sizes
 import surfaces
 import walls
 from driver import Driver
 
-CHECKS = {"bricks": bricks.check, "clusters": clusters.check, "collision": collision.check, "driven": driven.check, "gas": gas.check, "ranks": ranks.check, "sizes": sizes.check, "surfaces": surfaces.check, "walls": walls.check}
+CHECKS = {"bricks": bricks.check, "clusters": clusters.check, "collision": collision.check, "driven": driven.check, "example": example.check, "gas": gas.check, "ranks": ranks.check, "refusals": refusals.check, "sizes": sizes.check, "surfaces": surfaces.check, "walls": walls.check}
 
 
 def main():

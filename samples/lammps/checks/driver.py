@@ -21,15 +21,19 @@ class Driver:
 
     def output(self, name, ranks=1, **variables):
         """Runs the input NAME.in and returns the output of LAMMPS."""
+        done, command = self.attempt(name, ranks, **variables)
+        if done.returncode != 0:
+            raise RuntimeError(f"{' '.join(command)}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+        return done.stdout
+
+    def attempt(self, name, ranks=1, **variables):
+        """Runs the input NAME.in, which may fail. Returns the finished process and its command."""
         command = ["mpirun", "--oversubscribe", "-np", str(ranks), str(self.program), "-in", str(INPUTS / f"{name}.in"), "-log", "none"]
         for variable, value in {"inputs": INPUTS, **variables}.items():
             command += ["-var", variable, str(value)]
         # Open MPI refuses root without these. In a container the user is root.
         environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-        done = subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise RuntimeError(f"{' '.join(command)}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
-        return done.stdout
+        return subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, text=True, check=False), command
 
     def dump(self, name):
         """The rows of a text dump by step, as lists of numbers."""

@@ -21,7 +21,8 @@ struct Body {
   Vector3 from_centre = Vector3::Zero();       ///< m; the origin of the body's frame, from the centre of mass
   double width = 0;                            ///< m; the mean half-extent
   std::span<const Face> faces{};               ///< none for a round body
-  double bulge = 0;                            ///< m; no face sticks out of the body by more than this
+  std::span<const Side> sides{};               ///< none for a round body
+  double bulge = 0;                            ///< m; no face and no side sticks out of the body by more than this
 
   /// The velocity of the body's point at `arm` from its centre, m/s.
   Vector3 velocity_at(const Vector3& arm) const { return velocity + angular_velocity.cross(arm); }

@@ -2,22 +2,16 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 
 #include "kernel/damping_ratio.hpp"
+#include "kernel/refuse.hpp"
 #include "supernormal/contact/hertz.hpp"
 
 namespace granular {
 namespace {
 
 constexpr double kLargest = std::numeric_limits<double>::max();
-
-[[noreturn]] void refuse(const char* name, double value, const char* range) {
-  std::ostringstream message;
-  message << name << " = " << value << " is outside " << range;
-  throw std::invalid_argument(message.str());
-}
 
 /// This form of the test refuses NaN.
 void require(const char* name, double value, double least, double most, const char* range) {

@@ -67,14 +67,9 @@ void add_vertices(const Rectangle& half, double exponent, Face& face) {
   face.width = 2 * stretch * std::min(half.x, half.y);
 }
 
-/// The largest tilt about one direction at which the polygon still reaches as far as the body.
-double find_tilt(const supernormal::Superellipsoid& body, const Face& face, const Vector2& direction) {
-  double reach = 0;
-  for (int k = 0; k < face.count; ++k) reach = std::max(reach, direction.dot(face.vertices.at(static_cast<std::size_t>(k))));
-  const auto is_beside = [&](double tilt) {
-    const Vector3 normal = from_face(face.axis, std::sin(tilt) * direction.x(), std::sin(tilt) * direction.y(), std::cos(tilt));
-    return body.support(normal) > std::cos(tilt) * face.height + std::sin(tilt) * reach;
-  };
+/// The largest tilt at which the body does not touch beside its polygon or line.
+template <typename IsBeside>
+double find_largest_tilt(IsBeside is_beside) {
   double low = kSmallestTilt, high = kLargestTilt;
   if (!is_beside(high)) return high;
   while (high > 1.01 * low) {
@@ -82,6 +77,16 @@ double find_tilt(const supernormal::Superellipsoid& body, const Face& face, cons
     (is_beside(middle) ? high : low) = middle;
   }
   return low;
+}
+
+/// The largest tilt about one direction at which the polygon still reaches as far as the body.
+double find_tilt(const supernormal::Superellipsoid& body, const Face& face, const Vector2& direction) {
+  double reach = 0;
+  for (int k = 0; k < face.count; ++k) reach = std::max(reach, direction.dot(face.vertices.at(static_cast<std::size_t>(k))));
+  return find_largest_tilt([&](double tilt) {
+    const Vector3 normal = from_face(face.axis, std::sin(tilt) * direction.x(), std::sin(tilt) * direction.y(), std::cos(tilt));
+    return body.support(normal) > std::cos(tilt) * face.height + std::sin(tilt) * reach;
+  });
 }
 
 /// The least tilt, about the vertices and the sides of a quadrant.
@@ -96,7 +101,104 @@ double find_tilt(const supernormal::Superellipsoid& body, const Face& face) {
   return least;
 }
 
+/// The exponent of the support function.
+double dual(double exponent) { return exponent / (exponent - 1); }
+
+/// The largest tilt of a direction across the side at which the line still reaches as far as the body.
+double find_tilt(const supernormal::Superellipsoid& body, const Side& side, const Vector3& direction) {
+  return find_largest_tilt([&](double tilt) {
+    const Vector3 normal = std::cos(tilt) * direction + std::sin(tilt) * Vector3::Unit(side.along);
+    return body.support(normal) > side.end(normal, 1).support;
+  });
+}
+
+/// The direction across a can in which it is thinnest.
+Vector3 thinnest(const Side& can) {
+  const double ratio = can.half_axes.x() / can.half_axes.y();
+  // The least (|a cos|^p + |b sin|^p)^(1/p) is on an axis up to p = 2, and then where both terms change alike.
+  const double p = dual(can.delta);
+  const double angle = p > 2 ? std::atan(std::pow(ratio, p / (p - 2))) : ratio < 1 ? 0 : std::numbers::pi / 2;
+  return {std::cos(angle), std::sin(angle), 0};
+}
+
+/// (u^e + w^e)^(1/e) of two numbers from 0 on, and its derivatives.
+struct PowerMean {
+  double value = 0, by_u = 0, by_w = 0;
+
+  PowerMean(double u, double w, double e) {
+    const double larger = std::max(u, w);
+    if (larger == 0) return;
+    value = larger * std::pow(std::pow(u / larger, e) + std::pow(w / larger, e), 1 / e);
+    by_u = std::pow(u / value, e - 1);
+    by_w = std::pow(w / value, e - 1);
+  }
+};
+
 }  // namespace
+
+// By Hoelder's inequality it is another norm of (a, b).
+double farthest(double a, double b, double e) {
+  const double longer = std::max(a, b);
+  if (e <= 2) return longer;
+  const double power = 2 * e / (e - 2);
+  return longer * std::pow(1 + std::pow(std::min(a, b) / longer, power), 1 / power);
+}
+
+Side::End Side::end(const Vector3& normal, int sign) const {
+  const Vector3 signs = normal.cwiseSign();
+  const Vector3 sizes = half_axes.cwiseProduct(normal.cwiseAbs());
+  if (across == along) {
+    const PowerMean outline(sizes.x(), sizes.y(), dual(delta));
+    const double height = sign * reach;
+    return {outline.value + height * normal.z(),
+            {signs.x() * half_axes.x() * outline.by_u, signs.y() * half_axes.y() * outline.by_w, height}};
+  }
+  // A profile through one edge of the boxy outline.
+  const double outwards = std::max(0.0, sizes[across] + sign * reach * normal[along]);
+  const PowerMean profile(outwards, sizes.z(), dual(epsilon));
+  Vector3 point;
+  point[across] = signs[across] * half_axes[across] * profile.by_u;
+  point[along] = sign * reach * profile.by_u;
+  point.z() = signs.z() * half_axes.z() * profile.by_w;
+  return {profile.value, point};
+}
+
+double Side::part_across(const Vector3& normal) const {
+  return across == along ? normal.head<2>().norm() : std::abs(normal[across]);
+}
+
+std::vector<Side> find_sides(const supernormal::Superellipsoid& body) {
+  std::vector<Side> sides;
+  const Vector3& axes = body.half_axes();
+  for (int across = 0; across < 2; ++across) {
+    const int beside = 1 - across;
+    const Rectangle half = find_rectangle(body, across);
+    // Of a can, the curves stick out in proportion to the support function of the outline.
+    const double widest = farthest(axes.x(), axes.y(), body.delta()) / axes[across];
+    const double aside = across == 0 ? half.x : half.y, up = across == 0 ? half.y : half.x;
+    const bool is_flat_aside = aside >= kNarrow * axes[beside], is_flat_up = up >= kNarrow * axes.z();
+    if (is_flat_aside == is_flat_up) continue;
+    Side side{.along = is_flat_up ? 2 : beside,
+              .across = is_flat_up ? 2 : across,
+              .reach = is_flat_up ? up : aside,
+              .bulge = is_flat_up ? widest * half.bulge : half.bulge,
+              .half_axes = axes,
+              .delta = body.delta(),
+              .epsilon = body.epsilon()};
+    if (is_flat_up && !sides.empty()) {
+      // The same side from its other direction.
+      Side& known = sides.back();
+      known.reach = std::min(known.reach, side.reach);
+      known.bulge = std::max(known.bulge, side.bulge);
+    } else {
+      sides.push_back(side);
+    }
+  }
+  for (Side& side : sides) {
+    side.tilt = find_tilt(body, side, side.across == side.along ? thinnest(side) : Vector3(Vector3::Unit(side.across)));
+  }
+  return sides;
+}
 
 std::vector<Face> find_faces(const supernormal::Superellipsoid& body) {
   std::vector<Face> faces;

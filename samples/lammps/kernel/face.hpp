@@ -1,4 +1,4 @@
-// The flat faces of a superellipsoid.
+// The flat faces and the straight sides of a superellipsoid.
 #pragma once
 
 #include <array>
@@ -30,8 +30,38 @@ struct Face {
 };
 
 /// The faces of a body, at most three. A round body has none. A face that is flat along one axis only, as the side of a can, is no
-/// polygon and is left out. The polygons come from find_plane_contact_manifold(), for a body that only just touches a plane.
+/// polygon and is left out: it is a Side. The polygons come from find_plane_contact_manifold(), for a body that only just touches a
+/// plane.
 std::vector<Face> find_faces(const supernormal::Superellipsoid& body);
+
+/// A side that is flat along one axis only. The body touches a plane along a line there: the side of a can, whose sections across
+/// the axis are round, or the sides of a body with a boxy outline and a round profile. The line ends on two curves of the body's
+/// frame. Like a face, the curves stick out of the rounded body by at most `bulge`.
+struct Side {
+  int along = 2;                  ///< the axis that the lines are parallel to
+  int across = 2;                 ///< the axis that the side is across; `along` if it runs all around, as on a can
+  double reach = 0;               ///< m; of the ends from the middle, along the axis
+  double tilt = 0;                ///< rad; as in Face
+  double bulge = 0;               ///< m
+  Vector3 half_axes;              ///< m; of the body
+  double delta = 2, epsilon = 2;  ///< of the body
+
+  /// Where a curve reaches farthest along a direction.
+  struct End {
+    double support;  ///< m; along the direction
+    Vector3 point;   ///< m
+  };
+  /// The curve at one of the ends; `sign`: 1 or -1. `normal` is unit, in the body's frame. The point is the gradient of `support`.
+  End end(const Vector3& normal, int sign) const;
+  /// How much of a vector is across the side.
+  double part_across(const Vector3& normal) const;
+};
+
+/// The largest sqrt(x^2 + y^2) on |x/a|^e + |y/b|^e = 1.
+double farthest(double a, double b, double e);
+
+/// The sides of a body, at most two.
+std::vector<Side> find_sides(const supernormal::Superellipsoid& body);
 
 /// One end of a face, in the world.
 struct FacePose {

@@ -223,6 +223,39 @@ void exchange(FaceContact& contact) {
   }
 }
 
+/// The same for a side. Faces and sides of a body count in full up to an eighth of a turn, and meet at a right angle: never both.
+std::optional<FaceContact> find_plane_side_contact(const Body& body, const Vector3& point, const Vector3& normal) {
+  const Vector3 own = body.pose.rotation.transpose() * normal;
+  const auto side = std::ranges::max_element(body.sides, {}, [&](const Side& one) { return one.part_across(own); });
+  if (side == body.sides.end()) return std::nullopt;
+  const double across = side->part_across(own), along = own[side->along];
+  if (!(across > 0)) return std::nullopt;
+  const Ramp ramp(std::atan2(std::abs(along), across) / side->tilt - 1);
+  if (ramp.value == 1) return std::nullopt;
+
+  FaceContact contact;
+  contact.normal = normal;
+  contact.origin = point;
+  const double room = normal.dot(point - body.pose.position);
+  for (const int sign : {1, -1}) {
+    const Side::End end = side->end(own, sign);
+    const double depth = end.support - room, weight = 0.5;
+    if (depth <= 0) continue;
+    at(contact.corners, contact.count++) = {body.pose.position + body.pose.rotation * end.point, Vector3::Zero(), depth, weight};
+    contact.mean_square += weight * depth * depth;
+    contact.mean += weight * depth;
+  }
+  contact.share = 1 - ramp.value;
+  // d(angle) by the normal in the body's frame.
+  Vector3 by_normal =
+      side->across == side->along ? Vector3(own / across) : Vector3(Vector3::Unit(side->across) * (own[side->across] > 0 ? 1 : -1));
+  by_normal *= -std::abs(along);
+  by_normal[side->along] = along > 0 ? across : -across;
+  by_normal /= across * across + along * along;
+  contact.share_by_turn = -ramp.slope / side->tilt * (body.pose.rotation * by_normal).cross(normal);
+  return contact;
+}
+
 }  // namespace
 
 std::optional<FaceContact> find_face_contact(const Body& body1, const Body& body2, const Vector3& normal) {
@@ -252,9 +285,8 @@ std::optional<FaceContact> find_face_contact(const Body& body1, const Body& body
 }
 
 std::optional<FaceContact> find_plane_face_contact(const Body& body, const Vector3& point, const Vector3& normal) {
-  if (body.faces.empty()) return std::nullopt;
   const std::optional<FacePose> face = find_face(body, normal);
-  if (!face) return std::nullopt;
+  if (!face) return find_plane_side_contact(body, point, normal);
   const Tilt tilt(face->frame.col(2), -normal, face->face->tilt);
   if (tilt.share == 0) return std::nullopt;
   Matrix3 frame;

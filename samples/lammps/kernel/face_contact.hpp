@@ -47,7 +47,8 @@ struct FaceContact {
 /// bodies has no such face, or if `share` is 0.
 std::optional<FaceContact> find_face_contact(const Body& body1, const Body& body2, const Vector3& normal);
 
-/// The contact of a body's face with the plane through a point (m). `normal` is unit, from the body to the plane.
+/// The contact of a body's face or side with the plane through a point (m). `normal` is unit, from the body to the plane. A side
+/// has two corners, the ends of its line, with half of the weight each.
 std::optional<FaceContact> find_plane_face_contact(const Body& body, const Vector3& point, const Vector3& normal);
 
 }  // namespace granular

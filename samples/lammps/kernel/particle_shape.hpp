@@ -12,12 +12,14 @@ struct ParticleShape {
   ParticleShape(const Vector3& half_axes, double delta, double epsilon);
 
   supernormal::Superellipsoid body;
-  double bounding_radius;  ///< m; largest distance of a point of the body, or of a face, from its centre
+  double bounding_radius;  ///< m; largest distance of a point of the body, of a face or of a side, from its centre
   double width;            ///< m; the mean half-axis
+  double least_half_axis;  ///< m
   double volume;           ///< m^3
   Vector3 unit_inertia;    ///< m^2; principal moments of inertia over the mass, along the axes of the body
   std::vector<Face> faces;
-  double bulge = 0;  ///< m; no face sticks out of the body by more than this
+  std::vector<Side> sides;
+  double bulge = 0;  ///< m; no face and no side sticks out of the body by more than this
 
   /// The half-axes (m) of the ellipsoid with the same mass and inertia.
   Vector3 equal_ellipsoid() const { return (2.5 * (unit_inertia.sum() - 2 * unit_inertia.array())).sqrt(); }

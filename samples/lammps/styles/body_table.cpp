@@ -101,6 +101,7 @@ void BodyTable::read_motion() {
     body.shape = &shape.body;
     body.width = shape.width;
     body.faces = shape.faces;
+    body.sides = shape.sides;
     body.bulge = shape.bulge;
     body.pose.position = Vector3::Map(atom.x[i]);
     body.pose.rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();

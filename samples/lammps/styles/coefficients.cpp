@@ -1,9 +1,11 @@
 #include "styles/coefficients.hpp"
 
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 
+#include "kernel/refuse.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 
 namespace granular {
@@ -11,9 +13,7 @@ namespace {
 
 double exponent(double value) {
   using supernormal::Superellipsoid;
-  if (!(value >= Superellipsoid::kMinExponent && value <= Superellipsoid::kMaxExponent)) {
-    throw std::invalid_argument("exponent = " + std::to_string(value) + " is outside [1.01, 1000]");
-  }
+  if (!(value >= Superellipsoid::kMinExponent && value <= Superellipsoid::kMaxExponent)) refuse("exponents", value, "[1.01, 1000]");
   return value;
 }
 
@@ -24,8 +24,11 @@ Coefficients read_coefficients(Words words) {
   ContactMaterial& material = found.material;
   std::optional<double> tangential;
   bool has_parameters = false;
+  std::set<std::string> given;
   while (!words.is_empty()) {
     const std::string keyword = words.next("");
+    if (!given.insert(keyword).second) throw std::invalid_argument(keyword + " is given twice");
+    if (given.contains("hooke") && given.contains("hertz")) throw std::invalid_argument("two laws; allowed: one of hooke, hertz");
     if (keyword == "hooke") {
       material.law = NormalLaw::Hooke;
       material.stiffness = words.number(keyword);

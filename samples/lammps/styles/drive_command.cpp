@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "kernel/refuse.hpp"
+
 namespace granular {
 namespace {
 
@@ -49,7 +51,7 @@ class Numbers {
   /// A number within [low, high].
   double number(const std::string& keyword, double low, double high, const std::string& range) const {
     const double value = find(keyword)[0];
-    if (!(value >= low && value <= high)) refuse(keyword, value, range);
+    if (!(value >= low && value <= high)) refuse("drive: " + keyword, value, range);
     return value;
   }
   double positive(const std::string& keyword) const { return number(keyword, kLeast, kLargest, "(0, inf)"); }
@@ -84,13 +86,10 @@ class Numbers {
     }
   }
 
-  [[noreturn]] static void refuse(const std::string& keyword, double value, const std::string& range) {
-    throw std::invalid_argument("drive: " + keyword + " = " + std::to_string(value) + " is outside " + range);
-  }
-
  private:
   static std::string names() {
     std::vector<std::string> all;
+    all.reserve(kSizes.size());
     for (const auto& [name, size] : kSizes) all.push_back(name);
     return join(all);
   }
@@ -141,10 +140,12 @@ void read_travel(const Numbers& numbers, falling_particles::Drive& drive) {
   if (!numbers.has("travel")) return;
   const double low = numbers.find("travel")[0], high = numbers.find("travel")[1];
   const double largest = drive.turns() ? kLargestTurn : kLargest;
-  if (!(low <= 0 && high >= 0 && low < high && low >= -largest && high <= largest)) {
-    throw std::invalid_argument("drive: travel = " + std::to_string(low) + ' ' + std::to_string(high) +
-                                " is not from 0 or less to 0 or more" + (drive.turns() ? ", within 170 degrees" : ""));
-  }
+  const auto require = [](double value, bool holds, const char* range) {
+    if (!holds) refuse("drive: travel", value, range);
+  };
+  require(low, low >= -largest && low <= 0, drive.turns() ? "[-170, 0] degrees" : "(-inf, 0]");
+  require(high, high >= 0 && high > low && high <= largest,
+          drive.turns() ? "[0, 170] degrees, and above the first" : "[0, inf), and above the first");
   const double unit = drive.turns() ? std::numbers::pi / 180 : 1;
   drive.travel = {low * unit, high * unit};
 }
@@ -155,9 +156,7 @@ DriveCommand read_drive(Words& words) {
   DriveCommand command{};
   const Numbers numbers(words, command);
   falling_particles::Drive& drive = command.drive;
-  const Vector3 axis = numbers.vector("axis");
-  if (!(axis.norm() > 0 && axis.allFinite())) throw std::invalid_argument("drive: axis has no direction");
-  drive.axis = axis.normalized();
+  drive.axis = direction_of("drive: axis", numbers.vector("axis"));
   const std::string law = numbers.law();
   if (law == "stress") {
     read_servo(numbers, drive);
@@ -168,7 +167,7 @@ DriveCommand read_drive(Words& words) {
   }
   if (numbers.has("from")) drive.from = numbers.any("from");
   if (numbers.has("until")) drive.until = numbers.any("until");
-  if (drive.until <= drive.from) Numbers::refuse("until", drive.until, "(from, inf)");
+  if (drive.until <= drive.from) refuse("drive: until", drive.until, "(from, inf)");
   read_travel(numbers, drive);
   return command;
 }

@@ -31,6 +31,7 @@ class FixRigidSupernormal : public Base, public RigidClusters {
   ~FixRigidSupernormal() override { this->atom->delete_callback(this->id, LAMMPS_NS::Atom::RESTART); }
 
   void init() override {
+    refuse_new_tags();
     bodies_ = &PairSupernormal::require(this->lmp, this->style).bodies();
     with_ellipsoids([&] { Base::init(); });
   }
@@ -102,6 +103,20 @@ class FixRigidSupernormal : public Base, public RigidClusters {
   }
 
  private:
+  // LAMMPS finds the clusters of rigid/small by the tag of one of their particles. After delete_atoms, particles may have other
+  // tags.
+  void refuse_new_tags() {
+    if constexpr (std::derived_from<Base, LAMMPS_NS::FixRigidSmall>) {
+      for (int i = 0; i < this->atom->nlocal; ++i) {
+        if (this->bodyown[i] < 0 || this->bodytag[i] == this->atom->tag[i]) continue;
+        this->error->one(FLERR,
+                         fmt::format("fix {}: the particle with tag {} had tag {} when the fix was created; use delete_atoms with "
+                                     "compress no, or create the fix anew",
+                                     this->style, this->atom->tag[i], this->bodytag[i]));
+      }
+    }
+  }
+
   Cluster cluster_of(double number, double mass, const double* moments, int i) const {
     const double* q = this->orient[i];  // of the particle, in the frame of the cluster
     const Matrix3 to_particle = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate().toRotationMatrix();

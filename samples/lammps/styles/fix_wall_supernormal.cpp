@@ -161,6 +161,7 @@ void FixWallSupernormal::post_force(int /*vflag*/) {
     const WallForce found =
         find_wall_force(*command_.wall, wall, bodies.shape(i), bodies.body(i), material(atom->type[i]), step, history(i), scratch_);
     if (found.contacts == 0) continue;
+    pair_->warn_of_depth(found.depth, i, "a wall", bodies.shape(i).least_half_axis);
     Vector3::Map(atom->f[i]) += found.force;
     Vector3::Map(atom->torque[i]) += found.torque;
     sums_[0] += found.energy;
@@ -230,18 +231,34 @@ int FixWallSupernormal::maxsize_restart() { return 2 + WallHistory::kMost * Cont
 
 void FixWallSupernormal::write_restart(FILE* file) {
   if (comm->me != 0) return;
-  const Stored stored{clock_.state(), driven_ ? driven_->state() : DrivenWall::State()};
+  const Stored stored{kind(), clock_.state(), driven_ ? driven_->state() : DrivenWall::State()};
+  // Otherwise equal runs would write different bytes.
+  static_assert(sizeof(Stored) == sizeof(DriveKind) + sizeof(Clock::State) + sizeof(DrivenWall::State));
   const int bytes = sizeof(stored);
   fwrite(&bytes, sizeof(bytes), 1, file);
   fwrite(&stored, sizeof(stored), 1, file);
+}
+
+FixWallSupernormal::DriveKind FixWallSupernormal::kind() const {
+  if (!driven_) return DriveKind::None;
+  return command_.drive->drive.turns() ? DriveKind::Turns : DriveKind::Slides;
 }
 
 void FixWallSupernormal::restart(char* buffer) {
   Stored stored;
   std::memcpy(&stored, buffer, sizeof(stored));
   clock_ = Clock(stored.clock);
-  if (driven_) driven_->restore(stored.driven);
-  is_drive_restored_ = driven_.has_value();
+  // A wall that had no drive begins at its start.
+  if (stored.kind == DriveKind::None) return;
+  if (stored.kind != kind()) {
+    const auto name = [](DriveKind one) {
+      return one == DriveKind::None ? "no drive" : one == DriveKind::Slides ? "a drive that slides" : "a drive that turns";
+    };
+    error->all(FLERR, fmt::format("fix wall/supernormal: {} has {}, and in the restart file {}; another wall takes another ID", id,
+                                  name(kind()), name(stored.kind)));
+  }
+  driven_->restore(stored.driven);
+  is_drive_restored_ = true;
 }
 
 }  // namespace granular

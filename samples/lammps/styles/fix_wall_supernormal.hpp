@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -48,8 +49,11 @@ class FixWallSupernormal : public LAMMPS_NS::Fix {
   static constexpr int kSums = 8;         // energy, force, torque, contacts
   static constexpr int kDriveValues = 4;  // position, speed, push, stress
 
+  enum class DriveKind : std::int64_t { None, Slides, Turns };  // as wide as a number: Stored has no padding
+  DriveKind kind() const;
   /// What a restart file has for the whole wall.
   struct Stored {
+    DriveKind kind;
     Clock::State clock;
     DrivenWall::State driven;
   };

@@ -9,6 +9,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "fix_neigh_history.h"
@@ -19,6 +20,7 @@
 #include "neigh_request.h"
 #include "neighbor.h"
 #include "styles/coefficients.hpp"
+#include "styles/fix_nve_supernormal.hpp"
 #include "update.h"
 
 namespace granular {
@@ -157,6 +159,13 @@ void PairSupernormal::init_style() {
   if (force->ftm2v != 1)
     error->all(FLERR, "pair_style supernormal takes units in which force is mass times acceleration: si, cgs, lj");
   if (atom->tag_enable == 0) error->all(FLERR, "pair_style supernormal takes atoms with tags");
+  if (domain->dimension != 3)
+    error->all(FLERR, fmt::format("pair_style supernormal: dimension = {} is outside [3, 3]", domain->dimension));
+  if (!(update->dt > 0 && std::isfinite(update->dt))) {
+    error->all(FLERR, fmt::format("pair_style supernormal: timestep = {} is outside (0, inf)", update->dt));
+  }
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "pair_style supernormal takes run_style verlet, and not respa");
   request_history(*neighbor, *this, instance_me);
   if (history_ == nullptr) {
     const std::string number = std::to_string(instance_me);
@@ -170,6 +179,7 @@ void PairSupernormal::init_style() {
     error->warning(FLERR, "supernormal: a minimization rotates no particles");
   if (has_particle_exponents_) bodies_->use_particle_exponents();
   find_fixes_of_clusters();
+  has_warned_ = false;
   comm_forward = (has_particle_exponents_ ? 2 : 0) + (fixes_of_clusters_.empty() ? 0 : Cluster::kSize);
   largest_radii_ = bodies_->find_largest_radii();
 }
@@ -178,11 +188,14 @@ void PairSupernormal::find_fixes_of_clusters() {
   fixes_of_clusters_.clear();
   bodies_->clusters().clear();
   for (int k = 0; k < modify->nfix; ++k) {
-    const Fix* const fix = modify->fix[k];
-    const auto* const clusters = dynamic_cast<const RigidClusters*>(fix);
-    if (clusters != nullptr) fixes_of_clusters_.push_back(clusters);
-    if (clusters == nullptr && fix->rigid_flag != 0 && comm->me == 0) {
-      error->warning(FLERR, std::string("fix ") + fix->style + " takes the particles as ellipsoids: use fix rigid/nve/supernormal");
+    const Fix& fix = *modify->fix[k];
+    const bool is_rigid = fix.rigid_flag != 0, moves = is_rigid || fix.time_integrate != 0;
+    const auto* const clusters = dynamic_cast<const RigidClusters*>(&fix);
+    if (clusters != nullptr) {
+      fixes_of_clusters_.push_back(clusters);
+    } else if (moves && dynamic_cast<const FixNveSupernormal*>(&fix) == nullptr && comm->me == 0) {
+      error->warning(FLERR, fmt::format("fix {} takes particles as ellipsoids, or does not rotate them: use fix {}/supernormal",
+                                        fix.style, is_rigid ? "rigid/nve" : "nve"));
     }
   }
 }
@@ -215,16 +228,69 @@ void PairSupernormal::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   sums_.fill(0);
   if (neighbor->ago == 0) {
+    refuse_two_images();
     read_clusters();
     if (comm_forward > 0) forward(*comm, *this);
     bodies_->assign_shapes();
     forget_proofs();
   }
   bodies_->read_motion();
+  warn_of_leaps();
   // In the setup of a run, the springs are already up to date.
   const double step = update->setupflag != 0 ? 0 : update->dt;
   for (int k = 0; k < list->inum; ++k) list_neighbors(k, step);
   solve_pending(step);
+}
+
+// LAMMPS finds the history of a neighbour by its tag, so a neighbour must not have two images within the cutoff.
+void PairSupernormal::refuse_two_images() const {
+  const std::array<Vector3, 3> periods{
+      {{domain->xprd, 0, 0}, {domain->xy, domain->yprd, 0}, {domain->xz, domain->yz, domain->zprd}}};
+  std::vector<Vector3> shifts;
+  for (std::size_t k = 0; k < periods.size(); ++k) {
+    if (domain->periodicity[k] == 0 || periods[k][static_cast<int>(k)] >= 2 * neighbor->cutneighmax) continue;
+    shifts.insert(shifts.end(), {periods[k], -periods[k]});
+  }
+  if (shifts.empty()) return;
+  for (int k = 0; k < list->inum; ++k) {
+    const int i = list->ilist[k];
+    for (int n = 0; n < list->numneigh[i]; ++n) {
+      const int j = list->firstneigh[i][n] & NEIGHMASK;
+      const Vector3 apart = Vector3::Map(atom->x[i]) - Vector3::Map(atom->x[j]);
+      const double square = neighbor->cutneighsq[atom->type[i]][atom->type[j]];
+      if (std::ranges::none_of(shifts, [&](const Vector3& shift) { return (apart + shift).squaredNorm() < square; })) continue;
+      error->one(FLERR, fmt::format("supernormal: atoms {} and {} are neighbors twice, across a periodic boundary; the box must be "
+                                    "longer than two cutoffs, {:.3g}",
+                                    atom->tag[i], atom->tag[j], 2 * std::sqrt(square)));
+    }
+  }
+}
+
+void PairSupernormal::warn(const std::string& what) {
+  if (!has_warned_) error->warning(FLERR, "supernormal: " + what + ", at step " + std::to_string(update->ntimestep));
+  has_warned_ = true;
+}
+
+void PairSupernormal::warn_of_leaps() {
+  for (int i = 0; i < atom->nlocal && !has_warned_; ++i) {
+    const Body& body = bodies_->body(i);
+    const double least = bodies_->shape(i).least_half_axis;
+    const double way = update->dt * (body.velocity.norm() + bodies_->shape(i).bounding_radius * body.angular_velocity.norm());
+    if (way > least) {
+      warn(fmt::format(
+          "atom {} moves by {:.3g} in a step, more than its smallest half-axis of {:.3g}, so it may pass through others; a smaller "
+          "timestep helps",
+          atom->tag[i], way, least));
+    }
+  }
+}
+
+void PairSupernormal::warn_of_depth(double depth, int i, const std::string& other, double least) {
+  if (depth <= least || has_warned_) return;
+  warn(fmt::format(
+      "atom {} overlaps with {} by {:.3g}, more than a half-axis of {:.3g}, so they may pass through each other; stiffer "
+      "springs, a smaller timestep or another start help",
+      atom->tag[i], other, depth, least));
 }
 
 void PairSupernormal::forget_proofs() {
@@ -319,6 +385,10 @@ void PairSupernormal::count_and_apply(int i, int j, const PairContact& pair) {
   sums_[Queries] += part;
   sums_[Evaluations] += part * pair.evaluations;
   if (pair.state == PairState::Apart) return;
+  if (!has_warned_) {
+    warn_of_depth(pair.contact.depth, i, "atom " + std::to_string(atom->tag[j]),
+                  std::min(bodies_->shape(i).least_half_axis, bodies_->shape(j).least_half_axis));
+  }
   sums_[Contacts] += part;
   sums_[Slipping] += pair.force.slips ? part : 0;
   sums_[Faces] += pair.do_faces_meet ? part : 0;

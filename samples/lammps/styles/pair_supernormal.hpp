@@ -50,6 +50,10 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   const ContactMaterial& material(int i, int j) const { return materials_[index(i, j)]; }
   const supernormal::Settings& query_settings() const { return query_settings_; }
 
+  /// Warns, once in a run on each rank, if particle i is deeper (m) in another body than `least` (m), the smallest half-axis of
+  /// both.
+  void warn_of_depth(double depth, int i, const std::string& other, double least);
+
  private:
   enum Sum { Contacts, Slipping, Queries, Evaluations, Faces, SumCount };  // compute pair
   static constexpr int kSingles = 12;                                      // compute pair/local
@@ -74,6 +78,9 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   void apply(int i, int j, const PairContact& pair);
   void find_fixes_of_clusters();
   void read_clusters();
+  void refuse_two_images() const;
+  void warn(const std::string& what);
+  void warn_of_leaps();
   void forget_proofs();
   double separation(int i, int j, const Vector3& normal) const;
   void list_neighbors(int k, double step);
@@ -85,6 +92,7 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   const double* find_history(int i, int j) const;
 
   bool has_particle_exponents_ = false;
+  bool has_warned_ = false;  // in this run
   std::vector<const RigidClusters*> fixes_of_clusters_;
   std::unique_ptr<BodyTable> bodies_;
   std::vector<double> largest_radii_;       // m; per type

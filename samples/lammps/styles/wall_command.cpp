@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "input/load_mesh.hpp"
+#include "kernel/refuse.hpp"
 #include "kernel/walls/box_wall.hpp"
 #include "kernel/walls/cylinder_wall.hpp"
 #include "kernel/walls/mesh_wall.hpp"
@@ -37,20 +38,21 @@ void read_shape(Words& words, WallCommand& command) {
   const std::string kind = words.next("wall/supernormal");
   if (kind == "plane") {
     command.anchor = words.vector(kind);
-    const Vector3 normal = words.vector(kind);
-    command.wall = std::make_unique<PlaneWall>(Vector3::Zero(), normal);
-    command.normal = normal.normalized();
+    command.normal = words.direction("plane: normal");
+    command.wall = std::make_unique<PlaneWall>(Vector3::Zero(), *command.normal);
   } else if (kind == "box") {
     const Vector3 low = words.vector(kind), high = words.vector(kind);
     command.anchor = 0.5 * (low + high);
     command.wall = std::make_unique<BoxWall>(low - command.anchor, high - command.anchor);
   } else if (kind == "cylinder") {
     command.anchor = words.vector(kind);
-    const Vector3 axis = words.vector(kind);
+    const Vector3 axis = words.direction("cylinder: axis");
     command.wall = std::make_unique<CylinderWall>(Vector3::Zero(), axis, words.number(kind));
   } else if (kind == "mesh") {
     const std::string file = words.next(kind);
-    command.wall = std::make_unique<MeshWall>(load_triangles(file, words.number(kind)));
+    const double unit = words.number("mesh: unit");
+    if (!(unit > 0)) refuse("mesh: unit", unit, "(0, inf)");
+    command.wall = std::make_unique<MeshWall>(load_triangles(file, unit));
   } else {
     throw std::invalid_argument(kind + " is none of plane, box, cylinder, mesh");
   }
@@ -61,15 +63,13 @@ falling_particles::WallMotion read_motion(Words& words) {
   if (kind == "linear") return {falling_particles::Translation{words.vector(kind)}};
   if (kind == "conveyor") return {falling_particles::Conveyor{words.vector(kind), {Vector3::UnitZ(), Vector3::Zero(), 0}}};
   if (kind == "rotate") {
-    const Vector3 axis = words.vector(kind), point = words.vector(kind);
-    if (!(axis.norm() > 0)) throw std::invalid_argument("move rotate: the axis has no direction");
-    return {falling_particles::Rotation{axis.normalized(), point, words.number(kind)}};
+    const Vector3 axis = words.direction("move rotate: axis"), point = words.vector(kind);
+    return {falling_particles::Rotation{axis, point, words.number(kind)}};
   }
   if (kind == "vibrate") {
     const Vector3 amplitude = words.vector(kind);
     const double frequency = words.number(kind);
-    if (!(frequency > 0))
-      throw std::invalid_argument("move vibrate: frequency = " + std::to_string(frequency) + " is outside (0, inf)");
+    if (!(frequency > 0)) refuse("move vibrate: frequency", frequency, "(0, inf)");
     return {falling_particles::Vibration{amplitude, frequency, words.number(kind)}};
   }
   throw std::invalid_argument("move " + kind + " is none of linear, rotate, vibrate, conveyor");
@@ -99,10 +99,7 @@ WallCommand read_wall_command(Words words) {
     if (words.accept("from")) command.motions.back().from = words.number("from");
     if (words.accept("until")) command.motions.back().until = words.number("until");
     const auto& [ignored, from, until] = command.motions.back();
-    if (until <= from) {
-      throw std::invalid_argument("move: until = " + std::to_string(until) + " is outside (from = " + std::to_string(from) +
-                                  ", inf)");
-    }
+    if (until <= from) refuse("move: until", until, "(from, inf)");
   }
   const auto moves_surface = [](const falling_particles::WallMotion& motion) {
     return std::holds_alternative<falling_particles::Conveyor>(motion.kind);

@@ -1,12 +1,20 @@
 #include "styles/words.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 
+#include "kernel/refuse.hpp"
 #include "pointers.h"
 #include "utils.h"
 
 namespace granular {
+
+Vector3 direction_of(const std::string& keyword, const Vector3& vector) {
+  if (vector.isZero(0)) throw std::invalid_argument(keyword + " = 0 0 0 has no direction");
+  return vector.stableNormalized();
+}
 
 std::string Words::next(const std::string& keyword) {
   if (is_empty()) throw std::invalid_argument(keyword + " takes another word");
@@ -21,14 +29,27 @@ bool Words::accept(const std::string& word) {
   return true;
 }
 
-double Words::number(const std::string& keyword) { return LAMMPS_NS::utils::numeric(FLERR, next(keyword).c_str(), false, lammps_); }
+double Words::number(const std::string& keyword) {
+  const std::string word = next(keyword);
+  if (!LAMMPS_NS::utils::is_double(word)) throw std::invalid_argument(keyword + " takes a number instead of " + word);
+  // Of LAMMPS' own functions, some give infinity for numbers that are too large, and some end the program.
+  const double value = std::strtod(word.c_str(), nullptr);
+  if (!std::isfinite(value)) refuse(keyword, value, "(-inf, inf)");
+  return value;
+}
 
-int Words::integer(const std::string& keyword) { return LAMMPS_NS::utils::inumeric(FLERR, next(keyword).c_str(), false, lammps_); }
+int Words::integer(const std::string& keyword) {
+  const std::string word = next(keyword);
+  if (!LAMMPS_NS::utils::is_integer(word)) throw std::invalid_argument(keyword + " takes an integer instead of " + word);
+  return LAMMPS_NS::utils::inumeric(FLERR, word.c_str(), false, lammps_);
+}
 
 Vector3 Words::vector(const std::string& keyword) {
   const double x = number(keyword), y = number(keyword), z = number(keyword);
   return {x, y, z};
 }
+
+Vector3 Words::direction(const std::string& keyword) { return direction_of(keyword, vector(keyword)); }
 
 Words Words::take_until(std::initializer_list<std::string_view> separators) {
   const auto found = std::find_first_of(words_.begin(), words_.end(), separators.begin(), separators.end(),

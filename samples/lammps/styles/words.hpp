@@ -11,6 +11,9 @@
 
 namespace granular {
 
+/// The unit vector along a finite one. Throws std::invalid_argument, with `keyword`, if all its numbers are 0.
+Vector3 direction_of(const std::string& keyword, const Vector3& vector);
+
 /// The remaining words of a command.
 class Words {
  public:
@@ -24,10 +27,12 @@ class Words {
   /// Consumes the next word if it equals `word`. Returns whether it did.
   bool accept(const std::string& word);
 
-  /// The next number, or the next three. LAMMPS ends the program on any other word.
+  /// The next number, which is finite, or the next three. Throws std::invalid_argument, with `keyword`, on any other word.
   double number(const std::string& keyword);
   int integer(const std::string& keyword);
   Vector3 vector(const std::string& keyword);
+  /// The unit vector along the next three numbers. Throws std::invalid_argument if all are 0.
+  Vector3 direction(const std::string& keyword);
 
   /// The words before the first of the `separators`. Leaves the separator and the rest.
   Words take_until(std::initializer_list<std::string_view> separators);

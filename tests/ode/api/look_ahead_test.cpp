@@ -1,6 +1,7 @@
 // Tests of the functions for contacts before overlap: their refusals and their effects.
 #include <doctest/doctest.h>
 
+#include "ode/mesh_fixture.hpp"
 #include "support/ode_world.hpp"
 
 using namespace supernormal::test;
@@ -137,4 +138,24 @@ TEST_CASE("without look-ahead no contact has a negative depth, and the contacts 
     }
   }
   CHECK(with_contacts > 300);
+}
+
+TEST_CASE("a geom that looks ahead with a velocity that is not finite has no contacts, and the error names the velocity") {
+  OdeSession session;
+  World world;
+  const dGeomID ours = snCreateSuperellipsoid(world.space(), 1, 1, 1, 8, 8);
+  const dBodyID body = world.add(ours, 1000);
+  REQUIRE(snGeomSetLookAhead(ours, dReal(0.01)) == 1);
+  dBodySetPosition(body, 2, 2, dReal(0.9));
+  const MeshGeom mesh(floor_arrays(4, 4, 1));
+  const Geom box(dCreateBox(nullptr, 9, 9, dReal(0.01))), plane(dCreatePlane(nullptr, 0, 0, 1, 0));
+  for (const dGeomID other : {dGeomID(mesh), dGeomID(box), dGeomID(plane)}) {
+    dBodySetLinearVel(body, 0, 0, 0);
+    CHECK(!collide(ours, other).empty());
+    for (const dReal bad : {kNoTime, kEternity, -kEternity}) {
+      dBodySetLinearVel(body, 0, bad, 0);
+      CHECK(collide(ours, other).empty());
+      CHECK(refused_with("dCollide: velocity of the body of a geom of this library's class = "));
+    }
+  }
 }

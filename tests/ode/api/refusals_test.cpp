@@ -164,6 +164,13 @@ TEST_CASE("refusals: mass, support, point and proximity") {
   check_error("snGeomSupport", "direction = (1, nan, 0)", "not finite");
   CHECK(point[0] == 7);
 
+  const dVector3 up = {0, 0, 1, 0};
+  dGeomSetPosition(geom, kNan, 0, 0);
+  CHECK(snGeomSupport(geom, up, point) == 0);
+  check_error("snGeomSupport", "the pose of geom", "not finite");
+  CHECK(point[0] == 7);
+  dGeomSetPosition(geom, 0, 0, 0);
+
   CHECK(std::isnan(snGeomPointDepth(geom, 0, kInf, 0)));
   check_error("snGeomPointDepth", "y = inf m", "[-1e+150, 1e+150] m");
   if (largest > 1e150) {

@@ -290,3 +290,45 @@ TEST_CASE("a batch that is in use refuses another call, from either callback, an
   snBatchDestroy(calls.batch);
   dSpaceDestroy(space);
 }
+
+TEST_CASE("an exception in a callback of a batch is its error, and the batch and the space are free afterwards") {
+  const OdeSession session;
+  const dSpaceID space = dHashSpaceCreate(nullptr);
+  Random random(3);
+  for (int i = 0; i < 20; ++i) place(random_body(random, space), 0.3 * random.direction());
+  const snBatchID batch = snBatchCreate(2);
+  snPairFilter* const broken_filter = [](void*, dGeomID, dGeomID) -> int { throw std::runtime_error("the filter broke"); };
+  snContactsCallback* const broken_contacts = [](void*, dGeomID, dGeomID, const dContactGeom*, int) { throw 7; };
+  snContactsCallback* const ignore = [](void*, dGeomID, dGeomID, const dContactGeom*, int) {};
+  CHECK(snBatchCollide(batch, space, 4, nullptr, broken_filter, ignore) == -1);
+  CHECK(std::string(snLastError()) == "snBatchCollide: the filter broke");
+  place(random_body(random, space), {0, 0, 0});  // ODE would end the program if the space were locked
+  CHECK(snBatchCollide(batch, space, 4, nullptr, nullptr, broken_contacts) == -1);
+  CHECK(std::string(snLastError()).find("snBatchCollide: an exception of unknown type") == 0);
+  CHECK(snBatchCollide(batch, space, 4, nullptr, nullptr, ignore) > 0);
+  snBatchDestroy(batch);
+  dSpaceDestroy(space);
+}
+
+TEST_CASE("a pool that leaves out a task, or repeats one, is refused") {
+  const OdeSession session;
+  const dSpaceID space = dHashSpaceCreate(nullptr);
+  Random random(3);
+  for (int i = 0; i < 20; ++i) place(random_body(random, space), 0.3 * random.direction());
+  snContactsCallback* const ignore = [](void*, dGeomID, dGeomID, const dContactGeom*, int) {};
+  int change = 0;
+  const snBatchID batch = snBatchCreateOn(
+      [](void* pool, int count, void (*task)(void*, int), void* context) {
+        for (int i = 0; i < count + *static_cast<int*>(pool); ++i) task(context, i % count);
+      },
+      &change);
+  for (const int wrong : {-1, 1}) {
+    change = wrong;
+    CHECK(snBatchCollide(batch, space, 4, nullptr, nullptr, ignore) == -1);
+    CHECK(std::string(snLastError()).find("but must call it once for each i in [0, ") != std::string::npos);
+  }
+  change = 0;
+  CHECK(snBatchCollide(batch, space, 4, nullptr, nullptr, ignore) > 0);
+  snBatchDestroy(batch);
+  dSpaceDestroy(space);
+}

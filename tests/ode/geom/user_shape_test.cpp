@@ -1,10 +1,11 @@
 // Tests of snCreateConvex: a body that the program defines.
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 
-#include "support/ode_fixture.hpp"
+#include "ode/terrain.hpp"
 
 using namespace supernormal::test;
 
@@ -15,17 +16,19 @@ struct Egg {
   double a = 1, b = 0.8, c = 0.6;
   int released = 0;
   bool broken = false;
+  double factor = 1;  // of all that the callbacks return
 };
 
 dReal egg_support(const void* user, const dReal n[3]) {
   const Egg& egg = *static_cast<const Egg*>(user);
   if (egg.broken) throw std::runtime_error("the egg broke");
-  return dReal(norm({egg.a * n[0], egg.b * n[1], egg.c * n[2]}));
+  return dReal(egg.factor * norm({egg.a * n[0], egg.b * n[1], egg.c * n[2]}));
 }
 
 void egg_point(const void* user, const dReal n[3], dReal point[3]) {
   const Egg& egg = *static_cast<const Egg*>(user);
-  const double h = egg_support(user, n);
+  if (egg.broken) throw std::runtime_error("the egg broke");
+  const double h = norm({egg.a * n[0], egg.b * n[1], egg.c * n[2]}) / egg.factor;
   point[0] = dReal(egg.a * egg.a * n[0] / h);
   point[1] = dReal(egg.b * egg.b * n[1] / h);
   point[2] = dReal(egg.c * egg.c * n[2] / h);
@@ -140,4 +143,48 @@ TEST_CASE("user shape: an exception in a callback becomes the error of the call 
   CHECK(snMassSet(&mass, 1, geom) == 1);
   dSpaceDestroy(space);
   CHECK(egg.released == 1);
+}
+
+TEST_CASE("user shape: callbacks that later return no number, no width or a reversed body are refused, and nothing hangs") {
+  OdeSession session;
+  Egg egg;
+  const snShape shape = describe(egg, false);
+  const Geom geom(snCreateConvex(nullptr, &shape));
+  const Geom ball(snCreateEllipsoid(nullptr, 1, 1, 1));
+  const Terrain terrain(Terrain::Layout{}, [](int i, int j) { return 0.1 * (i % 2) + 0.05 * (j % 3); });
+  const Geom field(dCreateHeightfield(nullptr, terrain.data(), 0));
+  const dVector3 up = {0, 0, 1, 0};
+  for (const double factor : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 0.0, -1.0}) {
+    CAPTURE(factor);
+    egg.factor = factor;
+    dGeomSetPosition(geom, 0, 0, 0);  // the box is new
+    dReal aabb[6];
+    dGeomGetAABB(geom, aabb);
+    for (int axis = 0; axis < 3; ++axis) CHECK(aabb[2 * axis] <= aabb[2 * axis + 1]);
+    snProximity answer;
+    snImpact impact;
+    CHECK(collide(geom, field).empty());
+    CHECK(refused_with("dCollide: the numbers that describe"));
+    CHECK(snGeomProximity(geom, field, &answer) == 0);
+    CHECK(snGeomTimeOfImpact(geom, field, 1, &impact) == 0);
+    if (std::isfinite(factor)) continue;
+    dVector3 point = {7, 7, 7, 7};
+    CHECK(snGeomSupport(geom, up, point) == 0);
+    CHECK(refused_with("what a user-defined body returned, is not finite"));
+    CHECK(point[0] == 7);
+    snMesh mesh;
+    CHECK(snGeomTessellate(geom, dReal(0.01), &mesh) == 0);
+    CHECK(refused_with("snGeomTessellate: a boundary point of the shape is "));
+    CHECK(mesh.points == 0);
+    CHECK(snGeomProximity(geom, ball, &answer) == 0);
+  }
+}
+
+TEST_CASE("user shape: an exception in release becomes the last error and does not end the program") {
+  OdeSession session;
+  Egg egg;
+  snShape shape = describe(egg, false);
+  shape.release = [](void*) { throw std::runtime_error("the egg sticks"); };
+  dGeomDestroy(snCreateConvex(nullptr, &shape));
+  CHECK(std::string(snLastError()) == "release: the egg sticks");
 }

@@ -56,6 +56,7 @@ class Particle {
     body.shape = &shape->body;
     body.width = shape->width;
     body.faces = shape->faces;
+    body.sides = shape->sides;
     body.bulge = shape->bulge;
     body.pose.rotation = attitude.toRotationMatrix();
     body.inverse_mass = 1 / mass;

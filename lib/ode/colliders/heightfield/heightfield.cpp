@@ -13,6 +13,7 @@
 #include "ode/runtime/statistics.hpp"
 #include "ode/support/last_error.hpp"
 #include "proximity/thread_kept.hpp"
+#include "proximity/usable_pose.hpp"
 #include "supernormal/contact/body_box.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/contact/mesh_contacts_ahead.hpp"
@@ -24,6 +25,10 @@ namespace {
 
 // Relative margin of the body's region, so that rounding loses no triangle that touches it.
 constexpr double kMargin = 1e-6;
+
+// Rounding error of a side of the region, in ulps of the distance from the middle of the field. A much smaller body would otherwise
+// have a region of no width.
+constexpr double kRounding = 4 * kRealEpsilon;
 
 // A heightfield that is not placeable has no pose: its frame is the world frame.
 Pose pose_of_heightfield(dGeomID heightfield) {
@@ -55,10 +60,13 @@ struct Visitor {
     pose.position = frame.rotation.transpose() * (world.position - frame.position);
     box.half_lengths *= 1 + kMargin;
     centre = pose.position + pose.rotation * box.centre;
-    extents = pose.rotation.cwiseAbs() * box.half_lengths;
+    extents = pose.rotation.cwiseAbs() * box.half_lengths + kRounding * centre.cwiseAbs();
   }
 
-  bool is_finite() const { return pose.rotation.allFinite() && centre.allFinite() && extents.allFinite(); }
+  /// A user-defined body may return anything.
+  bool is_usable() const {
+    return supernormal::is_usable(pose) && centre.allFinite() && extents.allFinite() && (box.half_lengths.array() > 0).all();
+  }
   double size() const { return extents.maxCoeff(); }
   Region region() const {
     return {centre.x() - extents.x(), centre.x() + extents.x(), centre.z() - extents.z(), centre.z() + extents.z()};
@@ -196,7 +204,7 @@ Proximity find_nearest(HeightfieldProbe& probe, const Visitor& visitor) {
 ContactManifold query_heightfield(dGeomID ours, dGeomID collider, QueryKind /*kind*/) {
   const Pose frame = pose_of_heightfield(collider);
   const Visitor visitor(require_body(ours), pose_of(ours), frame);
-  if (!visitor.is_finite()) return {};
+  if (!visitor.is_usable()) return {};
   HeightfieldProbe& probe = HeightfieldProbe::looking_at(collider);
   if (!is_above_all(probe, visitor)) {
     const std::span<const Proximity> contacts = find_contacts(probe, visitor).contacts;
@@ -209,12 +217,13 @@ Impact find_heightfield_impact(dGeomID ours, dGeomID collider, double horizon) {
   const Body& body = require_body(ours);
   const Pose frame = pose_of_heightfield(collider);
   const Motion start = motion_of(ours, pose_of(ours));
-  if (!Visitor(body, start.pose, frame).is_finite()) return {};
+  if (!Visitor(body, start.pose, frame).is_usable()) return {};
   const BodyBox box = BodyBox::of(body.shape());
   const Path path(start, motion_of(collider, frame), (box.centre - start.centre).norm() + box.half_lengths.norm(), horizon);
   HeightfieldProbe& probe = HeightfieldProbe::looking_at(collider);
   return path.first([&](const Motion& here, const Motion& field, double duration) {
     const Visitor visitor(body, here.pose, field.pose);
+    if (!visitor.is_usable()) return Impact{};
     const Region region = visitor.region().widened(path.travel() + kMargin * visitor.size());
     const std::span<const MeshTriangle> triangles = scratch().patch.read(probe, region);
     return find_mesh_time_of_impact(body.shape(), here, triangles, field, duration, body.settings()).impact;
@@ -226,7 +235,7 @@ int collide_with_heightfield(dGeomID ours, dGeomID collider, int flags, dContact
     const Pose frame = pose_of_heightfield(collider);
     const Visitor visitor(require_body(ours), pose_of(ours), frame);
     HeightfieldProbe& probe = HeightfieldProbe::looking_at(collider);
-    if (!visitor.is_finite()) refuse_pair(ours, collider);
+    if (!visitor.is_usable()) refuse_pair(ours, collider);
     const ContactArray out{ours, collider, flags, contacts, skip};
     std::vector<LocatedManifold>& manifolds = scratch().manifolds;
     manifolds.clear();

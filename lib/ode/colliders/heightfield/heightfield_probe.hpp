@@ -63,7 +63,7 @@ class HeightfieldProbe {
   double max_height() const { return max_height_; }
 
   /// Returns false where there is no surface: beyond or on the border (some 1e-9 of the extent), or where a sample is NaN. `scale`
-  /// (m) is the length scale of the caller.
+  /// (m, > 0) is the length scale of the caller.
   bool find_facet(double x, double z, double scale, Facet& facet);
 
   /// Adds the samples within `radius` (m) of the place in (x, z), with their exact coordinates. ODE omits the samples of some

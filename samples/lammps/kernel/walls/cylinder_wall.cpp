@@ -5,7 +5,8 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <string>
+
+#include "kernel/refuse.hpp"
 
 namespace granular {
 namespace {
@@ -67,7 +68,7 @@ class Outline {
 
 CylinderWall::CylinderWall(const Vector3& point, const Vector3& axis, double radius) : point_(point), radius_(radius) {
   if (!(axis.norm() > 0)) throw std::invalid_argument("cylinder: the axis has no direction");
-  if (!(radius > 0)) throw std::invalid_argument("cylinder: radius = " + std::to_string(radius) + " is outside (0, inf)");
+  if (!(radius > 0)) refuse("cylinder: radius", radius, "(0, inf)");
   across1_ = axis.unitOrthogonal();
   across2_ = axis.normalized().cross(across1_);
 }

@@ -22,6 +22,7 @@ struct WallForce {
   Vector3 torque = Vector3::Zero();       ///< N m; on the particle, about its centre
   Vector3 wall_torque = Vector3::Zero();  ///< N m; on the wall, about the origin of its frame
   double energy = 0;                      ///< J; in the springs
+  double depth = 0;                       ///< m; the largest
   int contacts = 0;
 };
 

@@ -387,3 +387,25 @@ TEST_CASE("a heightfield with values that are not finite gives no such contact a
   CHECK(collide(body, far).empty());
   CHECK(std::string(snLastError()).find("infinite dHeightfield") != std::string::npos);
 }
+
+TEST_CASE("a body far smaller than the digits of its place is answered above a heightfield") {
+  const OdeSession session;
+  const Terrain terrain(Terrain::Layout{}, [](int i, int j) { return 0.1 * (i % 2) + 0.05 * (j % 3); });
+  const Geom field(dCreateHeightfield(nullptr, terrain.data(), 0));
+  for (const double size : {1e-30, 1e-20, 1e-9, 1e-3}) {
+    const Geom grain(snCreateEllipsoid(nullptr, dReal(size), dReal(size), dReal(size)));
+    const Geom probe(snCreateEllipsoid(nullptr, dReal(1e-3), dReal(1e-3), dReal(1e-3)));
+    for (const double x : {0.0, 1.3, -2.7}) {
+      CAPTURE(size);
+      CAPTURE(x);
+      snProximity answer, known;
+      place(grain, {x, 0.5, x / 3});
+      place(probe, {x, 0.5, x / 3});
+      REQUIRE(snGeomProximity(grain, field, &answer) == 1);
+      REQUIRE(snGeomProximity(probe, field, &known) == 1);
+      CHECK(std::abs((double{answer.gap} + size) - (double{known.gap} + 1e-3)) < 1e-6);
+      place(grain, {x, -0.5, x / 3});
+      CHECK(collide(grain, field).size() == 1);
+    }
+  }
+}
