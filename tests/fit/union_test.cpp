@@ -34,6 +34,7 @@ TEST_CASE("the six bodies of an animal end with its points") {
   const Data data{scatter_union(truth, 500, 2e-3, 1), {}, ""};
   const std::vector<FittedBody> fitted = fit_union(data.vertices, 6, {.family = Family::Ellipsoid});
   std::vector<Body> bodies;
+  bodies.reserve(fitted.size());
   for (const FittedBody& each : fitted) bodies.push_back(each.body);
   FitError error = find_error(bodies, data);
   add_uncertainty(error, fitted);

@@ -142,8 +142,8 @@ class Distances final : public ceres::CostFunction {
     if (place == place_) return true;
     place_.clear();
     witnesses_.clear();
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const std::optional<Witness> witness = function.find(points_[i]);
+    for (const Vector3& point : points_) {
+      const std::optional<Witness> witness = function.find(point);
       if (!witness) return false;
       witnesses_.push_back(*witness);
     }
@@ -230,7 +230,8 @@ class VolumeDifference final : public ceres::CostFunction {
     for (const int block : {kExponentsBlock, kTaperBlock}) {
       if (jacobians[block] == nullptr) continue;
       for (int i = 0; i < kBlockSizes[static_cast<std::size_t>(block)]; ++i) {
-        const bool is_fixed = block == kExponentsBlock && fixed_parameters(limits_)[static_cast<std::size_t>(kLogDelta + i)];
+        const auto parameter = static_cast<std::size_t>(kLogDelta) + static_cast<std::size_t>(i);
+        const bool is_fixed = block == kExponentsBlock && fixed_parameters(limits_)[parameter];
         jacobians[block][i] = is_fixed ? 0 : scale * slope_of(blocks, block, i);
       }
     }
