@@ -70,7 +70,7 @@ TEST_CASE("Minkowski sum: of equal heights the first vertices are kept, in their
   MinkowskiSum(first, second).add_active_vertices(n, dn, vertices);
   std::vector<Vector3> sums;
   for (int i = 0; i < of_first.size(); ++i) {
-    for (int j = 0; j < of_second.size(); ++j) sums.push_back(of_first[i] + of_second[j]);
+    for (int j = 0; j < of_second.size(); ++j) sums.emplace_back(of_first[i] + of_second[j]);
   }
   std::stable_sort(sums.begin(), sums.end(), [&](const Vector3& a, const Vector3& b) { return n.dot(a) > n.dot(b); });
   REQUIRE(vertices.size() == ActiveVertices::kCapacity);
