@@ -28,10 +28,10 @@ dReal egg_support(const void* user, const dReal n[3]) {
 void egg_point(const void* user, const dReal n[3], dReal point[3]) {
   const Egg& egg = *static_cast<const Egg*>(user);
   if (egg.broken) throw std::runtime_error("the egg broke");
-  const double h = norm({egg.a * n[0], egg.b * n[1], egg.c * n[2]}) / egg.factor;
-  point[0] = dReal(egg.a * egg.a * n[0] / h);
-  point[1] = dReal(egg.b * egg.b * n[1] / h);
-  point[2] = dReal(egg.c * egg.c * n[2] / h);
+  const double h = norm({egg.a * n[0], egg.b * n[1], egg.c * n[2]});
+  point[0] = dReal(egg.factor * (egg.a * egg.a * n[0] / h));
+  point[1] = dReal(egg.factor * (egg.b * egg.b * n[1] / h));
+  point[2] = dReal(egg.factor * (egg.c * egg.c * n[2] / h));
 }
 
 void egg_hessian(const void* user, const dReal n[3], dReal H[9]) {
