@@ -36,10 +36,9 @@ inline double require_in(const char* name, double value, double low, double high
 /// Throws std::invalid_argument if a direction has not unit length, to 1e-6. Directions that are not finite pass: queries return a
 /// status for them.
 inline void require_unit(const char* name, const Vector3& direction) {
-  if (!all_finite(direction)) return;
-  const double length = direction.stableNorm();
-  if (std::abs(length - 1) <= 1e-6) return;
-  require_in((std::string("length of ") + name).c_str(), length, 1 - 1e-6, 1 + 1e-6);
+  // The range is tested first, because squares out of range would raise floating-point exceptions.
+  if (all_within(direction, 2) && std::abs(direction.norm() - 1) <= 1e-6) return;
+  if (all_finite(direction)) require_in((std::string("length of ") + name).c_str(), direction.stableNorm(), 1 - 1e-6, 1 + 1e-6);
 }
 
 /// Throws std::invalid_argument if an array of answers has another length than the queries.

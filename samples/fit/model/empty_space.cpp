@@ -144,10 +144,6 @@ double noise_of(const std::vector<Vector3>& points, const PointTree& tree) {
   return median_of(heights);
 }
 
-}  // namespace
-
-namespace {
-
 /// A grid around points. Its values are the winding number less its threshold.
 DistanceGrid winding_grid(const std::vector<Vector3>& points, const Surface& surface) {
   DistanceGrid grid;
