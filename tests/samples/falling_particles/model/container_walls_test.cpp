@@ -166,7 +166,7 @@ TEST_CASE("grains in a drum that turns stay in it, and its flat sides stand wher
     Random random(1);
     const World world(scene, place(scene, random));
     Stepper stepper(world, scene);
-    LeakWatch leaks(world, scene);
+    LeakWatch leaks(world);
     for (int step = 1; step <= 2200; ++step) {
       stepper.step();
       leaks.after_step(step * scene.time.step);
