@@ -76,7 +76,7 @@ Inside::Inside(const World& world) : scene_(world.scene()), bottom_(kInfinity) {
     planes_.push_back({plane[0], plane[1], plane[2], plane[3]});
   }
   const auto* const gravity = scene_.gravity();
-  if (gravity == nullptr || !std::holds_alternative<Open>(scene_.container)) return;
+  if (gravity == nullptr || !is_open(scene_.container)) return;
   down_ = gravity->acceleration.stableNormalized();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     if (scene_.periodic[static_cast<std::size_t>(axis)] && down_[axis] != 0) return;  // a fall comes back

@@ -563,8 +563,7 @@ std::optional<Fall> fall_from_start(const Scene& scene) {
   const bool is_on_lattice = scene.grains_at_start() > 0 && !scene.start && !std::holds_alternative<Periodic>(scene.container);
   if (gravity == nullptr || !is_on_lattice) return std::nullopt;
   // The bounds of an open container may be far below all parts, on which grains land.
-  const bool is_open = std::holds_alternative<Open>(scene.container);
-  const double bottom = is_open ? lowest_start(scene.container) : room_of(scene.container).corner[2];
+  const double bottom = is_open(scene.container) ? lowest_start(scene.container) : room_of(scene.container).corner[2];
   const double height = filled_lattice(scene).top() - bottom;
   const double speed = std::sqrt(2 * gravity->acceleration.norm() * height);
   return Fall{height, speed, speed * scene.time.step};
