@@ -399,9 +399,9 @@ bool are_well_fitted(const std::vector<FittedBody>& fitted, double size) {
 /// moves inwards by what is left, so that the weight need not grow (the method of multipliers in the form of Powell 1969). The
 /// result counts if it is nearer to the limits.
 std::vector<FittedBody> bounded(std::vector<FittedBody> fitted, const Cloud& cloud, FitSettings settings) {
-  constexpr int kMostRounds = 8;
-  constexpr double kBoundWeight = 100 * kEmptyWeight;
-  const double size = 1 / settings.empty.scale;  // of the data: the grid is for extent 1
+  constexpr int kMostRounds = 8;                       // the hand and the apple of README.md take 3 and 4
+  constexpr double kBoundWeight = 100 * kEmptyWeight;  // README.md has others
+  const double size = 1 / settings.empty.scale;        // of the data: the grid is for extent 1
   if (!settings.empty.grid || are_well_fitted(fitted, size)) return fitted;
   const auto error_of = [&](const std::vector<FittedBody>& each) {
     std::vector<std::size_t> outliers;
