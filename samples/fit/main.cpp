@@ -8,7 +8,6 @@
 #include <fstream>
 #include <map>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <supernormal/shapes/superellipsoid.hpp>
@@ -19,7 +18,6 @@
 #include "model/fit_error.hpp"
 #include "model/fit_union.hpp"
 #include "output/json.hpp"
-#include "output/kind.hpp"
 #include "output/paste.hpp"
 #include "output/picture.hpp"
 #include "output/report.hpp"
@@ -94,17 +92,11 @@ void write(const std::filesystem::path& path, const std::string& text) {
   if (!file) throw std::runtime_error(path.string() + ": cannot be written");
 }
 
-/// Of the body in what is written.
-std::string name_of(const Options& options) {
-  const std::filesystem::path path = std::filesystem::path(options.path).lexically_normal();
-  const std::filesystem::path last = path.has_filename() ? path : path.parent_path();
-  return options.name.empty() ? fit::identifier(last.stem().string()) : options.name;
-}
-
 void write_results(const Options& options, const std::vector<fit::FittedBody>& fitted, const std::vector<fit::Body>& bodies,
                    const fit::Data& data, const fit::FitError& error, const std::vector<std::string>& doubts) {
   const std::string file = std::filesystem::path(options.path).filename().string();
-  const std::string name = name_of(options);
+  const std::string name =
+      options.name.empty() ? fit::identifier(std::filesystem::path(options.path).stem().string()) : options.name;
   const std::string source = "fitted to " + file + " by samples/fit";
   const std::string toml = fit::toml_lines(fitted, name, options.density, source);
   const std::string c = fit::c_lines(fitted, name, source);
@@ -153,12 +145,7 @@ const CLI::Validator kPositive(
 /// Metres in a unit of the file.
 double scale_of(const Options& options) { return options.scale.value_or(kUnits.at(options.unit)); }
 
-struct Outcome {
-  ExitCode code = Done;
-  fit::Specimen specimen;
-};
-
-Outcome fit_file(const Options& options) {
+ExitCode run(const Options& options) {
   fit::Data data = fit::read_data(options.path, scale_of(options), options.group);
   const bool is_mesh = !data.triangles.empty();
   say(options.path + ": " + std::to_string(data.vertices.points.size()) + " points, " + std::to_string(data.triangles.size()) +
@@ -175,7 +162,7 @@ Outcome fit_file(const Options& options) {
   }
   for (const fit::FittedBody& each : fitted) std::fputs(fit::describe(each).c_str(), stdout);
   if (!is_mesh) std::fputs(fit::describe_outliers(fitted, points).c_str(), stdout);
-  if (options.is_quick) return {};
+  if (options.is_quick) return Done;
   say("comparing surfaces and volumes");
   std::vector<fit::Body> bodies(fitted.size());
   std::ranges::transform(fitted, bodies.begin(), &fit::FittedBody::body);
@@ -186,48 +173,7 @@ Outcome fit_file(const Options& options) {
   write_results(options, fitted, bodies, data, error, doubts);
   std::fflush(stdout);
   for (const std::string& doubt : doubts) std::fprintf(stderr, "fit: warning: %s\n", doubt.c_str());
-  return {doubts.empty() ? Done : BadFit, {name_of(options), fitted, error.body}};
-}
-
-/// The scans in a folder, by name.
-std::vector<std::string> scans_in(const std::string& folder) {
-  const std::set<std::string> kinds = {".stl", ".obj", ".off", ".glb", ".ply", ".xyz"};
-  std::vector<std::string> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (kinds.contains(entry.path().extension().string())) paths.push_back(entry.path().string());
-  }
-  std::ranges::sort(paths);
-  if (paths.size() < 2) {
-    throw fit::InputError(folder + ": " + std::to_string(paths.size()) +
-                          " scans (.stl, .obj, .off, .glb, .ply, .xyz); a kind of grains takes at least 2");
-  }
-  return paths;
-}
-
-/// Fits each scan of a folder, and writes the kind that they are of.
-ExitCode fit_folder(const Options& options) {
-  if (options.is_quick) throw std::invalid_argument("--quick with a folder; a kind takes the volumes");
-  const std::vector<std::string> paths = scans_in(options.path);
-  ExitCode code = Done;
-  std::vector<fit::Specimen> specimens;
-  for (const std::string& path : paths) {
-    Options of_one = options;
-    of_one.path = path;
-    of_one.name.clear();
-    const Outcome outcome = fit_file(of_one);
-    if (outcome.code != Done) code = outcome.code;
-    specimens.push_back(outcome.specimen);
-  }
-  const std::string name = name_of(options);
-  const std::string source = "fitted to " + std::to_string(paths.size()) + " scans by samples/fit";
-  const std::string scene = fit::scene_lines(specimens, name);
-  std::printf("\n%s: %zu scans\n%s\n%s", name.c_str(), paths.size(), fit::describe(specimens).c_str(), scene.c_str());
-  const std::filesystem::path folder = options.out;
-  write(folder / (name + ".toml"), fit::toml_lines(specimens[fit::typical_of(specimens)].fitted, name, options.density, source));
-  write(folder / (name + "_scene.toml"), scene);
-  std::printf("\nwritten: %s.toml, the typical one for a catalogue, and %s_scene.toml, the sizes for a scene\n",
-              (folder / name).c_str(), name.c_str());
-  return code;
+  return doubts.empty() ? Done : BadFit;
 }
 
 /// Throws std::invalid_argument for options that contradict one another.
@@ -250,9 +196,7 @@ void require_consistent(const Options& options) {
 int run_program(int argc, char** argv) {
   CLI::App app("Finds the ellipsoid, superellipsoid or superovoid that is nearest to a mesh or to points.", "fit");
   Options options;
-  app.add_option("file", options.path,
-                 "mesh (.stl, .obj, .off, .glb, .ply), points (.ply, .obj, .xyz), or a folder of scans of one kind of grains")
-      ->required();
+  app.add_option("file", options.path, "mesh (.stl, .obj, .off, .glb, .ply) or points (.ply, .obj, .xyz)")->required();
   app.add_option("--shape", options.shape, "what to look for; auto: what the data call for")
       ->check(CLI::IsMember({"auto", "ellipsoid", "superellipsoid", "superovoid"}))
       ->capture_default_str();
@@ -305,7 +249,7 @@ int run_program(int argc, char** argv) {
     return BadInput;
   }
   require_consistent(options);
-  return std::filesystem::is_directory(options.path) ? fit_folder(options) : fit_file(options).code;
+  return run(options);
 }
 
 }  // namespace
