@@ -49,6 +49,23 @@ FittedBody fitted_of(const Body& body) {
   return fitted;
 }
 
+std::vector<Body> bodies_of(std::span<const FittedBody> fitted) {
+  std::vector<Body> bodies;
+  for (const FittedBody& each : fitted) bodies.push_back(each.body);
+  return bodies;
+}
+
+/// A library of C code, compiled with warnings as errors, and loaded.
+void* compiled(const TemporaryFolder& folder, const std::string& source) {
+  const std::string library = (folder.path() / "code.so").string();
+  const std::string command = std::string(SUPERNORMAL_CXX) +
+                              " -x c -Wall -Wextra -Werror -shared -fPIC -I" SUPERNORMAL_INCLUDE " " + source + " -o " + library;
+  REQUIRE(std::system(command.c_str()) == 0);
+  void* const handle = dlopen(library.c_str(), RTLD_NOW);
+  REQUIRE_MESSAGE(handle != nullptr, dlerror());
+  return handle;
+}
+
 Body placed_body(Family family, double delta, double epsilon, double taper = 0) {
   return {family, {0.3, -0.2, 0.5}, Eigen::Quaterniond(0.7, 0.3, -0.2, 0.5).normalized(), {0.03, 0.02, 0.01}, delta, epsilon,
           taper};
@@ -268,7 +285,7 @@ TEST_CASE("a body is fitted equally well a million of its sizes from the origin"
     CHECK(std::abs(fitted.body.epsilon - 4) < 1e-6);
     CHECK((fitted.body.position - far.position).norm() < 1e-8);
     // The printed position has as many digits as the body needs.
-    CHECK(c_lines(std::vector<FittedBody>{fitted}, "far", "").find("dGeomSetPosition(far, ") != std::string::npos);
+    CHECK(c_lines(std::vector<FittedBody>{fitted}, "far", "", {}, 1).find("dGeomSetPosition(geom_far, ") != std::string::npos);
   }
   CHECK(digits_of(1e6, 0.8, 9) == 16);
   CHECK(digits_of(0.1, 0.8, 9) == 9);
@@ -540,13 +557,9 @@ TEST_CASE("the printed lines of C compile and create the bodies") {
       folder.write("thing.c",
                    "#include <supernormal/supernormal.h>\nvoid make(dSpaceID space, dGeomID *out);\n"
                    "void make(dSpaceID space, dGeomID *out) {\n" +
-                       c_lines(fitted, "thing", "a */ scan") + "out[0] = thing_1; out[1] = thing_2; out[2] = thing_3;\n}\n");
-  const std::string library = (folder.path() / "thing.so").string();
-  const std::string command = std::string(SUPERNORMAL_CXX) +
-                              " -x c -Wall -Wextra -Werror -shared -fPIC -I" SUPERNORMAL_INCLUDE " " + source + " -o " + library;
-  REQUIRE(std::system(command.c_str()) == 0);
-  void* const handle = dlopen(library.c_str(), RTLD_NOW);
-  REQUIRE_MESSAGE(handle != nullptr, dlerror());
+                       c_lines(fitted, "thing", "a */ scan", integrate_union(bodies_of(fitted)).solid, 1200) +
+                       "out[0] = geom_thing_1; out[1] = geom_thing_2; out[2] = geom_thing_3;\n}\n");
+  void* const handle = compiled(folder, source);
   using Make = void (*)(dSpaceID, dGeomID*);
   const auto make = reinterpret_cast<Make>(dlsym(handle, "make"));
   REQUIRE((make != nullptr));
@@ -570,9 +583,54 @@ TEST_CASE("the printed lines of C compile and create the bodies") {
   dlclose(handle);
 }
 
+TEST_CASE("the printed lines of C make a body whose centre of mass is its origin, whatever its name") {
+  const TemporaryFolder folder;
+  // The centre of mass of a superovoid is not its centre.
+  const std::vector<FittedBody> fitted = {fitted_of(placed_body(Family::Superovoid, 2, 2, -0.3))};
+  const FitError error = find_error(bodies_of(fitted), {scatter(fitted[0].body, {.points = 500}), {}, ""});
+  std::ostringstream code;
+  code.precision(17);
+  code << "#include <supernormal/supernormal.h>\nvoid make(dSpaceID space, dBodyID body, dMass *own);\n"
+       << "void make(dSpaceID space, dBodyID body, dMass *own) {\n";
+  for (const char* name : {"int", "space", "body", "dGeomID", "_Bool"}) {
+    code << "{\n"
+         << c_lines(fitted, name, "", error.body, 1200) << "dBodySetMass(body, &mass_" << name << ");\ndBodySetPosition(body, "
+         << error.body.centroid.x() << ", " << error.body.centroid.y() << ", " << error.body.centroid.z()
+         << ");\ndGeomSetBody(geom_" << name << ", body);\ndGeomSetOffsetWorldPosition(geom_" << name << ", 0.3, -0.2, 0.5);\n"
+         << "dGeomSetOffsetWorldQuaternion(geom_" << name << ", geom_" << name << "_orientation);\n"
+         << "snMassSet(own, 1200, geom_" << name << ");\n}\n";
+  }
+  code << "}\n";
+  void* const handle = compiled(folder, folder.write("moving.c", code.str()));
+  using Make = void (*)(dSpaceID, dBodyID, dMass*);
+  const auto make = reinterpret_cast<Make>(dlsym(handle, "make"));
+  REQUIRE((make != nullptr));
+  dInitODE2(0);
+  const dWorldID world = dWorldCreate();
+  const dBodyID body = dBodyCreate(world);
+  dMass own, mass;
+  make(nullptr, body, &own);  // dBodySetMass ends the program if the centre of mass is elsewhere
+  dBodyGetMass(body, &mass);
+  // The mass of the geom, in its own frame, moved to the frame of the body.
+  const dGeomID geom = dBodyGetFirstGeom(body);
+  dMassRotate(&own, dGeomGetOffsetRotation(geom));
+  const dReal* const place = dGeomGetOffsetPosition(geom);
+  dMassTranslate(&own, place[0], place[1], place[2]);
+  CHECK(double{mass.mass} == doctest::Approx(double{own.mass}));
+  for (int i = 0; i < 3; ++i) CHECK(std::abs(double{own.c[i]}) < 1e-8);
+  for (int i = 0; i < 12; ++i) CHECK(std::abs(double{mass.I[i] - own.I[i]}) < 1e-7 * double{mass.I[0]});
+  while (const dGeomID each = dBodyGetFirstGeom(body)) dGeomDestroy(each);
+  dWorldDestroy(world);
+  snClose();
+  dCloseODE();
+  dlclose(handle);
+}
+
 TEST_CASE("printed names are valid in C and in catalogues") {
   CHECK(identifier("bunny.bin") == "bunny_bin");
   CHECK(identifier("3 stones") == "fit_3_stones");
+  CHECK(identifier("gr\xc3\xb6\xc3\x9f"
+                   "e") == "gr__e");  // two characters of two bytes
   CHECK(identifier("") == "fit_");
 }
 
