@@ -1,4 +1,4 @@
-"""Bricks rest on their faces: one as in ODE, and a wall of them. A rod rests on its side."""
+"""Bricks rest on their faces: one as in ODE, and a wall of them. Rods and cans rest on their sides."""
 
 import csv
 import subprocess
@@ -88,8 +88,17 @@ def check_rod(driver):
     yield "rod: weight on the floor", abs(end["v_borne"] - 1), 1e-9
 
 
+def check_pile(driver):
+    """A can drops on its side on a brick, and a log on two others."""
+    (table,) = driver.run("pile", 1, steps=2 * STEPS, every=STEPS)
+    end = table[-1]
+    yield "a can on a brick, and a log on two, after 1 s: kinetic energy, J", end["v_kinetic"], 1e-15
+    yield "the same: weight on the floor", abs(end["v_borne"] - 1), 1e-9
+
+
 def check(driver):
     """Yields the name, the value and the limit of each comparison."""
     yield from check_ode(driver)
     yield from check_wall(driver)
     yield from check_rod(driver)
+    yield from check_pile(driver)

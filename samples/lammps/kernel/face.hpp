@@ -48,10 +48,14 @@ struct Side {
 
   /// Where a curve reaches farthest along a direction.
   struct End {
-    double support;  ///< m; along the direction
-    Vector3 point;   ///< m
+    double support;   ///< m; along the direction
+    Vector3 point;    ///< m
+    Vector3 place;    ///< m; the point, but smooth where the curve is flat: there the point almost jumps
+    Vector3 roll;     ///< the place moves by roll (by_roll . d(normal))
+    Vector3 by_roll;  ///< m
   };
-  /// The curve at one of the ends; `sign`: 1 or -1. `normal` is unit, in the body's frame. The point is the gradient of `support`.
+  /// The curve at one of the ends; `sign`: 1 or -1, or 0 for the middle. `normal` is unit, in the body's frame. The point is the
+  /// gradient of `support`.
   End end(const Vector3& normal, int sign) const;
   /// How much of a vector is across the side.
   double part_across(const Vector3& normal) const;

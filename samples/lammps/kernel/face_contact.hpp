@@ -13,6 +13,7 @@ namespace granular {
 /// d(depth) = (normal + lateral) . (displacement of body 1 at `point` - displacement of body 2).
 struct FaceCorner {
   Vector3 point;    ///< m
+  Vector3 normal;   ///< unit, from body 1 to body 2
   Vector3 lateral;  ///< along the faces: the point moves along a sloped edge
   double depth;     ///< m; > 0
   double weight;    ///< the turning angle of the region's outline here, as a fraction of a full turn
@@ -32,7 +33,6 @@ struct FaceContact {
 
   std::array<FaceCorner, kMostCorners> corners;
   int count = 0;                              ///< the first `count` are valid; the others of the region are not in contact
-  Vector3 normal;                             ///< unit, from body 1 to body 2
   double mean_square = 0;                     ///< m^2; the mean of the squared depths
   Vector3 turning = Vector3::Zero();          ///< m^2; d(mean_square) by a rotation of body 1, with depths and points fixed
   double mean = 0;                            ///< m; the mean of the depths, where corners that are not in contact have none

@@ -58,7 +58,7 @@ WallForce find_wall_force(Wall& wall, const Body& wall_body, const ParticleShape
     const NormalForce elastic =
         elastic_force(material, shape, particle, contact.normal, found.depth, rotation * found.curvature * rotation.transpose());
     ContactHistory one = take_nearest(old, contact.normal);
-    if (!faces && !(particle.faces.empty() && particle.sides.empty())) one.release_twist();
+    if (!faces && particle.is_flat()) one.release_twist();
     const ContactForce force = faces ? face_contact_force(*faces, face_stiffness(material, shape.width), elastic, material,
                                                           particle, wall_body, step, contact, one)
                                      : contact_force(contact, elastic, material, particle, wall_body, step, one);
