@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "supernormal/proximity/pose.hpp"
@@ -27,6 +28,8 @@ struct Face {
   /// m; along the two following axes, counter-clockwise about the axis.
   std::array<Vector2, kMostVertices> vertices;
   int count = 0;  ///< the first `count` vertices are valid
+
+  std::span<const Vector2> outline() const { return std::span(vertices).first(static_cast<std::size_t>(count)); }
 };
 
 /// The faces of a body, at most three. A round body has none. A face that is flat along one axis only, as the side of a can, is no

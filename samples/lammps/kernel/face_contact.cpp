@@ -64,10 +64,11 @@ class Region {
   }
 
   /// Cuts away what is not above face 2.
-  void clip(const Face& face2) {
-    for (int k = 0; k < face2.count && count_ > 0; ++k) {
-      const Vector2& start = at(face2.vertices, k);
-      const Vector2 along = at(face2.vertices, (k + 1) % face2.count) - start;
+  void clip(const Patch& face2) {
+    const int count = static_cast<int>(face2.size());
+    for (int k = 0; k < count && count_ > 0; ++k) {
+      const Vector2& start = at(face2, k);
+      const Vector2 along = at(face2, (k + 1) % count) - start;
       at(edges_, kFirstOfTwo + k) = {start, along.normalized(), std::atan2(along.y(), along.x()), 0};
       clip(kFirstOfTwo + k);
     }
@@ -203,7 +204,7 @@ std::optional<FaceContact> find_contact(FacePose face1, FacePose face2) {
   const Tilt tilt(face1.frame.col(2), face2.frame.col(2), std::min(face1.face->tilt, face2.face->tilt));
   if (tilt.share == 0) return std::nullopt;
   Region region(face1, face2.frame, face2.centre);
-  region.clip(*face2.face);
+  region.clip(face2.face->outline());
   const double full = kFullOverlap * face1.face->width * face1.face->width;
   const Ramp overlap(region.area() / full);
   if (overlap.value == 0) return std::nullopt;
@@ -218,10 +219,31 @@ std::optional<FaceContact> find_contact(FacePose face1, FacePose face2) {
   return contact;
 }
 
+/// Multiplies the share by how far the patches are under all of a face. Returns whether it is above 0.
+bool find_cover(const Region& whole, std::span<const Patch> patches, FaceContact& contact) {
+  double covered = 0;
+  Vector3 by_way = Vector3::Zero(), by_turn = Vector3::Zero();
+  for (const Patch& patch : patches) {
+    Region part = whole;
+    part.clip(patch);
+    covered += part.area();
+    part.add_area_derivatives(1, by_way, by_turn);
+  }
+  const double area = whole.area();
+  const Ramp cover(1 - (1 - covered / area) / kFullOverlap);
+  if (cover.value == 0) return false;
+  whole.add_area_derivatives(-covered / area, by_way, by_turn);
+  const double factor = contact.share * cover.slope / (kFullOverlap * area);
+  contact.share_by_way = factor * by_way;
+  contact.share_by_turn = cover.value * contact.share_by_turn + factor * by_turn;
+  contact.share *= cover.value;
+  return true;
+}
+
 /// The contact of a side of a body with the face of another.
 std::optional<FaceContact> find_contact(const Body& body, const FacePose& face) {
-  const Patch patch = std::span(face.face->vertices).first(static_cast<std::size_t>(face.face->count));
-  return find_side_contact(body, {face.frame, face.centre, {&patch, 1}, face.face->width, face.face->tilt});
+  const Patch patch = face.face->outline();
+  return find_side_contact(body, {face.frame, face.centre, {&patch, 1}, false, face.face->width, face.face->tilt});
 }
 
 }  // namespace
@@ -238,20 +260,28 @@ std::optional<FaceContact> find_face_contact(const Body& body1, const Body& body
   return contact;
 }
 
-std::optional<FaceContact> find_plane_face_contact(const Body& body, const Vector3& point, const Vector3& normal) {
-  Matrix3 frame;
-  frame << normal.unitOrthogonal(), Vector3::Zero(), -normal;
-  frame.col(1) = frame.col(2).cross(frame.col(0));
-  const std::optional<FacePose> face = find_face(body, normal);
-  if (!face) return find_side_contact(body, {frame, point});
-  const Tilt tilt(face->frame.col(2), -normal, face->face->tilt);
+std::optional<FaceContact> find_ground_contact(const Body& body, const Ground& ground) {
+  const Vector3 out = ground.frame.col(2);
+  const std::optional<FacePose> face = find_face(body, -out);
+  if (!face) return find_side_contact(body, ground);
+  const Tilt tilt(face->frame.col(2), out, face->face->tilt);
   if (tilt.share == 0) return std::nullopt;
+  const Region whole(*face, ground.frame, ground.origin);
   FaceContact contact;
-  contact.origin = point;
-  Region(*face, frame, point).add_corners(contact);
+  contact.origin = ground.origin;
   contact.share = tilt.share;
   contact.share_by_turn = tilt.by_turn;
+  if (ground.is_surface && !find_cover(whole, ground.patches, contact)) return std::nullopt;
+  whole.add_corners(contact);
   return contact;
+}
+
+Ground Ground::plane(const Vector3& point, const Vector3& normal) {
+  Ground ground;
+  ground.frame << normal.unitOrthogonal(), Vector3::Zero(), normal;
+  ground.frame.col(1) = normal.cross(ground.frame.col(0));
+  ground.origin = point;
+  return ground;
 }
 
 }  // namespace granular

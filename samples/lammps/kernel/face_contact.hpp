@@ -6,6 +6,7 @@
 
 #include "kernel/body.hpp"
 #include "kernel/face.hpp"
+#include "kernel/ground.hpp"
 
 namespace granular {
 
@@ -47,8 +48,8 @@ struct FaceContact {
 /// bodies has no such face, or if `share` is 0.
 std::optional<FaceContact> find_face_contact(const Body& body1, const Body& body2, const Vector3& normal);
 
-/// The contact of a body's face or side with the plane through a point (m). `normal` is unit, from the body to the plane. A side
-/// has two corners, the ends of its line, with half of the weight each.
-std::optional<FaceContact> find_plane_face_contact(const Body& body, const Vector3& point, const Vector3& normal);
+/// The contact of a body's face or side with the ground. A side has two corners, the ends of its line, with half of the weight
+/// each.
+std::optional<FaceContact> find_ground_contact(const Body& body, const Ground& ground);
 
 }  // namespace granular

@@ -26,6 +26,8 @@ Varying varying(double value, const Vector3& by_way, const Vector3& by_turn) {
   return made;
 }
 
+Varying constant(double value) { return varying(value, Vector3::Zero(), Vector3::Zero()); }
+
 Varying ramp(const Varying& x) {
   const Ramp ramp(x.value());
   return {ramp.value, ramp.slope * x.derivatives()};
@@ -138,13 +140,22 @@ Place<double> value_of(const Place<Varying>& place) { return {place.x().value(),
 /// How much the line counts, by its length on the ground, away from the border.
 Varying find_cover(const std::array<Place<Varying>, 2>& line, double width, std::span<const Patch> patches) {
   const double full = kFullOverlap * width, square = 0.5 * full * full;
-  Varying cover(1);
-  cover.derivatives().setZero();
+  Varying cover = constant(1);
   for (const double beside : {0.5 * full, -0.5 * full}) {
     if (area_beside<double>(value_of(line[0]), value_of(line[1]), beside, patches) >= square) continue;
     cover = cover * ramp(area_beside<Varying>(line[0], line[1], beside, patches) / square);
   }
   return cover;
+}
+
+/// How much the line counts, by how far the patches are under all of it.
+Varying find_whole_cover(const std::array<Place<Varying>, 2>& line, double width, std::span<const Patch> patches) {
+  Varying covered = constant(0), all = constant(0);
+  for (const double beside : {0.5 * kFullOverlap * width, -0.5 * kFullOverlap * width}) {
+    covered += area_beside<Varying>(line[0], line[1], beside, patches);
+    all += area_beside<Varying>(line[0], line[1], beside, {});
+  }
+  return ramp(constant(1) - (constant(1) - covered / all) / kFullOverlap);
 }
 
 const Side* find_side(const Body& body, const Vector3& own_normal) {
@@ -193,17 +204,13 @@ std::optional<FaceContact> find_side_contact(const Body& body, const Ground& gro
   }
 
   Part common;
-  if (!ground.patches.empty()) {
-    common = {Varying(1), Varying(0)};
-    for (const Patch& patch : ground.patches) {
-      const Part part = clip(line, patch);
-      if (part.from > part.to) continue;
-      if (part.from < common.from) common.from = part.from;
-      if (part.to > common.to) common.to = part.to;
-    }
+  if (!ground.patches.empty() && !ground.is_surface) {
+    common = clip(line, ground.patches.front());
     if (!(common.from < common.to)) return std::nullopt;
   }
-  const Varying share = tilt_share * find_cover(line, std::min(2 * side->reach, ground.width), ground.patches);
+  const double width = std::min(2 * side->reach, ground.width);
+  Varying share = tilt_share * find_cover(line, width, ground.is_surface ? std::span<const Patch>() : ground.patches);
+  if (ground.is_surface && share.value() > 0) share = share * find_whole_cover(line, width, ground.patches);
   if (share.value() == 0) return std::nullopt;
 
   FaceContact contact;
@@ -299,8 +306,7 @@ class SidePair {
 
 /// How much the line counts: the ends must be deep, beside what the middle is deeper than both.
 Varying find_straightness(const Varying& end1, const Varying& end2, const Varying& middle) {
-  Varying straight(1);
-  straight.derivatives().setZero();
+  const Varying straight = constant(1);
   const Varying sag = middle - 0.5 * (end1 + end2);
   if (sag.value() <= 0) return straight;
   Varying all = sag;
@@ -310,12 +316,64 @@ Varying find_straightness(const Varying& end1, const Varying& end2, const Varyin
   return straight - ramp(sag / all);
 }
 
+/// The side that runs around a body.
+const Side* find_round_side(const Body& body) {
+  const auto side = std::ranges::find_if(body.sides, [](const Side& one) { return one.across == one.along; });
+  return side == body.sides.end() ? nullptr : &*side;
+}
+
+/// The end of a side that sticks out of a pipe farthest, near a normal.
+struct PipeEnd {
+  Varying depth;
+  Vector3 point, normal;
+};
+PipeEnd find_pipe_end(const Body& body, const Side& side, int sign, const Pipe& pipe, const Vector3& near) {
+  constexpr double kFirstStep = 0.01;  // rad
+  const Matrix3& rotation = body.pose.rotation;
+  const Vector3 beside = pipe.axis.cross(near), centre = body.pose.position - pipe.point;
+  const auto normal_at = [&](double angle) -> Vector3 { return std::cos(angle) * near + std::sin(angle) * beside; };
+  const auto slope = [&](double angle) -> ArcSlope {
+    const Vector3 normal = normal_at(angle), along = pipe.axis.cross(normal);
+    const Side::End end = side.end(rotation.transpose() * normal, sign);
+    const Vector3 point = centre + rotation * end.point;
+    return {along.dot(point), along.dot(rotation * end.roll) * along.dot(rotation * end.by_roll) - normal.dot(point)};
+  };
+  // Uphill until the slope changes its sign.
+  const double uphill = slope(0).first > 0 ? 1 : -1;
+  double last = 0, next = kFirstStep;
+  while (next < std::numbers::pi && slope(uphill * next).first * uphill > 0) {
+    last = next;
+    next *= 2;
+  }
+  const double angle = find_maximum_on_arc(slope, uphill > 0 ? last : -next, uphill > 0 ? next : -last);
+  const Vector3 normal = normal_at(angle), arm = rotation * side.end(rotation.transpose() * normal, sign).point;
+  return {varying(normal.dot(centre + arm) - pipe.radius, normal, arm.cross(normal)), body.pose.position + arm, normal};
+}
+
 }  // namespace
 
+std::optional<FaceContact> find_pipe_contact(const Body& body, const Pipe& pipe, std::span<const Vector3> normals,
+                                             std::size_t which) {
+  const Side* const side = find_round_side(body);
+  if (side == nullptr) return std::nullopt;
+  const Vector3 axis = body.pose.rotation.col(side->along);
+  const Tilt tilt(axis, axis.dot(pipe.axis) > 0 ? Vector3(-pipe.axis) : pipe.axis, side->tilt);
+  if (tilt.share == 0) return std::nullopt;
+  FaceContact contact;
+  contact.origin = body.pose.position;
+  contact.share = tilt.share;
+  contact.share_by_turn = tilt.by_turn;
+  for (const int sign : {-1, 1}) {
+    const PipeEnd end = find_pipe_end(body, *side, sign, pipe, normals[which]);
+    const auto nearest = std::ranges::max_element(normals, {}, [&](const Vector3& one) { return one.dot(end.normal); });
+    if (nearest == normals.begin() + static_cast<std::ptrdiff_t>(which)) add_end(end.depth, end.point, end.normal, contact);
+  }
+  return contact;
+}
+
 std::optional<FaceContact> find_side_pair_contact(const Body& body1, const Body& body2, const Vector3& normal) {
-  const auto runs_around = [](const Side& one) { return one.across == one.along; };
-  const auto side1 = std::ranges::find_if(body1.sides, runs_around), side2 = std::ranges::find_if(body2.sides, runs_around);
-  if (side1 == body1.sides.end() || side2 == body2.sides.end()) return std::nullopt;
+  const Side *const side1 = find_round_side(body1), *const side2 = find_round_side(body2);
+  if (side1 == nullptr || side2 == nullptr) return std::nullopt;
   const Vector3 axis1 = body1.pose.rotation.col(side1->along), axis2 = body2.pose.rotation.col(side2->along);
   const Tilt tilt(axis1, axis1.dot(axis2) > 0 ? Vector3(-axis2) : axis2, std::min(side1->tilt, side2->tilt));
   if (tilt.share == 0) return std::nullopt;

@@ -58,6 +58,7 @@ void CylinderWall::add_contacts(const ParticleShape& shape, const supernormal::P
   const Vector3 offset = across1_.dot(from_axis.position) * across1_ + across2_.dot(from_axis.position) * across2_;
   if (offset.norm() + shape.bounding_radius <= radius_) return;
 
+  const Pipe pipe{point_, across1_.cross(across2_), radius_};
   const Outline outline(shape, from_axis, across1_, across2_);
   // Where the body protrudes, its bounding sphere does, too: on an arc around the sphere's direction.
   const double middle = std::atan2(across2_.dot(offset), across1_.dot(offset));
@@ -68,12 +69,14 @@ void CylinderWall::add_contacts(const ParticleShape& shape, const supernormal::P
   for (int k = 1; k <= kIntervals; ++k) {
     const double high = middle - half + k * spacing, high_value = outline.value(high);
     // The two tangents intersect no farther out than this between the two normals.
-    const bool may_stick_out = std::max(low_value, high_value) > radius_ * std::cos(0.5 * spacing);
+    const bool may_stick_out = std::max(low_value, high_value) > (radius_ - shape.bulge) * std::cos(0.5 * spacing);
     if (may_stick_out && outline.slope(low).first > 0 && outline.slope(high).first <= 0) {
       const double angle = find_maximum_on_arc([&](double here) { return outline.slope(here); }, low, high);
       const Vector3 u = outline.direction(angle), along = outline.along(angle);
       const double depth = outline.value(angle) - radius_;
-      if (depth > 0) contacts.push_back({u, outline.point(u) + point_, depth, -along * along.transpose() / radius_});
+      if (depth > -shape.bulge) {
+        contacts.push_back({u, outline.point(u) + point_, depth, -along * along.transpose() / radius_, std::nullopt, pipe});
+      }
     }
     low = high;
     low_value = high_value;
