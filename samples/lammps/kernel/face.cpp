@@ -129,17 +129,25 @@ Vector3 thinnest(const Side& can) {
 /// the parts of the vectors along it, from 0 on, and `e` the exponent of the support function.
 Side::End farthest_on(const Vector3& to_u, double u, const Vector3& to_w, double w, double e) {
   const double larger = std::max(u, w);
-  if (larger == 0) return {0, Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
-  const double support = larger * std::pow(std::pow(u / larger, e) + std::pow(w / larger, e), 1 / e);
+  if (larger == 0) return {0, Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), 0};
+  const double power_u = std::pow(u / larger, e), power_w = std::pow(w / larger, e), sum = power_u + power_w;
+  const double support = larger * std::pow(sum, 1 / e);
   const double part_u = u / support, part_w = w / support;
-  const double by_u = std::pow(part_u, e - 1), by_w = std::pow(part_w, e - 1);
-  const auto smooth = [&](double part) { return part * std::pow(part * part + kFlatSpot * kFlatSpot, 0.5 * e - 1); };
-  const auto slope = [&](double part) {
-    const double square = part * part + kFlatSpot * kFlatSpot;
-    return std::pow(square, 0.5 * e - 2) * (square + (e - 2) * part * part);
+  // The part to the power e - 1.
+  const double by_u = part_u > 0 ? power_u / (sum * part_u) : 0, by_w = part_w > 0 ? power_w / (sum * part_w) : 0;
+  // The same, smooth, and its slope.
+  const auto smooth = [e](double part) {
+    const double square = part * part, size = square + kFlatSpot * kFlatSpot, power = std::pow(size, 0.5 * e - 2);
+    return std::pair(part * size * power, (size + (e - 2) * square) * power);
   };
-  return {support, by_u * to_u + by_w * to_w, smooth(part_u) * to_u + smooth(part_w) * to_w,
-          (slope(part_u) * by_w * to_u - slope(part_w) * by_u * to_w) / support, part_w * to_u - part_u * to_w};
+  const auto [place_u, slope_u] = smooth(part_u);
+  const auto [place_w, slope_w] = smooth(part_w);
+  return {support,
+          by_u * to_u + by_w * to_w,
+          place_u * to_u + place_w * to_w,
+          (slope_u * by_w * to_u - slope_w * by_u * to_w) / support,
+          part_w * to_u - part_u * to_w,
+          (e - 1) * std::pow(part_u * part_w, e - 2) / support};
 }
 
 }  // namespace

@@ -56,6 +56,7 @@ struct Side {
     Vector3 place;    ///< m; the point, but smooth where the curve is flat: there the point almost jumps
     Vector3 roll;     ///< the place moves by roll (by_roll . d(normal))
     Vector3 by_roll;  ///< m
+    double bend;      ///< 1/m; the second derivative of `support` along t is bend (by_roll . t)^2. Infinite where the curve is flat
   };
   /// The curve at one of the ends; `sign`: 1 or -1, or 0 for the middle. `normal` is unit, in the body's frame. The point is the
   /// gradient of `support`.

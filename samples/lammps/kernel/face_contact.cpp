@@ -26,8 +26,7 @@ auto& at(Array& array, int k) {
 /// A directed edge of one of the polygons, in the plane of face 2.
 struct Edge {
   Vector2 start;
-  Vector2 direction;  // unit
-  double angle;       // rad; of the direction
+  Vector2 direction;  // unit for face 1
   double rise;        // of the edge above face 2, by its length in the plane; 0 for edges of face 2
 };
 
@@ -57,7 +56,7 @@ class Region {
       const int next = (k + 1) % count;
       const Vector3 along = at(vertices, next) - at(vertices, k);
       const double length = along.head<2>().norm();
-      at(edges_, k) = {at(vertices, k).head<2>(), along.head<2>() / length, std::atan2(along.y(), along.x()), along.z() / length};
+      at(edges_, k) = {at(vertices, k).head<2>(), along.head<2>() / length, along.z() / length};
       at(corners_, k) = {at(vertices, k).head<2>(), (k + count - 1) % count, k};
     }
     count_ = count;
@@ -69,9 +68,15 @@ class Region {
     for (int k = 0; k < count && count_ > 0; ++k) {
       const Vector2& start = at(face2, k);
       const Vector2 along = at(face2, (k + 1) % count) - start;
-      at(edges_, kFirstOfTwo + k) = {start, along.normalized(), std::atan2(along.y(), along.x()), 0};
+      at(edges_, kFirstOfTwo + k) = {start, along, 0};
       clip(kFirstOfTwo + k);
     }
+  }
+
+  Eigen::AlignedBox2d box() const {
+    Eigen::AlignedBox2d box;
+    for (int k = 0; k < count_; ++k) box.extend(at(corners_, k).place);
+    return box;
   }
 
   double area() const {
@@ -137,8 +142,9 @@ class Region {
   }
 
   double turning_angle(const Corner& corner) const {
-    const double angle = at(edges_, corner.out).angle - at(edges_, corner.in).angle;
-    return angle < -0.25 * kTurn ? angle + kTurn : angle > 0.75 * kTurn ? angle - kTurn : angle;
+    const Vector2 &in = at(edges_, corner.in).direction, &out = at(edges_, corner.out).direction;
+    const double angle = std::atan2(cross(in, out), in.dot(out));
+    return angle < -0.25 * kTurn ? angle + kTurn : angle;
   }
 
   /// d(angle of an edge) by a rotation of body 1.
@@ -156,7 +162,7 @@ class Region {
     if (in_of_one != out_of_one) {
       // A crossing moves along the edge of face 2.
       const Vector2& edge1 = at(edges_, in_of_one ? corner.in : corner.out).direction;
-      const Vector2& edge2 = at(edges_, in_of_one ? corner.out : corner.in).direction;
+      const Vector2 edge2 = at(edges_, in_of_one ? corner.out : corner.in).direction.normalized();
       const Vector2 outwards(edge1.y(), -edge1.x());
       const double sine = edge2.dot(outwards);
       if (std::abs(sine) > kParallel) by_way += slope_.dot(edge2) / sine * outwards;
@@ -223,7 +229,11 @@ std::optional<FaceContact> find_contact(FacePose face1, FacePose face2) {
 bool find_cover(const Region& whole, std::span<const Patch> patches, FaceContact& contact) {
   double covered = 0;
   Vector3 by_way = Vector3::Zero(), by_turn = Vector3::Zero();
+  const Eigen::AlignedBox2d box = whole.box();
   for (const Patch& patch : patches) {
+    Eigen::AlignedBox2d of_patch;
+    for (const Vector2& vertex : patch) of_patch.extend(vertex);
+    if (!box.intersects(of_patch)) continue;
     Region part = whole;
     part.clip(patch);
     covered += part.area();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <unsupported/Eigen/AutoDiff>
 
 #include "kernel/fading.hpp"
@@ -15,6 +14,9 @@ namespace {
 // The part of a normal across a side. Lines end in a pole of the body there, so they have no share, up to rounding, by which the
 // derivative of their tilt would be divided.
 constexpr double kPole = 1e-6;
+
+// The part of a strip that rounding leaves bare between triangles.
+constexpr double kBare = 1e-9;
 
 /// A number with its derivatives by a displacement of body 1 and by a rotation about its centre.
 using Wrench = Eigen::Matrix<double, 6, 1>;
@@ -58,6 +60,9 @@ void set_share(const Varying& share, FaceContact& contact) {
 template <typename T>
 using Place = Eigen::Matrix<T, 2, 1>;
 
+const Place<double>& value_of(const Place<double>& place) { return place; }
+Place<double> value_of(const Place<Varying>& place) { return {place.x().value(), place.y().value()}; }
+
 template <typename T>
 T cross(const Place<T>& a, const Place<T>& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -92,6 +97,10 @@ Part clip(const std::array<Place<Varying>, 2>& line, const Patch& patch) {
 /// The area that a quadrilateral and a patch have in common, by Sutherland and Hodgman's clipping.
 template <typename T>
 T common_area(const std::array<Place<T>, 4>& quadrilateral, const Patch& patch) {
+  Eigen::AlignedBox2d box, of_patch;
+  for (const Place<T>& place : quadrilateral) box.extend(value_of(place));
+  for (const Vector2& vertex : patch) of_patch.extend(vertex);
+  if (!box.intersects(of_patch)) return T(0);
   std::array<Place<T>, Face::kMostVertices + 4> kept, before;
   std::copy(quadrilateral.begin(), quadrilateral.end(), kept.begin());
   std::size_t count = quadrilateral.size();
@@ -135,8 +144,6 @@ T area_beside(const Place<T>& start, const Place<T>& end, double width, std::spa
   return width > 0 ? area : T(-area);
 }
 
-Place<double> value_of(const Place<Varying>& place) { return {place.x().value(), place.y().value()}; }
-
 /// How much the line counts, by its length on the ground, away from the border.
 Varying find_cover(const std::array<Place<Varying>, 2>& line, double width, std::span<const Patch> patches) {
   const double full = kFullOverlap * width, square = 0.5 * full * full;
@@ -150,8 +157,16 @@ Varying find_cover(const std::array<Place<Varying>, 2>& line, double width, std:
 
 /// How much the line counts, by how far the patches are under all of it.
 Varying find_whole_cover(const std::array<Place<Varying>, 2>& line, double width, std::span<const Patch> patches) {
+  const std::array strips{0.5 * kFullOverlap * width, -0.5 * kFullOverlap * width};
+  const Place<double> start = value_of(line[0]), end = value_of(line[1]);
+  double bare = 0;
+  for (const double beside : strips) {
+    bare += area_beside<double>(start, end, beside, {}) - area_beside<double>(start, end, beside, patches);
+  }
+  // The share grows with the square of what is bare.
+  if (bare <= kBare * kFullOverlap * width * length_of(Place<double>(end - start))) return constant(1);
   Varying covered = constant(0), all = constant(0);
-  for (const double beside : {0.5 * kFullOverlap * width, -0.5 * kFullOverlap * width}) {
+  for (const double beside : strips) {
     covered += area_beside<Varying>(line[0], line[1], beside, patches);
     all += area_beside<Varying>(line[0], line[1], beside, {});
   }
@@ -225,6 +240,12 @@ std::optional<FaceContact> find_side_contact(const Body& body, const Ground& gro
 
 namespace {
 
+/// The second derivative of an end's support function along a direction, m.
+double bend_along(const Side::End& end, const Matrix3& rotation, const Vector3& along) {
+  const double part = along.dot(rotation * end.by_roll);
+  return end.bend * part * part;
+}
+
 /// Two sides that run around their bodies, and the sections across their mean axis.
 class SidePair {
  public:
@@ -263,7 +284,7 @@ class SidePair {
     const Vector3 centre1 = place1.value() * axis1_, centre2 = place2.value() * axis2_;
     const Vector3 across = mean_.cross(guess_);
     const auto at = [&](double angle) { return deepest(std::cos(angle) * guess_ + std::sin(angle) * across, centre1, centre2); };
-    const double angle = find_maximum_on_arc([&](double here) { return at(here).slope; }, -kQuarter, kQuarter);
+    const double angle = find_maximum_uphill([&](double here) { return at(here).slope; }, side1_.half_axes.maxCoeff());
     const Candidate found = at(angle);
     const Vector3& n = found.normal;
     // The normal is the best one across the mean axis. So the depth changes with the axis, but not with the normal.
@@ -274,8 +295,6 @@ class SidePair {
   }
 
  private:
-  static constexpr double kQuarter = std::numbers::pi / 2;
-
   /// m.(mean axis) times a length, for a fixed m; the axis rotates with body 1.
   Varying along_mean(const Vector3& m) const {
     return varying(m.dot(mean_), Vector3::Zero(), axis1_.cross(Vector3(m - m.dot(mean_) * mean_)) / sum_);
@@ -292,9 +311,8 @@ class SidePair {
     const Vector3 t = mean_.cross(n), arm1 = rotation1 * end1.point;
     const Vector3 distance = apart_ + centre1 + arm1 - centre2 - rotation2 * end2.point;
     const double depth = n.dot(distance);
-    const double roll1 = t.dot(rotation1 * end1.roll) * t.dot(rotation1 * end1.by_roll);
-    const double roll2 = t.dot(rotation2 * end2.roll) * t.dot(rotation2 * end2.by_roll);
-    return {n, arm1, distance, depth, {-t.dot(distance), depth - roll1 - roll2}};
+    const double bend = bend_along(end1, rotation1, t) + bend_along(end2, rotation2, t);
+    return {n, arm1, distance, depth, {-t.dot(distance), depth - bend}};
   }
 
   const Body &body1_, &body2_;
@@ -328,7 +346,6 @@ struct PipeEnd {
   Vector3 point, normal;
 };
 PipeEnd find_pipe_end(const Body& body, const Side& side, int sign, const Pipe& pipe, const Vector3& near) {
-  constexpr double kFirstStep = 0.01;  // rad
   const Matrix3& rotation = body.pose.rotation;
   const Vector3 beside = pipe.axis.cross(near), centre = body.pose.position - pipe.point;
   const auto normal_at = [&](double angle) -> Vector3 { return std::cos(angle) * near + std::sin(angle) * beside; };
@@ -336,16 +353,9 @@ PipeEnd find_pipe_end(const Body& body, const Side& side, int sign, const Pipe& 
     const Vector3 normal = normal_at(angle), along = pipe.axis.cross(normal);
     const Side::End end = side.end(rotation.transpose() * normal, sign);
     const Vector3 point = centre + rotation * end.point;
-    return {along.dot(point), along.dot(rotation * end.roll) * along.dot(rotation * end.by_roll) - normal.dot(point)};
+    return {along.dot(point), bend_along(end, rotation, along) - normal.dot(point)};
   };
-  // Uphill until the slope changes its sign.
-  const double uphill = slope(0).first > 0 ? 1 : -1;
-  double last = 0, next = kFirstStep;
-  while (next < std::numbers::pi && slope(uphill * next).first * uphill > 0) {
-    last = next;
-    next *= 2;
-  }
-  const double angle = find_maximum_on_arc(slope, uphill > 0 ? last : -next, uphill > 0 ? next : -last);
+  const double angle = find_maximum_uphill(slope, pipe.radius);
   const Vector3 normal = normal_at(angle), arm = rotation * side.end(rotation.transpose() * normal, sign).point;
   return {varying(normal.dot(centre + arm) - pipe.radius, normal, arm.cross(normal)), body.pose.position + arm, normal};
 }

@@ -41,7 +41,7 @@ struct Collector {
 // Triangles whose normals are within this angle (rad) are coplanar, up to rounding of their coordinates, as in lib/contact/mesh.
 constexpr double kLevel = 1e-5;
 
-// The distance of their vertices from one plane, relative to the longest side of a triangle, as there.
+// The distance of their vertices from one plane, relative to a side of a triangle, as there.
 constexpr double kCrack = 1e-6;
 
 /// Unit, out of the surface; zero without an area.
@@ -51,10 +51,11 @@ Vector3 normal_of(const supernormal::MeshTriangle& triangle) {
 }
 
 bool is_in_plane(const supernormal::MeshTriangle& triangle, const Vector3& point, const Vector3& normal) {
-  const Vector3 own = normal_of(triangle);
-  if (own.dot(normal) <= 0 || own.cross(normal).norm() > kLevel) return false;
-  const double size = box_of(triangle).diagonal().norm();
-  return std::ranges::all_of(triangle.vertices, [&](const Vector3& v) { return std::abs(normal.dot(v - point)) <= kCrack * size; });
+  const std::array<Vector3, 3>& v = triangle.vertices;
+  const Vector3 first = v[1] - v[0], second = v[2] - v[0], area = first.cross(second);
+  const double upright = area.dot(normal), near = kCrack * kCrack * std::max(first.squaredNorm(), second.squaredNorm());
+  if (upright <= 0 || area.cross(normal).squaredNorm() > kLevel * kLevel * upright * upright) return false;
+  return std::ranges::all_of(v, [&](const Vector3& vertex) { return std::pow(normal.dot(vertex - point), 2) <= near; });
 }
 
 /// Whether the tilt of a face or a side leaves it a share on a plane. `normal` is in the body's frame.
