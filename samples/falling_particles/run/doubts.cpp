@@ -65,7 +65,8 @@ std::string slower(const Drive& drive, double factor) {
 }
 
 std::string in_half_axes(double way, const Scene& scene) {
-  return rounded(way / scene.smallest_half_axis()) + " of the smallest half-axis (" + shortest(scene.smallest_half_axis()) + " m)";
+  return rounded(way / scene.smallest_half_axis()) + " of the smallest half-axis (" + rounded(scene.smallest_half_axis(), 6) +
+         " m)";
 }
 
 /// Adds a doubt about a time that is no multiple of the step.
@@ -317,7 +318,7 @@ void add_rolling(const Scene& scene, std::vector<std::string>& doubts) {
   const auto add = [&](const char* key, double length) {
     if (length <= size) return;
     doubts.push_back(std::string("rolling_resistance.") + key + " is a length, " + shortest(length) + " m, " +
-                     rounded(length / size) + " times the largest half-axis (" + shortest(size) +
+                     rounded(length / size) + " times the largest half-axis (" + rounded(size, 6) +
                      " m): grains may not roll at all; of a coefficient without unit, such as 0.1, it is the product with the "
                      "radius");
   };
@@ -336,15 +337,17 @@ double first_way_of(const Wall& wall, const Flight& flight, double step) {
   return step * (flight.velocity.linear.norm() + flight.velocity.angular.norm() * bounding_radius(wall.shape));
 }
 
-/// Adds a doubt about a motion, drive or flight that starts at the end of the run or later.
+/// Adds a doubt about each motion, drive or flight that starts at the end of the run or later.
 void add_late(const Scene& scene, const Wall& wall, std::vector<std::string>& doubts) {
-  const auto is_late = [&](double from) { return from >= scene.time.duration; };
-  if (std::ranges::none_of(wall.motions, [&](const WallMotion& motion) { return is_late(motion.from); }) &&
-      !(wall.drive && is_late(wall.drive->from)) && !(wall.flight && is_late(wall.flight->from))) {
-    return;
-  }
-  doubts.push_back("part \"" + wall.name + "\" has a motion, a drive or a flight that starts at the end of the run, after " +
-                   shortest(scene.time.duration) + " s, or later");
+  const auto add = [&](const std::string& key, double from) {
+    if (from < scene.time.duration) return;
+    doubts.push_back("part \"" + wall.name + "\" has " + key + ".from = " + shortest(from) + " s, and the run ends after " +
+                     shortest(scene.time.duration) + " s: it never starts; a smaller " + key +
+                     ".from, or a longer time.duration would do");
+  };
+  for (std::size_t i = 0; i < wall.motions.size(); ++i) add("motion[" + std::to_string(i) + ']', wall.motions[i].from);
+  if (wall.drive) add("drive", wall.drive->from);
+  if (wall.flight) add("free", wall.flight->from);
 }
 
 /// Adds a doubt about a servo on springs. A spring is explicit: it is stable while stiffness x step^2 is below four masses. A servo
@@ -360,50 +363,6 @@ void add_gain(const Scene& scene, const Wall& wall, std::vector<std::string>& do
                      " m/(s Pa), with which it may be unstable on the springs of compliance: part.drive.gain up to " +
                      rounded(most) + " m/(s Pa), or a smaller time.step would do");
     return;
-  }
-}
-
-/// The last poses of the parts of a run, by their names, of its table parts.csv. Empty if there is no such table.
-std::map<std::string, WallPose, std::less<>> poses_left_in(const std::filesystem::path& file) {
-  std::map<std::string, WallPose, std::less<>> poses;
-  if (!std::filesystem::is_regular_file(file)) return poses;
-  try {
-    const StateTable table(file);
-    table.require({"part", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"});
-    for (const StateTable::Row& row : table.rows()) {
-      const auto number = [&](const char* column) { return table.number(row, column, Interval::finite("")); };
-      const Eigen::Quaterniond rotation(number("qw"), number("qx"), number("qy"), number("qz"));
-      poses[std::string(table.word(row, "part"))] = {{number("x_m"), number("y_m"), number("z_m")}, rotation.normalized()};
-    }
-  } catch (const InputError&) {
-    return {};  // a file of the user's with this name
-  }
-  return poses;
-}
-
-/// Adds doubts about free parts that do not start where the run that left the state has left them: a state holds grains alone.
-void add_left_parts(const Scene& scene, std::vector<std::string>& doubts) {
-  // Of the smallest half-axis. In the scene plate this moves grains as another seed does, 0.02 ten times as far; 0.001 doubts
-  // numbers with four digits, 0.1 is silent about three.
-  constexpr double kTyped = 0.01;
-  if (!scene.start || std::ranges::none_of(scene.parts(), [](const Wall& part) { return part.flight.has_value(); })) return;
-  const std::filesystem::path file = scene.start->file.parent_path() / "parts.csv";
-  const auto poses = poses_left_in(file);
-  for (const Wall& part : scene.parts()) {
-    const auto left = poses.find(part.name);
-    if (!part.flight || left == poses.end()) continue;
-    const auto& [position, rotation] = left->second;
-    const double off =
-        (position - part.start.position).norm() + bounding_radius(part.shape) * rotation.angularDistance(part.start.rotation);
-    if (off <= kTyped * scene.smallest_half_axis()) continue;
-    const auto list = [](const Vector3& v) {
-      return '[' + shortest(v.x()) + ", " + shortest(v.y()) + ", " + shortest(v.z()) + ']';
-    };
-    const Eigen::AngleAxisd turn(rotation);
-    doubts.push_back("part \"" + part.name + "\" is free and starts " + rounded(off) + " m from where " + file.string() +
-                     " leaves it, since start.file has grains alone; part.position = " + list(position) +
-                     ", part.axis = " + list(turn.axis()) + " and part.angle = " + shortest(turn.angle() * 180 / std::numbers::pi) +
-                     " would do (start.md)");
   }
 }
 
@@ -470,8 +429,8 @@ void refuse_start_in_parts(const World& world) {
     constexpr double kRounding = 1e-6;  // of the smallest half-axis
     if (!(proximity.gap < -kRounding * grain.smallest_half_axis())) continue;
     const auto [x, y, z] = grain.position();
-    throw InputError(scene.path + ": grain " + std::to_string(world.index_of(grain)) + " (" + grain.kind->name + ") starts at [" +
-                     shortest(x) + ", " + shortest(y) + ", " + shortest(z) + "] m, " + rounded(-proximity.gap) +
+    throw InputError(scene.called + ": grain " + std::to_string(world.index_of(grain)) + " (" + grain.kind->name + ") starts at [" +
+                     rounded(x, 6) + ", " + rounded(y, 6) + ", " + rounded(z, 6) + "] m, " + rounded(-proximity.gap) +
                      " m deep in part \"" + part->name + "\"; allowed: parts that leave the start of the grains free");
   }
 }
@@ -541,7 +500,6 @@ std::vector<std::string> doubts_about(const Scene& scene) {
   add_rounded_times(scene.time, doubts);
   add_fall(scene, doubts);
   add_speed(scene, doubts);
-  add_left_parts(scene, doubts);
   add_sinking(scene, doubts);
   add_solver(scene, doubts);
   add_mass_ratio(scene, doubts);
@@ -550,6 +508,7 @@ std::vector<std::string> doubts_about(const Scene& scene) {
   add_rolling(scene, doubts);
   add_walls(scene, doubts);
   add_feeders(scene, doubts);
+  std::ranges::move(doubts_about_continuation(scene), std::back_inserter(doubts));
   std::ranges::move(doubts_about_springs(scene), std::back_inserter(doubts));
   std::ranges::move(doubts_about_origins(scene), std::back_inserter(doubts));
   std::ranges::move(doubts_about_measurements(scene), std::back_inserter(doubts));

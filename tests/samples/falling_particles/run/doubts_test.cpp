@@ -274,10 +274,12 @@ TEST_CASE("doubts: gravity of zero is none, and motions that start too late are 
   const std::string weightless = replaced(kSceneText, "acceleration = [0, 0, -9.81]", "acceleration = [0, 0, 0]");
   CHECK(doubts_about(scene_of(weightless)).empty());
   const std::string box = "shape = \"box\"\nsize = [0.02, 0.02, 0.02]\nposition = [0.02, 0.02, 0.5]\n";
-  check_one_doubt(with_part(box + "[[part.motion]]\nkind = \"velocity\"\nvelocity = [0, 0, -1]\nfrom = 7\n"),
-                  {"part \"p\" has a motion, a drive or a flight that starts at the end of the run, after 0.1 s"});
+  const std::string motion = "[[part.motion]]\nkind = \"velocity\"\nvelocity = [0, 0, -1]\n";
+  check_one_doubt(with_part(box + motion + "until = 0.05\n" + motion + "from = 7\n"),
+                  {"part \"p\" has motion[1].from = 7 s, and the run ends after 0.1 s: it never starts"});
   check_one_doubt(with_part(box + "[part.drive]\naxis = [0, 0, -1]\nforce = 0.1\nmass = 0.01\nfrom = 0.1\n"),
-                  {"part \"p\" has a motion, a drive or a flight"});
+                  {"part \"p\" has drive.from = 0.1 s, and the run ends after 0.1 s"});
+  check_one_doubt(with_part(box + "free = { mass = 1e-4, from = 0.2 }\n"), {"part \"p\" has free.from = 0.2 s"});
 }
 
 TEST_CASE("doubts: grains that sink by their own weight") {
@@ -353,32 +355,6 @@ TEST_CASE("doubts: a part with a mass is compared with the grains that bear it, 
   check_one_doubt(drive(1.001 * pressed, 2 * 9.81 * 1.001 * pressed), {"part \"p\" on grains", "or a smaller force on it"});
   CHECK(doubts_about(drive(1.001 * pressed, 0)).empty());
   CHECK(doubts_about(drive(100, -9.81 * 100)).empty());  // held by its drive
-}
-
-TEST_CASE("doubts: a free part that does not start where the run before has left it is named, with its place") {
-  const auto started = [](const std::string& parts) {
-    const TemporaryFolder folder;
-    folder.write("grains.toml", kCatalogueText);
-    folder.write("state.csv", "grain,x_m,y_m,z_m,qw,qx,qy,qz\npea,0.02,0.02,0.003,1,0,0,0\n");
-    if (!parts.empty()) folder.write("parts.csv", "time_s,part,x_m,y_m,z_m,qw,qx,qy,qz\n" + parts);
-    const std::string part =
-        "[[part]]\nname = \"p\"\nshape = \"box\"\nsize = [0.01, 0.01, 0.01]\nposition = [0.02, 0.03, 0.5]\n"
-        "axis = [0, 0, 2]\nangle = 90\nfree = { mass = 1e-4 }\n[start]\nfile = \"state.csv\"\n";
-    std::vector<std::string> doubts = doubts_about(load_scene(folder.write("scene.toml", kSceneText + part)));
-    return doubts;
-  };
-  const std::string turned = "0.70710678118654757,0,0,0.70710678118654757\n";
-  CHECK(started("").empty());
-  CHECK(started("0,p,9,9,9,1,0,0,0\n0.1,p,0.02,0.03,0.5," + turned).empty());
-  CHECK(started("0.1,other,9,9,9,1,0,0,0\n").empty());
-  CHECK(started("0.1,p,here\n").empty());  // a file of another form
-  const auto moved = started("0,p,0.02,0.03,0.5," + turned + "0.1,p,0.02,0.03,0.4," + turned);
-  REQUIRE(moved.size() == 1);
-  check_says(moved[0], {"part \"p\" is free and starts 0.1 m from where", "parts.csv leaves it",
-                        "part.position = [0.02, 0.03, 0.4], part.axis = [0, 0, 1] and part.angle = 90"});
-  const auto rotated = started("0.1,p,0.02,0.03,0.5,1,0,0,0\n");
-  REQUIRE(rotated.size() == 1);
-  check_says(rotated[0], {"starts 0.0136 m from where"});  // 8.66 mm, the radius, by a right angle
 }
 
 TEST_CASE("doubts: of the kinds without grains, those that a feeder brings are compared in mass") {
