@@ -16,6 +16,7 @@
 #include "input/state_table.hpp"
 #include "model/grain_shape.hpp"
 #include "model/lattice.hpp"
+#include "observe/facing_walls.hpp"
 #include "output/wall_mesh.hpp"
 #include "world/world.hpp"
 
@@ -332,6 +333,69 @@ void add_rolling(const Scene& scene, std::vector<std::string>& doubts) {
   }
 }
 
+/// A part that presses grains.
+struct Pressing {
+  double pressure;    // Pa
+  double area;        // m^2
+  Vector3 direction;  // unit
+};
+
+/// Empty for a part that stands, is moved, turns, or pulls.
+std::optional<Pressing> pressing_of(const Wall& part, const Scene& scene) {
+  if (part.drive && part.drive->servo) {
+    const Servo& servo = *part.drive->servo;
+    double area = servo.area > 0 ? servo.area : 1;
+    for (const FacingWalls& pair : servo.between) area *= faces_at_start(pair, scene.walls).distance();
+    return Pressing{servo.stress, area, part.drive->axis};
+  }
+  if (!part.flight && (!part.drive || part.drive->turns())) return std::nullopt;
+  const auto* const gravity = scene.gravity();
+  Vector3 force = gravity == nullptr ? Vector3::Zero() : gravity->acceleration;
+  force *= part.flight ? part.flight->mass : part.drive->mass;
+  if (part.drive) force = (part.drive->force + force.dot(part.drive->axis)) * part.drive->axis;
+  const double size = force.norm();
+  const double area = size > 0 ? shown_area(part, force / size, scene) : 0;
+  return area > 0 ? std::optional(Pressing{size / area, area, force / size}) : std::nullopt;
+}
+
+/// Adds doubts about parts that press harder than quickstep can carry. A step starts without forces, and an iteration carries them
+/// from layer to layer. The force pressure x diameter^2 would move a free grain by force x step^2 / mass. Beds hold it if this is
+/// below kHeld half-axes x iterations / layers^2. parts.md, "How hard a part may press", has the measurement.
+void add_pressing(const Scene& scene, std::vector<std::string>& doubts) {
+  constexpr double kHeld = 0.05;   // beds give way from 0.15 on; twice as much is silent about 0.08 half-axes, 4 layers deep
+  constexpr double kPacked = 0.6;  // volume fraction of a bed
+  const Extremes grains = extremes_of(scene);
+  if (grains.light == nullptr || has_soft_contacts(scene) || scene.compression) return;
+  double volume = 0;  // m^3, of all grains
+  for (const GrainCount& entry : scene.kinds) {
+    for (int i = 0; i < entry.count; ++i) {
+      volume += std::pow(entry.scale(static_cast<std::size_t>(i)), 3) * mass_of(entry.kind) / entry.kind.density;
+    }
+  }
+  const double diameter = std::cbrt(6 / std::numbers::pi * grains.least / grains.light->kind.density);
+  const double size = grains.light->smallest_scale() * grains.light->kind.smallest_half_axis();
+  for (const Wall& part : scene.parts()) {
+    const std::optional<Pressing> pressing = pressing_of(part, scene);
+    if (!pressing) continue;
+    const auto& [pressure, area, direction] = *pressing;
+    const Rectangle plan = plan_of(scene.container);
+    const double across = std::max(area, std::abs(direction.z()) * plan.width[0] * plan.width[1]);  // m^2, of the bed
+    const double layers = std::max(1.0, volume / (kPacked * across * diameter));
+    const double way = pressure * diameter * diameter * scene.time.step * scene.time.step / grains.least;
+    const double held = kHeld * size * scene.solver.iterations / (layers * layers);
+    if (!(way > held)) continue;
+    const double excess = way / held;
+    doubts.push_back("part \"" + part.name + "\" presses with " + rounded(pressure) + " Pa on about " + rounded(layers) +
+                     (layers == 1 ? " layer" : " layers") + " of grains: a free grain would move by " + rounded(way) +
+                     " m in a step, " + in_half_axes(way, scene) +
+                     ", and solver.iterations = " + std::to_string(scene.solver.iterations) + " hold " + rounded(held / size) +
+                     ": they may overlap, and be pressed through walls; time.step up to " +
+                     rounded(scene.time.step / std::sqrt(excess)) + " s, solver.iterations from " +
+                     std::to_string(std::lround(std::ceil(scene.solver.iterations * excess))) + " on, or up to " +
+                     rounded(pressure / excess) + " Pa would do (parts.md)");
+  }
+}
+
 /// m, the displacement of a free wall in the first step of its flight; of its farthest point if it turns.
 double first_way_of(const Wall& wall, const Flight& flight, double step) {
   return step * (flight.velocity.linear.norm() + flight.velocity.angular.norm() * bounding_radius(wall.shape));
@@ -503,6 +567,7 @@ std::vector<std::string> doubts_about(const Scene& scene) {
   add_sinking(scene, doubts);
   add_solver(scene, doubts);
   add_mass_ratio(scene, doubts);
+  add_pressing(scene, doubts);
   add_layer(scene, doubts);
   add_replaced_friction(scene, doubts);
   add_rolling(scene, doubts);

@@ -345,7 +345,10 @@ TEST_CASE("doubts: a part with a mass is compared with the grains that bear it, 
   const std::string wide = "shape = \"box\"\nsize = [0.04, 0.04, 0.01]\n";
   CHECK(doubts_about(free_part(wide, 0.999 * 7 * pea * largest_part)).empty());
   CHECK(doubts_about(free_part(wide, 1.001 * 7 * pea * largest_part)).size() == 1);
-  check_one_doubt(free_part(wide, 100), {"until more than 7 bear it"});
+  const std::vector<std::string> of_heavy = doubts_about(free_part(wide, 100));
+  REQUIRE(of_heavy.size() == 2);
+  check_says(of_heavy[0], {"until more than 7 bear it"});
+  check_says(of_heavy[1], {"part \"p\" presses with 6.13e+05 Pa on about 1 layer of grains"});  // 981 N on 16 cm^2
   // A force adds to the weight: with three times the acceleration a third of f / (1 - f) is allowed.
   const double pressed = 7 * pea / std::expm1(std::log1p(3 / allowed) / 20);
   const auto drive = [&](double mass, double force) {
@@ -355,6 +358,45 @@ TEST_CASE("doubts: a part with a mass is compared with the grains that bear it, 
   check_one_doubt(drive(1.001 * pressed, 2 * 9.81 * 1.001 * pressed), {"part \"p\" on grains", "or a smaller force on it"});
   CHECK(doubts_about(drive(1.001 * pressed, 0)).empty());
   CHECK(doubts_about(drive(100, -9.81 * 100)).empty());  // held by its drive
+}
+
+TEST_CASE("doubts: what a part presses with is compared with the iterations and the layers, and each remedy would do") {
+  // p d^2 step^2 / m is 0.05 x 20 radii r, with d = 2 r and m = 4 pi / 3 r^3 1200 kg/m^3.
+  const double most = 0.05 * 20 * 3e-3 * std::numbers::pi / 3 * 3e-3 * 1200 / (5e-4 * 5e-4);  // Pa, in one layer
+  const auto lid = [](const std::string& drive) {
+    return std::string("shape = \"box\"\nsize = [0.05, 0.06, 0.01]\nposition = [0.025, 0.03, 0.3]\ndrive = { axis = [0, 0, -1], ") +
+           drive + " }\n";
+  };
+  const auto pressed = [&](double pressure, const std::vector<std::string>& overrides = {}, int peas = 5) {
+    const std::string servo = lid("gain = 1e-6, largest_speed = 0.1, area = 0.003, stress = " + shortest(pressure));
+    const std::string text = replaced(kSceneText, "count = 5", "count = " + std::to_string(peas));
+    std::vector<std::string> found;
+    for (const std::string& doubt : doubts_about(scene_of(text + "[[part]]\nname = \"p\"\n" + servo, overrides))) {
+      if (doubt.find("presses with") != std::string::npos) found.push_back(doubt);
+    }
+    return found;
+  };
+  CHECK(pressed(0.999 * most).empty());
+  REQUIRE(pressed(4 * most).size() == 1);
+  check_says(
+      pressed(4 * most)[0],
+      {"part \"p\" presses with", "on about 1 layer of grains: a free grain would move by 0.012 m in a step, 4 of the smallest",
+       "solver.iterations = 20 hold 1", "time.step up to 0.00025 s", "solver.iterations from 80 on", "would do (parts.md)"});
+  CHECK(pressed(3.99 * most, {"time.step=2.5e-4"}).empty());
+  CHECK(pressed(3.99 * most, {"solver.iterations=80"}).empty());
+  // A bed of peas and two dice of 3.5 layers bears a twelfth.
+  const double die = mass_of(scene_of(std::string(kSceneText)).kinds[1].kind) / 1190;  // m^3
+  const double layers = (400 * 4 * std::numbers::pi / 3 * 27e-9 + 2 * die) / (0.6 * 0.003 * 6e-3);
+  REQUIRE(layers > 3);
+  CHECK(pressed(0.999 * most / layers / layers, {}, 400).empty());
+  CHECK(pressed(1.001 * most / layers / layers, {}, 400).size() == 1);
+  // A force and the weight, over the area.
+  const auto by_force = [&](double pressure) {
+    Scene scene = with_part(lid("mass = 0.01, force = " + shortest(0.003 * pressure - 0.0981)));
+    return std::ranges::count_if(doubts_about(scene), [](const std::string& doubt) { return doubt.find("presses with") < 99; });
+  };
+  CHECK(by_force(0.999 * most) == 0);
+  CHECK(by_force(1.001 * most) == 1);
 }
 
 TEST_CASE("doubts: of the kinds without grains, those that a feeder brings are compared in mass") {
