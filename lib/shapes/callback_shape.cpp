@@ -16,7 +16,6 @@
 namespace supernormal {
 namespace {
 
-constexpr double kTolerance = 1e-6;  // relative to the size; the precision of a single-precision callback
 constexpr int kDirections = 26;
 
 struct Trial {
@@ -58,7 +57,7 @@ double check_points(const std::array<Trial, kDirections>& trials) {
   }
   require_in("size of the body", size, kMinLength, kMaxLength, "m");
   for (const Trial& trial : trials) {
-    if (std::abs(trial.n.dot(trial.r) - trial.h) > kTolerance * size) {
+    if (std::abs(trial.n.dot(trial.r) - trial.h) > kCallbackPrecision * size) {
       refuse("point.n = " + to_text(trial.n.dot(trial.r)) + " m differs from support = " + to_text(trial.h) +
                  " m by more than 1e-6 of the size " + to_text(size) + " m",
              trial.n);
@@ -77,7 +76,7 @@ void check_convex(const std::array<Trial, kDirections>& trials, double size) {
     }
     for (const Trial& other : trials) {
       const double excess = trial.n.dot(other.r) - trial.h;
-      if (excess > kTolerance * size) {
+      if (excess > kCallbackPrecision * size) {
         refuse(
             "the body is not convex: point" + vector_text(other.n) + " lies " + to_text(excess) + " m outside the supporting plane",
             trial.n);
@@ -92,16 +91,16 @@ void check_hessian(const Matrix3& hessian, const Vector3& n) {
   if (largest == 0) return;  // the boundary point is a vertex
   const Matrix3 H = hessian / largest;
   const double asymmetry = (H - H.transpose()).cwiseAbs().maxCoeff();
-  if (asymmetry > kTolerance) {
+  if (asymmetry > kCallbackPrecision) {
     refuse("hessian is not symmetric: entries differ by " + to_text(asymmetry) + " of the largest", n);
   }
   const double radial = (H * n).lpNorm<Eigen::Infinity>();
-  if (radial > kTolerance) {
+  if (radial > kCallbackPrecision) {
     refuse("hessian times n is not zero but " + to_text(radial) + " of the largest entry", n);
   }
   // One eigenvalue is zero. So the trace is the sum of the two principal radii, and `product` their product.
   const double product = 0.5 * (H.trace() * H.trace() - H.squaredNorm());
-  if (H.trace() < 0 || product < -kTolerance) refuse("hessian has a negative principal radius", n);
+  if (H.trace() < 0 || product < -kCallbackPrecision) refuse("hessian has a negative principal radius", n);
 }
 
 /// An arc of the boundary between the boundary points of two normals.

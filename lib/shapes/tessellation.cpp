@@ -21,14 +21,10 @@ constexpr double kClosest = 1e-9;
 
 constexpr Index kWhole = ~Index{0};
 
-// How far a boundary point may be outside the ball of the bounding radius, relative to it: the precision of a callback
-// (callback_shape.cpp). Edges to points that are not finite or not in the ball would be halved without end.
-constexpr double kOutside = 1e-6;
-
 class Tessellator {
  public:
   Tessellator(const Shape& shape, double chord_error)
-      : shape_(shape), chord_error_(chord_error), farthest_((1 + kOutside) * shape.bounding_radius()) {}
+      : shape_(shape), chord_error_(chord_error), farthest_((1 + kCallbackPrecision) * shape.bounding_radius()) {}
 
   Tessellation run() {
     for (const int axis : {0, 1, 2}) {
@@ -53,6 +49,7 @@ class Tessellator {
 
   Index add(const Vector3& normal) {
     const Vector3 point = shape_.point(normal);
+    // Edges to points that are not finite or outside this ball would be halved without end.
     if (!(all_within(point, farthest_) && point.norm() <= farthest_)) {
       throw std::domain_error("a boundary point of the shape is " + to_text(point.norm()) +
                               " m from its origin, but must be within its bounding radius of " + to_text(shape_.bounding_radius()) +

@@ -16,6 +16,10 @@ namespace supernormal {
 constexpr double kMinLength = 1e-30;  // m
 constexpr double kMaxLength = 1e30;   // m
 
+// Precision asked of callbacks, relative to the size: about 10 ulps of single precision. Of 20 000 ellipsoids and superellipsoids
+// computed in single precision (exponents 1.05 to 20) it refuses one, of exponent 1.05; 1e-7 would refuse a third.
+constexpr double kCallbackPrecision = 1e-6;
+
 /// The shortest decimal text that reads back as the same double.
 inline std::string to_text(double value) {
   char buffer[32];

@@ -116,6 +116,21 @@ TEST_CASE("the empty space begins at a margin from a sphere and grows with its d
   }
 }
 
+TEST_CASE("within a bound a body costs nothing, and beyond it as much with fine directions as with rough ones") {
+  const Body sphere{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Ones()};
+  EmptySpace space = find_empty_space(scatter(sphere, {.points = 20000, .has_normals = true}));
+  space.margin = 0.2;
+  const auto penalty_at = [&](double radius) { return penalty_of(moved(sphere, radius, Vector3::Zero()), space); };
+  CHECK(penalty_at(1.15) == 0);
+  const double rough = penalty_at(1.3);
+  // A square of a length of 0.1, to the error of the grid.
+  CHECK(rough == doctest::Approx(space.weight * 0.01).epsilon(0.3));
+  space.is_fine = true;
+  CHECK(penalty_at(1.3) == doctest::Approx(rough).epsilon(0.02));
+  space.weight *= 3;
+  CHECK(penalty_at(1.3) == doctest::Approx(3 * rough).epsilon(0.02));
+}
+
 TEST_CASE("a thin body that extends beyond the data by its tips costs more than one of full width that is as large") {
   const Body sphere{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Ones()};
   const EmptySpace space = find_empty_space(scatter(sphere, {.points = 2000}));
@@ -279,9 +294,18 @@ TEST_CASE("the aligned data lie in the frame of the grain, and the JSON has the 
   const DistanceFunction function(in_frame);
   for (const Vector3& x : aligned.vertices.points) CHECK(std::abs(function.find(x)->distance) < 1e-7);
   const FitError error = find_error(std::vector<Body>{fitted.body}, data);
-  const std::string text = json_text(std::vector{fitted}, error, {"a doubt"}, "stone", "a scan");
-  for (const char* part : {R"("name": "stone")", R"("family": "superellipsoid")", R"("delta": 2.5)", R"("delta_error": null)",
-                           R"("epsilon_error": 0.0)", R"("a doubt")"}) {
+  Provenance provenance;
+  provenance.name = "stone";
+  provenance.source = "a scan";
+  provenance.scale = 1e-3;
+  provenance.density = 2600;
+  provenance.is_mesh = true;
+  provenance.open.single = 12;
+  const std::string text = json_text(std::vector{fitted}, error, {"a doubt"}, provenance);
+  for (const char* part :
+       {R"("metres_per_unit_of_file": 0.001)", R"("density": 2600.0)", R"("kind": "open mesh")", R"("edges_with_one_triangle": 12)",
+        R"("lengths": "m")", R"("inertia": "m^5, for density 1)", R"("name": "stone")", R"("family": "superellipsoid")",
+        R"("delta": 2.5)", R"("delta_error": null)", R"("epsilon_error": 0.0)", R"("a doubt")"}) {
     CAPTURE(part);
     CHECK(text.find(part) != std::string::npos);
   }

@@ -5,13 +5,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <random>
 #include <stdexcept>
 #include <supernormal/shapes/polytope.hpp>
 #include <utility>
 
 #include "empty_space.hpp"
+#include "input/orientation.hpp"
 #include "point_tree.hpp"
 
 namespace fit {
@@ -35,16 +35,9 @@ Solid solid_of(const Body& body) {
   return solid;
 }
 
-/// Whether every edge is traversed equally often in both directions.
 bool is_closed(std::span<const Triangle> triangles) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
-  for (const Triangle& t : triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = t[k], to = t[(k + 1) % 3];
-      balance[std::minmax(from, to)] += from < to ? 1 : -1;
-    }
-  }
-  return !triangles.empty() && std::ranges::all_of(balance, [](const auto& edge) { return edge.second == 0; });
+  const OpenEdges edges = open_edges(triangles);
+  return !triangles.empty() && edges.single + edges.other == 0;
 }
 
 /// Whether the vertices of a triangle are collinear within single precision.
@@ -282,7 +275,7 @@ void add_uncertainty(FitError& error, std::span<const FittedBody> fitted) {
   error.moment_errors = square.tail<3>().cwiseSqrt();
 }
 
-FitError find_error(std::span<const Body> bodies, const Data& data) {
+FitError find_distances(std::span<const Body> bodies, const Data& data) {
   FitError error;
   const std::vector<DistanceFunction> functions(bodies.begin(), bodies.end());
   std::vector<Vector3> points = data.vertices.points;
@@ -302,6 +295,11 @@ FitError find_error(std::span<const Body> bodies, const Data& data) {
   error.mean = sum / static_cast<double>(points.size() - uniform);
   error.radius = radius_of(points);
   measure_surface(functions, data, error);
+  return error;
+}
+
+FitError find_error(std::span<const Body> bodies, const Data& data) {
+  FitError error = find_distances(bodies, data);
   error.is_hull = !is_closed(data);
   error.data = error.is_hull ? solid_of_hull(data) : solid_of_mesh(data);
   if (bodies.size() == 1) {

@@ -23,12 +23,9 @@
 namespace supernormal::ode {
 namespace {
 
-// Relative margin of the body's region, so that rounding loses no triangle that touches it.
-constexpr double kMargin = 1e-6;
-
-// Rounding error of a side of the region, in ulps of the distance from the middle of the field. A much smaller body would otherwise
-// have a region of no width.
-constexpr double kRounding = 4 * kRealEpsilon;
+// Relative margin of the body's region, so that rounding loses no triangle that touches it. Far from the middle of the field rounding
+// exceeds it; a triangle lost there is touched by no more than this rounding.
+constexpr double kMargin = 1e-12;
 
 // A heightfield that is not placeable has no pose: its frame is the world frame.
 Pose pose_of_heightfield(dGeomID heightfield) {
@@ -60,7 +57,7 @@ struct Visitor {
     pose.position = frame.rotation.transpose() * (world.position - frame.position);
     box.half_lengths *= 1 + kMargin;
     centre = pose.position + pose.rotation * box.centre;
-    extents = pose.rotation.cwiseAbs() * box.half_lengths + kRounding * centre.cwiseAbs();
+    extents = pose.rotation.cwiseAbs() * box.half_lengths;
   }
 
   /// A user-defined body may return anything.
