@@ -360,6 +360,41 @@ TEST_CASE("doubts: a part with a mass is compared with the grains that bear it, 
   CHECK(doubts_about(drive(100, -9.81 * 100)).empty());  // held by its drive
 }
 
+TEST_CASE("doubts: of the kinds without grains, those that a feeder brings are compared in mass") {
+  const auto fed = [](const std::string& mixture) {
+    Scene scene =
+        scene_of(replaced(kSceneText, "count = 2", "count = 0") +
+                 "[[feeder]]\nname = \"f\"\ncorner = [0, 0, 0.1]\nsize = [0.05, 0.06, 0.05]\ngrains_per_second = 100\n" + mixture);
+    scene.kinds[1].kind.density *= 600;
+    return scene;
+  };
+  CHECK(doubts_about(fed("[[feeder.grain]]\nname = \"pea\"\nfraction = 1\n")).empty());
+  const std::string half = "\"\nfraction = 0.5\n[[feeder.grain]]\nname = \"";
+  check_one_doubt(fed("[[feeder.grain]]\nname = \"pea" + half + "die\"\nfraction = 0.5\n"), {"the heaviest grain (\"die\")"});
+}
+
+TEST_CASE("doubts: a measurement of a place that no grain reaches is named with the axis") {
+  const auto measured = [](const std::string& rest) {
+    return scene_of(std::string(kSceneText) + "[[measurement]]\nname = \"m\"\ninterval = 0.01\n" + rest);
+  };
+  const std::string stress = "kind = \"stress\"\n";
+  CHECK(doubts_about(measured(stress + "lower = [0, 0, 0]\nupper = [0.05, 0.06, 0.1]\n")).empty());
+  CHECK(doubts_about(measured(stress + "lower = [-1, 0, 0.2]\nupper = [0.001, 0.06, 9]\n")).empty());  // where grains may jump
+  check_one_doubt(
+      measured(stress + "lower = [0, 10, 0]\nupper = [0.05, 40, 0.1]\n"),
+      {"measurement \"m\" has a box that no grain reaches", "10 and 40 m along y", "from 0 to 0.06 m", "another unit?"});
+  check_one_doubt(measured(stress + "lower = [0, 0, 5]\nupper = [0.05, 0.06, 9]\n"), {"5 and 9 m along z"});
+  const std::string passage = "kind = \"passage\"\naxis = \"z\"\n";
+  CHECK(doubts_about(measured(passage + "at = 0.005\n")).empty());
+  check_one_doubt(measured(passage + "at = 5\n"), {"a plane that no grain reaches: measurement.at is 5 m along z"});
+  check_one_doubt(measured(passage + "at = -0.001\n"), {"measurement.at is -0.001 m along z"});
+  // A box limits the plane across its axis alone.
+  CHECK(doubts_about(measured(passage + "at = 0.005\nlower = [0, 0, 5]\nupper = [0.05, 0.06, 9]\n")).empty());
+  check_one_doubt(measured(passage + "at = 0.005\nlower = [5, 0, 0]\nupper = [9, 1, 1]\n"), {"5 and 9 m along x"});
+  check_one_doubt(measured("kind = \"mixing\"\naxis = \"x\"\nat = 25\nlower = [0, 0, 0]\nupper = [1, 1, 1]\ncells = [2, 2, 2]\n"),
+                  {"measurement.at is 25 m along x"});
+}
+
 TEST_CASE("doubts: what a part presses with is compared with the iterations and the layers, and each remedy would do") {
   // p d^2 step^2 / m is 0.05 x 20 radii r, with d = 2 r and m = 4 pi / 3 r^3 1200 kg/m^3.
   const double most = 0.05 * 20 * 3e-3 * std::numbers::pi / 3 * 3e-3 * 1200 / (5e-4 * 5e-4);  // Pa, in one layer
@@ -397,41 +432,6 @@ TEST_CASE("doubts: what a part presses with is compared with the iterations and 
   };
   CHECK(by_force(0.999 * most) == 0);
   CHECK(by_force(1.001 * most) == 1);
-}
-
-TEST_CASE("doubts: of the kinds without grains, those that a feeder brings are compared in mass") {
-  const auto fed = [](const std::string& mixture) {
-    Scene scene =
-        scene_of(replaced(kSceneText, "count = 2", "count = 0") +
-                 "[[feeder]]\nname = \"f\"\ncorner = [0, 0, 0.1]\nsize = [0.05, 0.06, 0.05]\ngrains_per_second = 100\n" + mixture);
-    scene.kinds[1].kind.density *= 600;
-    return scene;
-  };
-  CHECK(doubts_about(fed("[[feeder.grain]]\nname = \"pea\"\nfraction = 1\n")).empty());
-  const std::string half = "\"\nfraction = 0.5\n[[feeder.grain]]\nname = \"";
-  check_one_doubt(fed("[[feeder.grain]]\nname = \"pea" + half + "die\"\nfraction = 0.5\n"), {"the heaviest grain (\"die\")"});
-}
-
-TEST_CASE("doubts: a measurement of a place that no grain reaches is named with the axis") {
-  const auto measured = [](const std::string& rest) {
-    return scene_of(std::string(kSceneText) + "[[measurement]]\nname = \"m\"\ninterval = 0.01\n" + rest);
-  };
-  const std::string stress = "kind = \"stress\"\n";
-  CHECK(doubts_about(measured(stress + "lower = [0, 0, 0]\nupper = [0.05, 0.06, 0.1]\n")).empty());
-  CHECK(doubts_about(measured(stress + "lower = [-1, 0, 0.2]\nupper = [0.001, 0.06, 9]\n")).empty());  // where grains may jump
-  check_one_doubt(
-      measured(stress + "lower = [0, 10, 0]\nupper = [0.05, 40, 0.1]\n"),
-      {"measurement \"m\" has a box that no grain reaches", "10 and 40 m along y", "from 0 to 0.06 m", "another unit?"});
-  check_one_doubt(measured(stress + "lower = [0, 0, 5]\nupper = [0.05, 0.06, 9]\n"), {"5 and 9 m along z"});
-  const std::string passage = "kind = \"passage\"\naxis = \"z\"\n";
-  CHECK(doubts_about(measured(passage + "at = 0.005\n")).empty());
-  check_one_doubt(measured(passage + "at = 5\n"), {"a plane that no grain reaches: measurement.at is 5 m along z"});
-  check_one_doubt(measured(passage + "at = -0.001\n"), {"measurement.at is -0.001 m along z"});
-  // A box limits the plane across its axis alone.
-  CHECK(doubts_about(measured(passage + "at = 0.005\nlower = [0, 0, 5]\nupper = [0.05, 0.06, 9]\n")).empty());
-  check_one_doubt(measured(passage + "at = 0.005\nlower = [5, 0, 0]\nupper = [9, 1, 1]\n"), {"5 and 9 m along x"});
-  check_one_doubt(measured("kind = \"mixing\"\naxis = \"x\"\nat = 25\nlower = [0, 0, 0]\nupper = [1, 1, 1]\ncells = [2, 2, 2]\n"),
-                  {"measurement.at is 25 m along x"});
 }
 
 TEST_CASE("doubts: a grain may be anywhere above the container where something lifts it, and anywhere without gravity") {
