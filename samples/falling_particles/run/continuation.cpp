@@ -71,10 +71,11 @@ void add_new_bonds(const Scene& scene, std::vector<std::string>& doubts) {
     }
   }
   for (const auto& [name, number] : left) {
-    doubts.push_back(file + " has " + in_words(number) + " of the name \"" + name +
-                     "\", and the scene has no section [[bond]] of this name: their grains start loose; the section of the run "
-                     "before, with bond[" +
-                     name + "].file = \"" + in_scene(scene, kLeft) + "\", would do (bonds.md)");
+    std::string loose = file + " has " + in_words(number) + " of the name \"";
+    loose.append(name).append(
+        "\", and the scene has no section [[bond]] of this name: their grains start loose; the section of the ");
+    loose.append("run before, with bond[").append(name).append("].file = \"").append(in_scene(scene, kLeft));
+    doubts.push_back(loose + "\", would do (bonds.md)");
   }
 }
 
