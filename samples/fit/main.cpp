@@ -139,7 +139,7 @@ std::vector<std::string> scans_of(const std::vector<std::string>& paths) {
     for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
       const bool is_scan = fit::is_scan(entry.path().string()) && !entry.is_directory();
       if (is_scan) inside.push_back(entry.path().string());
-      if (!is_scan) others += (others.empty() ? "" : ", ") + entry.path().filename().string();
+      if (!is_scan) others.append(others.empty() ? "" : ", ").append(entry.path().filename().string());
     }
     if (!others.empty()) fit::say(path + ": left out, as they are no scans: " + others);
     std::ranges::sort(inside);
@@ -174,7 +174,7 @@ std::vector<fit::FittedBody> fit_alike(const std::vector<std::string>& paths, co
   const bool is_given = family == fit::Family::Ellipsoid || options.limits.has_round_section;
   if (!is_given)
     fit::say(std::string("z is the ") + (axis == 0 ? "shortest" : axis == 1 ? "middle" : "longest") + " axis of every scan");
-  for (std::size_t i = 0; i < paths.size(); ++i) fitted[i] = by_axis[i][axis];
+  for (std::size_t i = 0; i < paths.size(); ++i) fitted[i] = by_axis[i][axis].fitted;
   return fitted;
 }
 

@@ -184,7 +184,7 @@ Data read_by_assimp(const std::string& path, const std::string& group) {
   for (const std::string& line : complaints.lines()) {
     // Assimp drops a face whose vertex does not exist, which opens a closed mesh.
     if (line.find("out-of-range") != std::string::npos) throw InputError(path + ": cannot be read: " + line);
-    data.note += (data.note.empty() ? "" : "; ") + line;
+    data.note.append(data.note.empty() ? "" : "; ").append(line);
   }
   data.is_single = true;  // Assimp stores single precision
   std::set<std::string> names;
