@@ -116,6 +116,21 @@ TEST_CASE("the empty space begins at a margin from a sphere and grows with its d
   }
 }
 
+TEST_CASE("within a bound a body costs nothing, and beyond it as much with fine directions as with rough ones") {
+  const Body sphere{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Ones()};
+  EmptySpace space = find_empty_space(scatter(sphere, {.points = 20000, .has_normals = true}));
+  space.margin = 0.2;
+  const auto penalty_at = [&](double radius) { return penalty_of(moved(sphere, radius, Vector3::Zero()), space); };
+  CHECK(penalty_at(1.15) == 0);
+  const double rough = penalty_at(1.3);
+  // A square of a length of 0.1, to the error of the grid.
+  CHECK(rough == doctest::Approx(space.weight * 0.01).epsilon(0.3));
+  space.is_fine = true;
+  CHECK(penalty_at(1.3) == doctest::Approx(rough).epsilon(0.02));
+  space.weight *= 3;
+  CHECK(penalty_at(1.3) == doctest::Approx(3 * rough).epsilon(0.02));
+}
+
 TEST_CASE("a thin body that extends beyond the data by its tips costs more than one of full width that is as large") {
   const Body sphere{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Ones()};
   const EmptySpace space = find_empty_space(scatter(sphere, {.points = 2000}));

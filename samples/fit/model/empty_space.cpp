@@ -60,7 +60,6 @@ struct DistanceGrid {
   Vector3 low;                 // the first vertex
   std::array<int, 3> counts;   // of vertices
   std::vector<double> values;  // x varies fastest
-  double margin = 0;
 
   std::size_t index(int i, int j, int k) const {
     const auto nx = static_cast<std::size_t>(counts[0]), ny = static_cast<std::size_t>(counts[1]);
@@ -194,8 +193,8 @@ EmptySpace find_empty_space(const Cloud& data) {
   const double area = std::accumulate(surface.areas.begin(), surface.areas.end(), 0.0);
   // The vertices and edges of a body lie between the points, by up to twice their mean spacing.
   const double spacing = std::sqrt(area / static_cast<double>(data.points.size()));
-  grid->margin = 2 * (noise_of(data.points, tree) + spacing);
-  return {.grid = std::move(grid)};
+  const double margin = 2 * (noise_of(data.points, tree) + spacing);
+  return {.grid = std::move(grid), .margin = margin};
 }
 
 EmptySpace::Excess EmptySpace::beyond(const Vector3& x) const {
@@ -226,7 +225,7 @@ EmptySpace::Excess EmptySpace::beyond(const Vector3& x) const {
     }
   }
   for (int i = 0; i < 3; ++i) slope[i] = way[i] == 0 ? slope[i] : 0;
-  const double far = way.norm(), length = value + far - grid->margin;
+  const double far = way.norm(), length = value + far - margin;
   if (!(length > 0)) return {};
   if (far > 0) slope += way / far;
   return {length * (1 + length / steep) / scale, (1 + 2 * length / steep) * slope};
@@ -235,31 +234,35 @@ EmptySpace::Excess EmptySpace::beyond(const Vector3& x) const {
 EmptySpace moved(const EmptySpace& space, double scale, const Vector3& offset) {
   // y = scale x + offset is the new place, and the place of the grid is s x + o = s / scale (y - offset) + o.
   const double inverse = space.scale / scale;
-  return {space.grid, inverse, space.offset - inverse * offset, space.steep};
+  EmptySpace result = space;
+  result.scale = inverse;
+  result.offset -= inverse * offset;
+  return result;
 }
 
-const std::vector<Vector3>& boundary_directions() {
-  constexpr int kBetween = 600;
-  static const std::vector<Vector3> directions = [] {
-    std::vector<Vector3> all = spread_directions(kBetween);
+const std::vector<Vector3>& boundary_directions(bool is_fine) {
+  const auto with = [](int between) {
+    std::vector<Vector3> all = spread_directions(between);
     for (int i = 0; i < 27; ++i) {
       const int row = i / 3, layer = i / 9;
       const Vector3 u(i % 3 - 1, row % 3 - 1, layer - 1);
       if (i != 13) all.push_back(u.normalized());
     }
     return all;
-  }();
-  return directions;
+  };
+  static const std::vector<Vector3> rough = with(600), fine = with(20000);
+  return is_fine ? fine : rough;
 }
 
 double penalty_of(const Body& body, const EmptySpace& space) {
   if (!space.grid) return 0;
   double sum = 0;
-  for (const Vector3& u : boundary_directions()) {
+  const std::vector<Vector3>& directions = boundary_directions(space.is_fine);
+  for (const Vector3& u : directions) {
     const double length = space.beyond(body.position + body.rotation() * boundary_point(body, u)).length;
     sum += length * length;
   }
-  return kEmptyWeight * sum / static_cast<double>(boundary_directions().size());
+  return space.weight * sum / static_cast<double>(directions.size());
 }
 
 }  // namespace fit

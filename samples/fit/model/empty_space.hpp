@@ -33,6 +33,10 @@ bool is_outside(const Surface& surface, const Vector3& x);
 /// except near the data. None if there are no holes.
 std::vector<Vector3> closing_points(const Cloud& data);
 
+/// The weight of penalty_of(), without unit: an excess counts as much as a distance sqrt(20) times as large. See README.md for
+/// others.
+constexpr double kEmptyWeight = 20;
+
 struct DistanceGrid;
 
 /// How far a place lies beyond the data and the surface that closes their holes: 0 inside and up to a margin outside. Without a
@@ -41,8 +45,11 @@ struct EmptySpace {
   std::shared_ptr<const DistanceGrid> grid;
   double scale = 1;  ///< x is at scale x + offset in the grid
   Vector3 offset = Vector3::Zero();
-  /// Beyond this excess, in extents of the data, the penalty grows as its fourth power.
+  double margin = 0;  ///< in extents of the data, as is `steep`
+  /// Beyond this excess, the penalty grows as its fourth power.
   double steep = std::numeric_limits<double>::infinity();
+  double weight = kEmptyWeight;  ///< of penalty_of()
+  bool is_fine = false;          ///< selects the boundary_directions()
 
   struct Excess {
     double length = 0;                ///< e (1 + e/s) with s = steep and e, the distance from the data less the margin
@@ -57,15 +64,12 @@ EmptySpace find_empty_space(const Cloud& data);
 /// The image under x -> scale x + offset.
 EmptySpace moved(const EmptySpace& space, double scale, const Vector3& offset);
 
-/// The penalty of a body that extends beyond the data: the mean square of the excess of its boundary_directions(), times a weight.
-/// It adds to the mean square of the distances of the data from the body.
+/// The penalty of a body that extends beyond the data: the mean square of the excess of its boundary_directions(), times the
+/// weight. It adds to the mean square of the distances of the data from the body.
 double penalty_of(const Body& body, const EmptySpace& space);
 
-/// The directions in which a body is examined: its faces, edges and vertices, and directions between them.
-const std::vector<Vector3>& boundary_directions();
-
-/// The weight of penalty_of(), without unit: an excess counts as much as a distance sqrt(20) times as large. See README.md for
-/// others.
-constexpr double kEmptyWeight = 20;
+/// The directions in which a body is examined: its faces, edges and vertices, and 600 directions between them, or 20000 if
+/// `is_fine`.
+const std::vector<Vector3>& boundary_directions(bool is_fine);
 
 }  // namespace fit

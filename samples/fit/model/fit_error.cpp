@@ -275,7 +275,7 @@ void add_uncertainty(FitError& error, std::span<const FittedBody> fitted) {
   error.moment_errors = square.tail<3>().cwiseSqrt();
 }
 
-FitError find_error(std::span<const Body> bodies, const Data& data) {
+FitError find_distances(std::span<const Body> bodies, const Data& data) {
   FitError error;
   const std::vector<DistanceFunction> functions(bodies.begin(), bodies.end());
   std::vector<Vector3> points = data.vertices.points;
@@ -295,6 +295,11 @@ FitError find_error(std::span<const Body> bodies, const Data& data) {
   error.mean = sum / static_cast<double>(points.size() - uniform);
   error.radius = radius_of(points);
   measure_surface(functions, data, error);
+  return error;
+}
+
+FitError find_error(std::span<const Body> bodies, const Data& data) {
+  FitError error = find_distances(bodies, data);
   error.is_hull = !is_closed(data);
   error.data = error.is_hull ? solid_of_hull(data) : solid_of_mesh(data);
   if (bodies.size() == 1) {

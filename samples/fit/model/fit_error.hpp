@@ -35,6 +35,9 @@ struct FitError {
   bool is_hull = false;                     ///< whether `data` is the convex hull
 };
 
+/// The largest root mean square of the distances and the largest reach of a good fit, over the radius of the data.
+constexpr double kMostDistance = 0.05, kMostReach = 0.05;
+
 /// Whether the data are a closed mesh: every edge is traversed equally often in both directions. Degenerate triangles are ignored
 /// unless they are needed.
 bool is_closed(const Data& data);
@@ -65,5 +68,8 @@ void add_uncertainty(FitError& error, std::span<const FittedBody> fitted);
 /// Hausdorff distances over the data vertices (for a mesh also random points of its triangles) and over random points of the free
 /// surface of the bodies. They are lower bounds: the true distances are larger by at most the spacing of the points.
 FitError find_error(std::span<const Body> bodies, const Data& data);
+
+/// Only the distances of find_error(), without the solids.
+FitError find_distances(std::span<const Body> bodies, const Data& data);
 
 }  // namespace fit

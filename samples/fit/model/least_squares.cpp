@@ -171,21 +171,25 @@ class Distances final : public ceres::CostFunction {
   mutable std::vector<Witness> witnesses_;  // one for each point
 };
 
-/// How far the body extends into the empty space: penalty_of() as a sum of squares, times `weight`^2 over kEmptyWeight.
+/// How far the body extends into the empty space: penalty_of() as a sum of squares, `count` times.
 class Reach final : public ceres::CostFunction {
  public:
-  Reach(Family family, const ShapeLimits& limits, const EmptySpace& space, double weight)
-      : family_(family), limits_(limits), space_(space), weight_(weight) {
-    set_num_residuals(static_cast<int>(boundary_directions().size()));
+  Reach(Family family, const ShapeLimits& limits, const EmptySpace& space, double count)
+      : family_(family),
+        limits_(limits),
+        space_(space),
+        directions_(boundary_directions(space.is_fine)),
+        weight_(std::sqrt(space.weight * count / static_cast<double>(directions_.size()))) {
+    set_num_residuals(static_cast<int>(directions_.size()));
     mutable_parameter_block_sizes()->assign(kBlockSizes.begin(), kBlockSizes.end());
   }
 
   bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
     const Body body = body_of(family_, limits_, blocks);
     const Matrix3 R = body.rotation();
-    for (std::size_t i = 0; i < boundary_directions().size(); ++i) {
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
       PointDerivatives derivatives;
-      const Vector3 r = boundary_point(body, boundary_directions()[i], jacobians == nullptr ? nullptr : &derivatives);
+      const Vector3 r = boundary_point(body, directions_[i], jacobians == nullptr ? nullptr : &derivatives);
       const EmptySpace::Excess excess = space_.beyond(body.position + R * r);
       residuals[i] = weight_ * excess.length;
       if (jacobians == nullptr) continue;
@@ -202,6 +206,7 @@ class Reach final : public ceres::CostFunction {
   Family family_;
   ShapeLimits limits_;
   EmptySpace space_;
+  const std::vector<Vector3>& directions_;
   double weight_;
 };
 
@@ -313,10 +318,7 @@ LeastSquaresResult minimize_distances(const Body& start, std::span<const Vector3
     problem.AddResidualBlock(new Distances(start.family, points.subspan(first, count), targets, settings), nullptr, all);
   }
   const auto count = static_cast<double>(points.size());
-  if (settings.empty.grid) {
-    const double weight = std::sqrt(kEmptyWeight * count / static_cast<double>(boundary_directions().size()));
-    problem.AddResidualBlock(new Reach(start.family, settings.limits, settings.empty, weight), nullptr, all);
-  }
+  if (settings.empty.grid) problem.AddResidualBlock(new Reach(start.family, settings.limits, settings.empty, count), nullptr, all);
   if (settings.volume) {
     problem.AddResidualBlock(
         new VolumeDifference(start.family, settings.limits, *settings.volume, std::sqrt(kVolumeWeight * count)), nullptr, all);

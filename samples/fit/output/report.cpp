@@ -121,7 +121,7 @@ std::string describe_outliers(std::span<const FittedBody> fitted, const Cloud& c
 }
 
 std::vector<std::string> doubts_about(std::span<const FittedBody> fitted, const FitError& error) {
-  constexpr double kMostDistance = 0.05, kMostReach = 0.05, kMostVolume = 0.1, kMostOutliers = 0.2, kMostOpenness = 0.2;
+  constexpr double kMostVolume = 0.1, kMostOutliers = 0.2, kMostOpenness = 0.2;
   std::vector<std::string> doubts;
   const auto add = [&](const std::string& what, double value, double most, const std::string& of, const char* advice) {
     if (value > most)
