@@ -126,24 +126,26 @@ ExitCode fit_one(const std::string& path, const fit::Options& options) {
   return verdict(doubts);
 }
 
-/// The scans of the files and folders, sorted within a folder. Announces what else a folder has.
+/// The scans of a folder, sorted. Announces what else it has.
+std::vector<std::string> scans_in(const std::string& folder) {
+  std::vector<std::string> scans;
+  std::string others;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const bool is_scan = fit::is_scan(entry.path().string()) && !entry.is_directory();
+    if (is_scan) scans.push_back(entry.path().string());
+    if (!is_scan) others.append(others.empty() ? "" : ", ").append(entry.path().filename().string());
+  }
+  if (!others.empty()) fit::say(folder + ": left out, as they are no scans: " + others);
+  std::ranges::sort(scans);
+  return scans;
+}
+
+/// The scans of the files and folders.
 std::vector<std::string> scans_of(const std::vector<std::string>& paths) {
   std::vector<std::string> scans;
   for (const std::string& path : paths) {
-    if (!fs::is_directory(path)) {
-      scans.push_back(path);
-      continue;
-    }
-    std::vector<std::string> inside;
-    std::string others;
-    for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
-      const bool is_scan = fit::is_scan(entry.path().string()) && !entry.is_directory();
-      if (is_scan) inside.push_back(entry.path().string());
-      if (!is_scan) others += (others.empty() ? "" : ", ") + entry.path().filename().string();
-    }
-    if (!others.empty()) fit::say(path + ": left out, as they are no scans: " + others);
-    std::ranges::sort(inside);
-    scans.insert(scans.end(), inside.begin(), inside.end());
+    const std::vector<std::string> own = fs::is_directory(path) ? scans_in(path) : std::vector{path};
+    scans.insert(scans.end(), own.begin(), own.end());
   }
   if (scans.size() < 2) {
     throw fit::InputError(paths.front() + ": " + std::to_string(scans.size()) +
@@ -174,7 +176,7 @@ std::vector<fit::FittedBody> fit_alike(const std::vector<std::string>& paths, co
   const bool is_given = family == fit::Family::Ellipsoid || options.limits.has_round_section;
   if (!is_given)
     fit::say(std::string("z is the ") + (axis == 0 ? "shortest" : axis == 1 ? "middle" : "longest") + " axis of every scan");
-  for (std::size_t i = 0; i < paths.size(); ++i) fitted[i] = by_axis[i][axis];
+  for (std::size_t i = 0; i < paths.size(); ++i) fitted[i] = by_axis[i][axis].fitted;
   return fitted;
 }
 

@@ -91,7 +91,7 @@ TEST_CASE("the kind of scanned bodies in any orientation is the kind of the bodi
   }
   REQUIRE(common_axis(fits) == 1);
   std::vector<FittedBody> fitted;
-  for (const FitsByAxis& each : fits) fitted.push_back(each[1]);
+  for (const FitsByAxis& each : fits) fitted.push_back(each[1].fitted);
   require_stones(find_kind(fitted), 1e-5);
 }
 
@@ -99,16 +99,16 @@ TEST_CASE("ellipsoids and bodies of revolution have one frame only") {
   const Body body{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), {3, 2, 1}, 2, 2, 0};
   const Cloud cloud = scatter(body, {.points = 300});
   const FittedBody fitted = fit_body(cloud, {.family = Family::Ellipsoid});
-  for (const FittedBody& each : fit_each_axis(fitted, Family::Ellipsoid, cloud, {}))
-    CHECK(each.body.half_axes == fitted.body.half_axes);
+  for (const RatedFit& each : fit_each_axis(fitted, Family::Ellipsoid, cloud, {}))
+    CHECK(each.fitted.body.half_axes == fitted.body.half_axes);
   FitSettings round;
   round.family = Family::Superellipsoid;
   round.limits.has_round_section = true;
   const Body disc{Family::Superellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), {2, 2, 1}, 2, 4, 0};
   const Cloud points = scatter(disc, {.points = 300});
   const FittedBody revolved = fit_body(points, round);
-  for (const FittedBody& each : fit_each_axis(revolved, Family::Superellipsoid, points, round))
-    CHECK(each.body.half_axes == revolved.body.half_axes);
+  for (const RatedFit& each : fit_each_axis(revolved, Family::Superellipsoid, points, round))
+    CHECK(each.fitted.body.half_axes == revolved.body.half_axes);
 }
 
 TEST_CASE("the taper of a kind is valid, however much the exponents differ") {

@@ -181,11 +181,11 @@ Data read_by_assimp(const std::string& path, const std::string& group) {
   const aiScene* const scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr) throw InputError(path + ": cannot be read: " + importer.GetErrorString());
   Data data;
-  for (const std::string& line : complaints.lines()) {
-    // Assimp drops a face whose vertex does not exist, which opens a closed mesh.
-    if (line.find("out-of-range") != std::string::npos) throw InputError(path + ": cannot be read: " + line);
-    data.note += (data.note.empty() ? "" : "; ") + line;
-  }
+  const std::set<std::string>& lines = complaints.lines();
+  // Assimp drops a face whose vertex does not exist, which opens a closed mesh.
+  const auto dropped = std::ranges::find_if(lines, [](const std::string& line) { return line.find("out-of-range") != line.npos; });
+  if (dropped != lines.end()) throw InputError(path + ": cannot be read: " + *dropped);
+  for (const std::string& line : lines) data.note.append(data.note.empty() ? "" : "; ").append(line);
   data.is_single = true;  // Assimp stores single precision
   std::set<std::string> names;
   append(*scene, *scene->mRootNode, {}, group, group.empty(), data, names);

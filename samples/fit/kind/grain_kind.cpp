@@ -96,17 +96,21 @@ FitsByAxis fit_each_axis(const FittedBody& fitted, Family family, const Cloud& p
     const Cloud& surface = settings.surface.points.empty() ? kept : settings.surface;
     near.empty = moved(find_empty_space(normalized(surface, extent)), extent.size, extent.centre);
   }
+  const auto rated = [&](const FittedBody& fit) {
+    const double cost = std::pow(fit.uncertainty.sigma, 2) + penalty_of(fit.body, near.empty);
+    return RatedFit{fit, cost / std::pow(size_of(fit.body), 2)};
+  };
   const auto refined = [&](const Body& start) { return refine(start, points, near); };
   const bool is_settled = fitted.body.family == family;
   if (family == Family::Ellipsoid || settings.limits.has_round_section) {
-    const FittedBody only = is_settled ? fitted : refined(with_z(fitted.body, family, settings.limits, 0));
+    const RatedFit only = rated(is_settled ? fitted : refined(with_z(fitted.body, family, settings.limits, 0)));
     return {only, only, only};
   }
   FitsByAxis fits;
   for (std::size_t rank = 0; rank < fits.size(); ++rank) {
     const Body start = with_z(fitted.body, family, settings.limits, rank);
     const bool is_same = is_settled && (start.half_axes - fitted.body.half_axes).isZero(0);
-    fits[rank] = is_same ? fitted : refined(start);
+    fits[rank] = rated(is_same ? fitted : refined(start));
   }
   return fits;
 }
@@ -114,9 +118,7 @@ FitsByAxis fit_each_axis(const FittedBody& fitted, Family family, const Cloud& p
 std::size_t common_axis(std::span<const FitsByAxis> scans) {
   std::array<double, 3> sums{};
   for (const FitsByAxis& fits : scans) {
-    for (std::size_t rank = 0; rank < 3; ++rank) {
-      sums[rank] += std::pow(fits[rank].uncertainty.sigma / size_of(fits[rank].body), 2);
-    }
+    for (std::size_t rank = 0; rank < 3; ++rank) sums[rank] += fits[rank].cost;
   }
   return static_cast<std::size_t>(std::ranges::min_element(sums) - sums.begin());
 }

@@ -9,16 +9,23 @@
 
 namespace fit {
 
+/// A fit, and what its search minimises: the mean square of the distances and the penalty of a body that extends beyond the data
+/// (penalty_of), both relative to the square of the body's size.
+struct RatedFit {
+  FittedBody fitted;
+  double cost = 0;
+};
+
 /// The fits of one scan with its shortest, middle and longest axis as z. An ellipsoid and a body of revolution have one such fit
 /// only: all three are equal.
-using FitsByAxis = std::array<FittedBody, 3>;
+using FitsByAxis = std::array<RatedFit, 3>;
 
 /// Fits of `family`, which contains the family of `fitted`, near `fitted`. Where another axis becomes z, the exponents start at
 /// their mean, and the taper at 0. Throws like fit_body().
 FitsByAxis fit_each_axis(const FittedBody& fitted, Family family, const Cloud& points, const FitSettings& settings);
 
-/// Which of the three axes is z in all scans: the one that leaves the smallest sum of squared distances, relative to the sizes of
-/// the bodies. The exponents of different scans are then comparable.
+/// Which of the three axes is z in all scans: the one with the smallest sum of costs. The exponents of different scans are then
+/// comparable.
 std::size_t common_axis(std::span<const FitsByAxis> scans);
 
 /// A number over the scans.
