@@ -71,7 +71,7 @@ std::vector<double> lengths_of(std::span<const Specimen> specimens) {
 Proportions proportions_of(const Solid& solid) {
   const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(solid.inertia, Eigen::EigenvaluesOnly);
   // The moments I ascend, so the half-axes descend: the square of each is 5/2 (sum of I - 2 I) per volume.
-  const Vector3 moments = eigen.eigenvalues();
+  const Vector3& moments = eigen.eigenvalues();
   const Vector3 axes = (2.5 / solid.volume * (moments.sum() - 2 * moments.array())).sqrt();
   return {axes[1] / axes[0], axes[2] / axes[1], solid.volume / (4 * std::numbers::pi / 3 * axes.prod())};
 }
