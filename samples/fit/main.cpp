@@ -1,311 +1,224 @@
-// Fits an ellipsoid, superellipsoid or superovoid to a mesh or a point cloud.
-#include <CLI/CLI.hpp>
+// Fits ellipsoids, superellipsoids or superovoids to a mesh or a point cloud, or one kind of grain to many of them.
 #include <algorithm>
-#include <cmath>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <string>
-#include <supernormal/shapes/superellipsoid.hpp>
+#include <system_error>
 #include <vector>
 
-#include "input/read_data.hpp"
-#include "input/table.hpp"
-#include "model/fit_error.hpp"
-#include "model/fit_union.hpp"
+#include "kind/grain_kind.hpp"
+#include "kind/kind_text.hpp"
 #include "output/json.hpp"
-#include "output/kind.hpp"
 #include "output/paste.hpp"
 #include "output/picture.hpp"
 #include "output/report.hpp"
+#include "program/options.hpp"
+#include "program/scan.hpp"
 
 namespace {
 
+namespace fs = std::filesystem;
+
 enum ExitCode { Done = 0, Failed = 1, BadInput = 2, BadFit = 3 };
 
-constexpr std::size_t kSurfacePoints = 50000;  // of a mesh: their spacing is about 1.5 % of its extent
-
-struct Options {
-  std::string path;
-  std::string shape = "auto";
-  std::string noise = "auto";
-  std::string outliers = "auto";
-  std::string table = "auto";
-  std::string group;
-  std::string unit = "m";
-  std::optional<double> scale;
-  double density = 1000;
-  std::string name;
-  std::string out = "out/fit";
-  std::string sides = "auto";
-  fit::ShapeLimits limits;
-  bool uses_vertices = false;
-  bool is_quick = false;
-  int bodies = 1;
-  int threads = 1;
-};
-
-/// Announces the next step at once, also into a pipe.
-void say(const std::string& step) {
-  std::printf("%s\n", step.c_str());
-  std::fflush(stdout);
-}
-
-/// The points to fit. For a mesh: random points of its triangles, as many as it has vertices, within bounds.
-fit::Cloud points_of(const fit::Data& data, bool uses_vertices) {
-  if (data.triangles.empty() || uses_vertices) return data.vertices;
-  const std::size_t count = std::clamp<std::size_t>(data.vertices.points.size(), 2000, 20000);
-  return fit::sample_triangles(data.vertices.points, data.triangles, count, 1);
-}
-
-fit::FitSettings settings_of(const Options& options, const fit::Data& data) {
-  const bool is_mesh = !data.triangles.empty();
-  const std::map<std::string, std::optional<fit::Family>> families = {{"auto", std::nullopt},
-                                                                      {"ellipsoid", fit::Family::Ellipsoid},
-                                                                      {"superellipsoid", fit::Family::Superellipsoid},
-                                                                      {"superovoid", fit::Family::Superovoid}};
-  fit::FitSettings settings;
-  settings.family = families.at(options.shape);
-  settings.noise = options.noise == "normal" ? fit::Noise::AlongNormal : fit::Noise::Isotropic;
-  // A mesh is the surface itself. A distance from the body means another shape, not an outlier or noise.
-  settings.rejects_outliers = options.outliers == "auto" ? !is_mesh : options.outliers == "reject";
-  if (is_mesh && options.noise == "auto") settings.noise = fit::Noise::AlongNormal;
-  settings.is_whole = fit::is_closed(data);
-  if (settings.is_whole) settings.volume = fit::volume_target(data);
-  if (is_mesh) settings.surface = fit::sample_triangles(data.vertices.points, data.triangles, kSurfacePoints, 4);
-  const std::map<std::string, fit::Sides> sides = {
-      {"auto", fit::Sides::Auto}, {"all", fit::Sides::All}, {"some", fit::Sides::Some}};
-  settings.sides = sides.at(options.sides);
-  settings.limits = options.limits;
-  settings.threads = options.threads;
-  settings.progress = say;
-  return settings;
-}
-
-void write(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
-}
-
-/// Of the body in what is written.
-std::string name_of(const Options& options) {
-  const std::filesystem::path path = std::filesystem::path(options.path).lexically_normal();
-  const std::filesystem::path last = path.has_filename() ? path : path.parent_path();
-  return options.name.empty() ? fit::identifier(last.stem().string()) : options.name;
-}
-
-void write_results(const Options& options, const std::vector<fit::FittedBody>& fitted, const std::vector<fit::Body>& bodies,
-                   const fit::Data& data, const fit::FitError& error, const std::vector<std::string>& doubts) {
-  const std::string file = std::filesystem::path(options.path).filename().string();
-  const std::string name = name_of(options);
-  const std::string source = "fitted to " + file + " by samples/fit";
-  const std::string toml = fit::toml_lines(fitted, name, options.density, source);
-  const std::string c = fit::c_lines(fitted, name, source);
-  std::printf("\n%s\n%s", toml.c_str(), c.c_str());
-  const std::filesystem::path folder = options.out;
-  std::filesystem::create_directories(folder);
-  write(folder / (name + ".toml"), toml);
-  write(folder / (name + ".c"), c);
-  write(folder / (name + ".svg"), fit::draw(bodies, data.vertices, error.rms, file));
-  write(folder / (name + ".json"), fit::json_text(fitted, error, doubts, name, source));
-  write(folder / (name + "_aligned.ply"), fit::aligned_ply(data, fitted));
-  std::printf("\nwritten: %s.toml, .c, .svg and .json, and the data in the frame of the grain: %s_aligned.ply\n",
-              (folder / name).c_str(), name.c_str());
-}
-
-std::vector<fit::FittedBody> fit_points(const fit::Cloud& points, const Options& options, const fit::Data& data) {
-  try {
-    return fit::fit_union(points, options.bodies, settings_of(options, data), [](int count, int largest) {
-      say("looking for " + std::to_string(count) + " of at most " + std::to_string(largest) + " bodies");
-    });
-  } catch (const std::invalid_argument& error) {
-    throw fit::InputError(options.path + ": " + error.what());
-  }
-}
-
-/// The data without the outliers of the fit, which are on no surface. The fit of a mesh uses other points, so a mesh is unchanged.
-fit::Data without_outliers(fit::Data data, const std::vector<fit::FittedBody>& fitted) {
-  if (!data.triangles.empty()) return data;
-  std::vector<std::size_t> outliers;
-  for (const fit::FittedBody& each : fitted) outliers.insert(outliers.end(), each.outliers.begin(), each.outliers.end());
-  data.vertices = fit::without(data.vertices, outliers);
-  return data;
-}
-
-const std::map<std::string, double> kUnits = {{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"in", 0.0254}};
-
-/// Accepts finite numbers above 0. CLI::PositiveNumber accepts nan.
-const CLI::Validator kPositive(
-    [](std::string& text) {
-      double value = 0;
-      const bool is_positive = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
-      return is_positive ? std::string() : text + "; allowed: a number in (0, inf)";
-    },
-    "POSITIVE");
-
-/// Metres in a unit of the file.
-double scale_of(const Options& options) { return options.scale.value_or(kUnits.at(options.unit)); }
-
-struct Outcome {
-  ExitCode code = Done;
-  fit::Specimen specimen;
-};
-
-Outcome fit_file(const Options& options) {
-  fit::Data data = fit::read_data(options.path, scale_of(options), options.group);
-  const bool is_mesh = !data.triangles.empty();
-  say(options.path + ": " + std::to_string(data.vertices.points.size()) + " points, " + std::to_string(data.triangles.size()) +
-      " triangles");
-  if (!data.note.empty()) say(data.note);
-  const std::string table = options.table == "auto" ? fit::remove_table(data) : "";
-  if (!table.empty()) say(table);
-  const fit::Cloud points = points_of(data, options.uses_vertices);
-  const std::vector<fit::FittedBody> fitted = fit_points(points, options, data);
-  if (fitted.size() < static_cast<std::size_t>(options.bodies)) {
-    say(std::to_string(fitted.size()) + (fitted.size() == 1 ? " body fits" : " bodies fit") + " as well as " +
-        std::to_string(options.bodies) +
-        ": more do not bring the points nearer by a twentieth, noise and the sharpest edges apart");
-  }
-  for (const fit::FittedBody& each : fitted) std::fputs(fit::describe(each).c_str(), stdout);
-  if (!is_mesh) std::fputs(fit::describe_outliers(fitted, points).c_str(), stdout);
-  if (options.is_quick) return {};
-  say("comparing surfaces and volumes");
-  std::vector<fit::Body> bodies(fitted.size());
-  std::ranges::transform(fitted, bodies.begin(), &fit::FittedBody::body);
-  fit::FitError error = fit::find_error(bodies, without_outliers(data, fitted));
-  fit::add_uncertainty(error, fitted);
-  std::fputs(fit::describe(error).c_str(), stdout);
-  const std::vector<std::string> doubts = fit::doubts_about(fitted, error);
-  write_results(options, fitted, bodies, data, error, doubts);
-  std::fflush(stdout);
-  for (const std::string& doubt : doubts) std::fprintf(stderr, "fit: warning: %s\n", doubt.c_str());
-  return {doubts.empty() ? Done : BadFit, {name_of(options), fitted, error.body}};
-}
-
-/// The scans in a folder, by name.
-std::vector<std::string> scans_in(const std::string& folder) {
-  const std::set<std::string> kinds = {".stl", ".obj", ".off", ".glb", ".ply", ".xyz"};
-  std::vector<std::string> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (kinds.contains(entry.path().extension().string())) paths.push_back(entry.path().string());
-  }
-  std::ranges::sort(paths);
-  if (paths.size() < 2) {
-    throw fit::InputError(folder + ": " + std::to_string(paths.size()) +
-                          " scans (.stl, .obj, .off, .glb, .ply, .xyz); a kind of grains takes at least 2");
-  }
-  return paths;
-}
-
-/// Fits each scan of a folder, and writes the kind that they are of.
-ExitCode fit_folder(const Options& options) {
-  if (options.is_quick) throw std::invalid_argument("--quick with a folder; a kind takes the volumes");
-  const std::vector<std::string> paths = scans_in(options.path);
-  ExitCode code = Done;
-  std::vector<fit::Specimen> specimens;
-  for (const std::string& path : paths) {
-    Options of_one = options;
-    of_one.path = path;
-    of_one.name.clear();
-    const Outcome outcome = fit_file(of_one);
-    if (outcome.code != Done) code = outcome.code;
-    specimens.push_back(outcome.specimen);
-  }
-  const std::string name = name_of(options);
-  const std::string source = "fitted to " + std::to_string(paths.size()) + " scans by samples/fit";
-  const std::string scene = fit::scene_lines(specimens, name);
-  std::printf("\n%s: %zu scans\n%s\n%s", name.c_str(), paths.size(), fit::describe(specimens).c_str(), scene.c_str());
-  const std::filesystem::path folder = options.out;
-  write(folder / (name + ".toml"), fit::toml_lines(specimens[fit::typical_of(specimens)].fitted, name, options.density, source));
-  write(folder / (name + "_scene.toml"), scene);
-  std::printf("\nwritten: %s.toml, the typical one for a catalogue, and %s_scene.toml, the sizes for a scene\n",
-              (folder / name).c_str(), name.c_str());
-  return code;
-}
-
-/// Throws std::invalid_argument for options that contradict one another.
-void require_consistent(const Options& options) {
-  const fit::ShapeLimits& limits = options.limits;
-  if (options.shape == "ellipsoid" && (limits.delta || limits.epsilon)) {
-    throw std::invalid_argument("--delta and --epsilon: the exponents of --shape ellipsoid are 2; allowed: another shape");
-  }
-  if (limits.has_round_section && limits.delta && *limits.delta != 2) {
-    throw std::invalid_argument("--delta " + std::to_string(*limits.delta) + " with --round; allowed: 2");
-  }
-  for (const std::optional<double>& exponent : {limits.delta, limits.epsilon}) {
-    if (exponent && *exponent > limits.max_exponent) {
-      throw std::invalid_argument("--delta and --epsilon: " + std::to_string(*exponent) + "; allowed: at most --max-exponent, " +
-                                  std::to_string(limits.max_exponent));
+/// The files that a run writes. The constructor refuses a folder or a name that cannot be written, before the fit.
+class Results {
+ public:
+  Results(const fit::Options& options, const std::string& source_name, const std::vector<std::string>& endings)
+      : folder_(options.out) {
+    name_ = options.name.empty() ? fit::identifier(source_name) : options.name;
+    if (options.name.empty() && name_ != source_name) {
+      fit::say("the grain is called \"" + name_ + "\": a name has letters, digits and _, no digit first (--name)");
+    }
+    if (options.is_quick) return;
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error) throw fit::InputError("fit: --out " + folder_.string() + ": the folder cannot be made: " + error.message());
+    for (const std::string& ending : endings) {
+      const fs::path path = folder_ / (name_ + ending);
+      const bool is_there = fs::exists(path, error);
+      if (!std::ofstream(path, std::ios::app)) {
+        throw fit::InputError("fit: --out " + folder_.string() + ": " + path.string() +
+                              " cannot be written: " + std::strerror(errno));
+      }
+      if (!is_there) fs::remove(path, error);
     }
   }
+
+  const std::string& name() const { return name_; }
+
+  void write(const std::string& ending, const std::string& text) const {
+    const fs::path path = folder_ / (name_ + ending);
+    std::ofstream file(path, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file) throw std::runtime_error(path.string() + ": cannot be written");
+  }
+
+  std::string path() const { return (folder_ / name_).string(); }
+
+ private:
+  fs::path folder_;
+  std::string name_;
+};
+
+ExitCode verdict(const std::vector<std::string>& doubts) {
+  std::fflush(stdout);
+  for (const std::string& doubt : doubts) std::fprintf(stderr, "fit: warning: %s\n", doubt.c_str());
+  return doubts.empty() ? Done : BadFit;
+}
+
+fit::Provenance provenance_of(const fit::Options& options, const std::string& name, const std::string& source) {
+  fit::Provenance provenance;
+  provenance.name = name;
+  provenance.source = source;
+  provenance.scale = options.scale;
+  provenance.density = options.density;
+  return provenance;
+}
+
+void write_results(const fit::Options& options, const Results& results, const std::vector<fit::FittedBody>& fitted,
+                   const fit::Scan& scan, const fit::FitError& error, const std::vector<std::string>& doubts) {
+  const std::string file = fs::path(scan.path).filename().string();
+  const std::string source = "fitted to " + file + " by samples/fit";
+  const std::string& name = results.name();
+  const std::string toml = fit::toml_lines(fitted, name, options.density, source);
+  const std::string c = fit::c_lines(fitted, name, source, error.body, options.density);
+  std::vector<fit::Body> bodies(fitted.size());
+  std::ranges::transform(fitted, bodies.begin(), &fit::FittedBody::body);
+  fit::Provenance provenance = provenance_of(options, name, source);
+  provenance.is_mesh = !scan.data.triangles.empty();
+  provenance.open = scan.open;
+  std::printf("\n%s\n%s", toml.c_str(), c.c_str());
+  results.write(".toml", toml);
+  results.write(".c", c);
+  results.write(".svg", fit::draw(bodies, scan.data.vertices, error.rms, file));
+  results.write(".json", fit::json_text(fitted, error, doubts, provenance));
+  results.write("_aligned.ply", fit::aligned_ply(scan.data, fitted));
+  std::printf("\nwritten: %s.toml, .c, .svg and .json, and the data in the frame of the grain: %s_aligned.ply\n",
+              results.path().c_str(), name.c_str());
+}
+
+ExitCode fit_one(const std::string& path, const fit::Options& options) {
+  const fit::Scan scan = fit::read_scan(path, options);
+  for (const std::string& remark : scan.remarks) fit::say(remark);
+  const Results results(options, fs::path(path).stem().string(), {".toml", ".c", ".svg", ".json", "_aligned.ply"});
+  const std::vector<fit::FittedBody> fitted = fit::fit_scan(scan, options);
+  if (fitted.size() < static_cast<std::size_t>(options.bodies)) {
+    fit::say(std::to_string(fitted.size()) + (fitted.size() == 1 ? " body fits" : " bodies fit") + " as well as " +
+             std::to_string(options.bodies) +
+             ": more do not bring the points nearer by a twentieth, noise and the sharpest edges apart");
+  }
+  for (const fit::FittedBody& each : fitted) std::fputs(fit::describe(each).c_str(), stdout);
+  if (scan.data.triangles.empty()) std::fputs(fit::describe_outliers(fitted, scan.points).c_str(), stdout);
+  if (options.is_quick) return verdict(fit::doubts_about(fitted, fit::find_distances(scan, fitted)));
+  fit::say("comparing surfaces and volumes");
+  const fit::FitError error = fit::find_error(scan, fitted);
+  std::fputs(fit::describe(error).c_str(), stdout);
+  const std::vector<std::string> doubts = fit::doubts_about(fitted, error);
+  write_results(options, results, fitted, scan, error, doubts);
+  return verdict(doubts);
+}
+
+/// The scans of the files and folders, sorted within a folder. Announces what else a folder has.
+std::vector<std::string> scans_of(const std::vector<std::string>& paths) {
+  std::vector<std::string> scans;
+  for (const std::string& path : paths) {
+    if (!fs::is_directory(path)) {
+      scans.push_back(path);
+      continue;
+    }
+    std::vector<std::string> inside;
+    std::string others;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+      const bool is_scan = fit::is_scan(entry.path().string()) && !entry.is_directory();
+      if (is_scan) inside.push_back(entry.path().string());
+      if (!is_scan) others += (others.empty() ? "" : ", ") + entry.path().filename().string();
+    }
+    if (!others.empty()) fit::say(path + ": left out, as they are no scans: " + others);
+    std::ranges::sort(inside);
+    scans.insert(scans.end(), inside.begin(), inside.end());
+  }
+  if (scans.size() < 2) {
+    throw fit::InputError(paths.front() + ": " + std::to_string(scans.size()) +
+                          " scans; a folder or a list of files makes one kind of grain, and takes at least 2");
+  }
+  return scans;
+}
+
+/// The fits of all scans in one family, with the same axis as z.
+std::vector<fit::FittedBody> fit_alike(const std::vector<std::string>& paths, const fit::Options& options) {
+  std::vector<fit::FittedBody> fitted;
+  for (const std::string& path : paths) {
+    fit::say("fitting " + std::to_string(fitted.size() + 1) + " of " + std::to_string(paths.size()));
+    const fit::Scan scan = fit::read_scan(path, options);
+    for (const std::string& remark : scan.remarks) fit::say("  " + remark);
+    fitted.push_back(fit::fit_scan(scan, options).front());
+  }
+  const fit::Family family = std::ranges::max(fitted, {}, [](const fit::FittedBody& each) { return each.body.family; }).body.family;
+  fit::say(std::string("fitting each as a ") + name_of(family) + " with each of its axes as z");
+  std::vector<fit::FitsByAxis> by_axis;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const fit::Scan scan = fit::read_scan(paths[i], options);
+    fit::FitSettings settings = settings_of(options, scan);
+    settings.progress = {};
+    by_axis.push_back(fit::fit_each_axis(fitted[i], family, scan.points, settings));
+  }
+  const std::size_t axis = fit::common_axis(by_axis);
+  const bool is_given = family == fit::Family::Ellipsoid || options.limits.has_round_section;
+  if (!is_given)
+    fit::say(std::string("z is the ") + (axis == 0 ? "shortest" : axis == 1 ? "middle" : "longest") + " axis of every scan");
+  for (std::size_t i = 0; i < paths.size(); ++i) fitted[i] = by_axis[i][axis];
+  return fitted;
+}
+
+ExitCode fit_kind(const fit::Options& options) {
+  if (options.bodies > 1) {
+    throw std::invalid_argument("--bodies " + std::to_string(options.bodies) + " with several scans; allowed: 1");
+  }
+  const std::vector<std::string> paths = scans_of(options.paths);
+  const bool is_folder = fs::is_directory(options.paths.front());
+  const fs::path folder =
+      fs::weakly_canonical(is_folder ? fs::path(options.paths.front()) : fs::absolute(paths.front()).parent_path());
+  const Results results(options, folder.filename().string(), {".toml", "_scene.toml", ".json"});
+  for (const std::string& path : paths)
+    fit::read_data(path, options.scale, options.group);  // refuses a bad file before the first fit
+  const std::vector<fit::FittedBody> fitted = fit_alike(paths, options);
+  std::vector<fit::KindScan> scans;
+  if (!options.is_quick) fit::say("comparing surfaces and volumes");
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const fit::Scan scan = fit::read_scan(paths[i], options);
+    const fit::FitError error = options.is_quick ? fit::find_distances(scan, {fitted[i]}) : fit::find_error(scan, {fitted[i]});
+    scans.push_back({fs::path(paths[i]).filename().string(), fitted[i], error, fit::doubts_about(std::vector{fitted[i]}, error)});
+  }
+  const fit::GrainKind kind = fit::find_kind(fitted);
+  std::fputs(fit::describe(kind, scans).c_str(), stdout);
+  const std::vector<std::string> doubts = fit::doubts_about(kind, scans);
+  if (options.is_quick) return verdict(doubts);
+  const std::string source = "fitted to " + std::to_string(scans.size()) + " scans by samples/fit";
+  fit::FittedBody mean;
+  mean.body = kind.body;
+  const std::string toml = fit::toml_lines(std::vector{mean}, results.name(), options.density, source);
+  const std::string scene = fit::scene_lines(kind, results.name());
+  std::printf("\n%s\n%s", toml.c_str(), scene.c_str());
+  results.write(".toml", toml);
+  results.write("_scene.toml", scene);
+  results.write(".json", fit::json_text(kind, scans, doubts, provenance_of(options, results.name(), source)));
+  std::printf("\nwritten: %s.toml, lines for a scene in _scene.toml, and .json\n", results.path().c_str());
+  return verdict(doubts);
 }
 
 int run_program(int argc, char** argv) {
-  CLI::App app("Finds the ellipsoid, superellipsoid or superovoid that is nearest to a mesh or to points.", "fit");
-  Options options;
-  app.add_option("file", options.path,
-                 "mesh (.stl, .obj, .off, .glb, .ply), points (.ply, .obj, .xyz), or a folder of scans of one kind of grains")
-      ->required();
-  app.add_option("--shape", options.shape, "what to look for; auto: what the data call for")
-      ->check(CLI::IsMember({"auto", "ellipsoid", "superellipsoid", "superovoid"}))
-      ->capture_default_str();
-  app.add_option("--bodies", options.bodies, "the most bodies that a union may have")
-      ->check(CLI::Range(1, 16))
-      ->capture_default_str();
-  CLI::Option* const unit = app.add_option("--unit", options.unit, "of the file's lengths")
-                                ->check(CLI::IsMember({"m", "cm", "mm", "um", "in"}))
-                                ->capture_default_str();
-  app.add_option("--scale", options.scale, "metres in a unit of the file, instead of --unit")->check(kPositive)->excludes(unit);
-  app.add_option("--group", options.group, "one object of a file with several: a group of an .obj, a node or mesh of a .glb");
-  app.add_option("--density", options.density, "kg/m^3, for the catalogue of grains")->check(kPositive)->capture_default_str();
-  app.add_option("--name", options.name, "of the body in what is written; the file's if not given");
-  app.add_option("--noise", options.noise,
-                 "how points scatter: alike in all directions, or along the surface's normal only; auto: the first of points, the "
-                 "second of a mesh")
-      ->check(CLI::IsMember({"auto", "isotropic", "normal"}))
-      ->capture_default_str();
-  app.add_option("--outliers", options.outliers, "points beyond 5 standard deviations; auto: reject in a cloud, keep in a mesh")
-      ->check(CLI::IsMember({"auto", "reject", "keep"}))
-      ->capture_default_str();
-  app.add_option(
-         "--sides", options.sides,
-         "where the data show the surface; all: no body shall extend beyond the data; some: it may where nothing was scanned; "
-         "auto: all, if no body fits the data within the noise")
-      ->check(CLI::IsMember({"auto", "all", "some"}))
-      ->capture_default_str();
-  const CLI::Range exponents(supernormal::Superellipsoid::kMinExponent, supernormal::Superellipsoid::kMaxExponent);
-  app.add_option("--max-exponent", options.limits.max_exponent,
-                 "the largest exponent; above 20, edges cost evaluations and show no more")
-      ->check(exponents)
-      ->capture_default_str();
-  app.add_option("--delta", options.limits.delta, "fixes the exponent delta")->check(exponents);
-  app.add_option("--epsilon", options.limits.epsilon, "fixes the exponent epsilon")->check(exponents);
-  app.add_flag("--round", options.limits.has_round_section, "bodies of revolution about z: a = b, delta = 2");
-  app.add_option("--out", options.out, "folder for the results")->capture_default_str();
-  app.add_option("--threads", options.threads, "for the last descent; the same result to rounding")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
-  app.add_flag("--vertices", options.uses_vertices, "fit the vertices of a mesh and not random points of its triangles");
-  app.add_flag("--quick", options.is_quick, "fit only: no comparison of volumes and surfaces, nothing written");
-  app.footer("Exit codes: 0: done; 1: failed; 2: bad input; 3: the fit is bad, as the warnings say, and written nevertheless.");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? Done : BadInput;
-  }
-  if (!options.name.empty() && options.name != fit::identifier(options.name)) {
-    std::fprintf(stderr, "fit: --name \"%s\"; allowed: letters, digits and _, no digit first\n", options.name.c_str());
-    return BadInput;
-  }
-  require_consistent(options);
-  return std::filesystem::is_directory(options.path) ? fit_folder(options) : fit_file(options).code;
+  fit::Options options;
+  if (const std::optional<int> code = fit::read_options(argc, argv, options)) return *code;
+  const bool is_kind = options.paths.size() > 1 || fs::is_directory(options.paths.front());
+  return is_kind ? fit_kind(options) : fit_one(options.paths.front(), options);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include <supernormal/shapes/tessellation.hpp>
 
 #include "input/catalogue.hpp"
+#include "input/orientation.hpp"
 #include "input/read_data.hpp"
 #include "model/fit_error.hpp"
 #include "model/fit_union.hpp"
@@ -46,6 +47,23 @@ FittedBody fitted_of(const Body& body) {
   FittedBody fitted;
   fitted.body = body;
   return fitted;
+}
+
+std::vector<Body> bodies_of(std::span<const FittedBody> fitted) {
+  std::vector<Body> bodies;
+  for (const FittedBody& each : fitted) bodies.push_back(each.body);
+  return bodies;
+}
+
+/// A library of C code, compiled with warnings as errors, and loaded.
+void* compiled(const TemporaryFolder& folder, const std::string& source) {
+  const std::string library = (folder.path() / "code.so").string();
+  const std::string command = std::string(SUPERNORMAL_CXX) +
+                              " -x c -Wall -Wextra -Werror -shared -fPIC -I" SUPERNORMAL_INCLUDE " " + source + " -o " + library;
+  REQUIRE(std::system(command.c_str()) == 0);
+  void* const handle = dlopen(library.c_str(), RTLD_NOW);
+  REQUIRE_MESSAGE(handle != nullptr, dlerror());
+  return handle;
 }
 
 Body placed_body(Family family, double delta, double epsilon, double taper = 0) {
@@ -95,6 +113,34 @@ std::string obj_of(const Body& body) {
   return text.str();
 }
 
+/// A mesh as a binary glTF file.
+std::string glb_of(std::span<const float> corners, std::span<const std::uint32_t> faces) {
+  static_assert(std::endian::native == std::endian::little, "of glTF");
+  std::ostringstream json;
+  json << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+       << R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)"
+       << R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":)" << corners.size() / 3
+       << R"(},{"bufferView":1,"componentType":5125,"type":"SCALAR","count":)" << faces.size()
+       << R"(}],"bufferViews":[{"buffer":0,"byteLength":)" << corners.size_bytes() << R"(},{"buffer":0,"byteOffset":)"
+       << corners.size_bytes() << R"(,"byteLength":)" << faces.size_bytes() << R"(}],"buffers":[{"byteLength":)"
+       << corners.size_bytes() + faces.size_bytes() << "}]}";
+  while (json.tellp() % 4 != 0) json << ' ';
+  std::ostringstream text;
+  const auto write = [&](std::size_t value) {
+    const auto word = static_cast<std::uint32_t>(value);
+    text.write(reinterpret_cast<const char*>(&word), sizeof word);
+  };
+  const std::size_t bytes = corners.size_bytes() + faces.size_bytes();
+  text << "glTF";
+  for (const std::size_t word : {std::size_t{2}, 28 + json.str().size() + bytes, json.str().size()}) write(word);
+  text << "JSON" << json.str();
+  write(bytes);
+  text.write("BIN", 4);
+  text.write(reinterpret_cast<const char*>(corners.data()), static_cast<std::streamsize>(corners.size_bytes()));
+  text.write(reinterpret_cast<const char*>(faces.data()), static_cast<std::streamsize>(faces.size_bytes()));
+  return text.str();
+}
+
 }  // namespace
 
 TEST_CASE("unusable files are refused with a reason") {
@@ -108,7 +154,7 @@ TEST_CASE("unusable files are refused with a reason") {
   CHECK(
       complaint(text) ==
       text +
-          ": unknown extension \".txt\"; allowed: .stl, .off, .glb, .gltf (meshes), .obj, .ply (meshes or points), .xyz (points)");
+          ": unknown extension \".txt\"; allowed: .stl, .glb, .gltf (meshes), .obj, .off, .ply (meshes or points), .xyz (points)");
   const std::string empty = folder.write("empty.xyz", "# nothing\n\n");
   CHECK(complaint(empty) == empty + ": no points");
   const std::string directory = (folder.path() / "folder.ply").string();
@@ -239,7 +285,7 @@ TEST_CASE("a body is fitted equally well a million of its sizes from the origin"
     CHECK(std::abs(fitted.body.epsilon - 4) < 1e-6);
     CHECK((fitted.body.position - far.position).norm() < 1e-8);
     // The printed position has as many digits as the body needs.
-    CHECK(c_lines(std::vector<FittedBody>{fitted}, "far", "").find("dGeomSetPosition(far, ") != std::string::npos);
+    CHECK(c_lines(std::vector<FittedBody>{fitted}, "far", "", {}, 1).find("dGeomSetPosition(geom_far, ") != std::string::npos);
   }
   CHECK(digits_of(1e6, 0.8, 9) == 16);
   CHECK(digits_of(0.1, 0.8, 9) == 9);
@@ -290,10 +336,103 @@ TEST_CASE("a broken .ply is refused with the place of the error") {
   CHECK(refusal(start + "element vertex 1\nproperty float x\nend_header\n1\n") == ": vertices have no property \"y\"");
   const std::string face =
       start + "element vertex 1\n" + xyz + "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
-  CHECK(refusal(face + "1 2 3\n3 0 0 7\n") == ":11: face 1 of 1: there is no vertex 7; allowed: 0 to 1 - 1");
+  CHECK(refusal(face + "1 2 3\n3 0 0 7\n") == ":11: face 1 of 1: there is no vertex 7; allowed: 0 to 0");
   CHECK(refusal(face + "1 2 3\n4000000000 0\n") == ":11: face 1 of 1: a list has 4e+09 entries, but the file ends before");
+  CHECK(refusal(face + "1 2 3\n3 0 0 -1\n") == ":11: face 1 of 1: there is no vertex -1; allowed: 0 to 0");
+  CHECK(refusal(two + "1 2 3\n4 5 6\n7 8 9\n") == ":10: the file goes on after all that its header says");
   CHECK(refusal(ply_of({{1, 2, 3}, {4, 5, 6}}, "binary_little_endian", "double").substr(0, 150)).find("room for 1 at most") !=
         std::string::npos);
+}
+
+TEST_CASE("an .off is read in double precision, as a mesh or as points, with whatever stands behind its numbers") {
+  const TemporaryFolder folder;
+  const std::string corners = "1000000.3333333333 0 0 255 0 0\n1 0 0\n\n0 1 0  # the third\n0 0 1\n";
+  const Data mesh =
+      read_data(folder.write("mesh.off", "# a comment\nOFF\n4 2 0\n" + corners + "4 0 1 2 3  0.5 0.5 0.5\n3 0 2 1\n"), 1);
+  CHECK(std::ranges::any_of(mesh.vertices.points, [](const Vector3& x) { return x.x() == 1000000.3333333333; }));
+  CHECK(mesh.triangles.size() == 3);
+  const Data points = read_data(folder.write("points.off", "OFF 4 0 0\n" + corners), 0.5);
+  CHECK(points.triangles.empty());
+  CHECK(points.vertices.points[2] == Vector3(0, 0.5, 0));
+  const Data normals = read_data(folder.write("normals.off", "NOFF\n2 0\n1 2 3 0 0 1\n4 5 6 1 0 0\n"), 1);
+  CHECK(normals.vertices.normals == std::vector<Vector3>{{0, 0, 1}, {1, 0, 0}});
+}
+
+TEST_CASE("a broken .off is refused with the place of the error") {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text) {
+    const std::string path = folder.write("bad.off", text);
+    const std::string message = complaint(path);
+    REQUIRE(message.rfind(path, 0) == 0);
+    return message.substr(path.size());
+  };
+  const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
+  CHECK(refusal("") == ": no points");
+  CHECK(refusal("4OFF\n1 0 0\n") ==
+        ":1: the file begins with \"4OFF\"; allowed: OFF, with ST, C or N before it, in three dimensions");
+  CHECK(refusal("OFF BINARY\n") == ":1: the number of vertices is \"BINARY\"; allowed: 0 to 1e18 - 1");
+  CHECK(refusal("OFF\n") == ":1: the file ends before the numbers of vertices and faces");
+  CHECK(refusal("OFF\n30 10 0\n" + three) ==
+        ": the header says 30 vertices and 10 faces, but the file has 3 vertices and 0 faces: is it truncated?");
+  CHECK(refusal("OFF\n3 2 0\n" + three + "3 0 1 2\n") ==
+        ": the header says 3 vertices and 2 faces, but the file has 3 vertices and 1 faces: is it truncated?");
+  CHECK(refusal("OFF\n3 1 0\n" + three + "3 0 1 2\n3 0 2 1\n") ==
+        ":7: the header says 3 vertices and 1 faces, but the file goes on");
+  CHECK(refusal("OFF\n3 1 0\n" + three + "3 0 1 9999\n") == ":6: there is no vertex 9999; allowed: 0 to 2");
+  CHECK(refusal("OFF\n3 1 0\n" + three + "3 0 1 -1\n") == ":6: there is no vertex -1; allowed: 0 to 2");
+  CHECK(refusal("OFF\n3 1 0\n" + three + "4 0 1 2\n") == ":6: the line ends before vertex 4 of 4 of the face");
+  CHECK(refusal("OFF\n1 0 0\n1,5 2,5 3,5\n") == ":3: x is \"1,5\", which is no number");
+  CHECK(refusal("OFF\n1 0 0\n1 2 nan\n") == ":3: a coordinate is not finite");
+}
+
+TEST_CASE("a mesh with a face whose vertex does not exist is refused in every format") {
+  const TemporaryFolder folder;
+  const std::array<float, 12> corners = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  for (const std::uint32_t last : {3u, 4u, 9999u, 0xffffffffu}) {
+    const std::array<std::uint32_t, 12> faces = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, last};
+    const bool is_fine = last == 3;
+    CHECK(complaint(folder.write("a.glb", glb_of(corners, faces))).empty() == is_fine);
+    std::ostringstream obj, off;
+    off << "OFF\n4 4 0\n";
+    for (std::size_t i = 0; i < 12; i += 3) {
+      for (std::ostringstream* text : {&obj, &off}) {
+        *text << (text == &obj ? "v " : "") << corners[i] << ' ' << corners[i + 1] << ' ' << corners[i + 2] << '\n';
+      }
+    }
+    for (std::size_t i = 0; i < 12; i += 3) {
+      obj << 'f';
+      off << '3';
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto index = static_cast<std::int32_t>(faces[i + k]);
+        obj << ' ' << (index < 0 ? -5 : index + 1);  // 1 is the first vertex, and -1 the last
+        off << ' ' << index;
+      }
+      obj << '\n';
+      off << '\n';
+    }
+    CHECK(complaint(folder.write("a.obj", obj.str())).empty() == is_fine);
+    CHECK(complaint(folder.write("a.off", off.str())).empty() == is_fine);
+  }
+}
+
+TEST_CASE("the edges that keep a mesh open are counted") {
+  const TemporaryFolder folder;
+  const std::string corners = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n", three = "3 0 2 1\n3 0 1 3\n3 0 3 2\n";
+  const auto edges_of = [&](int points, int faces, const std::string& text) {
+    std::ostringstream all;
+    all << "OFF\n" << points << ' ' << faces << " 0\n" << text;
+    return open_edges(read_data(folder.write("a.off", all.str()), 1).triangles);
+  };
+  const OpenEdges closed = edges_of(4, 4, corners + three + "3 1 2 3\n");
+  CHECK(closed.single + closed.other == 0);
+  const OpenEdges hole = edges_of(4, 3, corners + three);
+  CHECK(hole.single == 3);
+  CHECK(hole.other == 0);
+  CHECK(describe(hole) == "the mesh is open: 3 edges have one triangle");
+  const OpenEdges fin = edges_of(5, 5, corners + "2 2 0\n" + three + "3 1 2 3\n3 1 2 4\n");  // on a closed edge
+  CHECK(fin.single == 2);
+  CHECK(fin.other == 1);
+  CHECK(describe(fin) == "the mesh is open: 2 edges have one triangle, 1 edge has several triangles that do not pair up");
 }
 
 TEST_CASE("unused vertices and flat faces of a file do not count as surface") {
@@ -418,13 +557,9 @@ TEST_CASE("the printed lines of C compile and create the bodies") {
       folder.write("thing.c",
                    "#include <supernormal/supernormal.h>\nvoid make(dSpaceID space, dGeomID *out);\n"
                    "void make(dSpaceID space, dGeomID *out) {\n" +
-                       c_lines(fitted, "thing", "a */ scan") + "out[0] = thing_1; out[1] = thing_2; out[2] = thing_3;\n}\n");
-  const std::string library = (folder.path() / "thing.so").string();
-  const std::string command = std::string(SUPERNORMAL_CXX) +
-                              " -x c -Wall -Wextra -Werror -shared -fPIC -I" SUPERNORMAL_INCLUDE " " + source + " -o " + library;
-  REQUIRE(std::system(command.c_str()) == 0);
-  void* const handle = dlopen(library.c_str(), RTLD_NOW);
-  REQUIRE_MESSAGE(handle != nullptr, dlerror());
+                       c_lines(fitted, "thing", "a */ scan", integrate_union(bodies_of(fitted)).solid, 1200) +
+                       "out[0] = geom_thing_1; out[1] = geom_thing_2; out[2] = geom_thing_3;\n}\n");
+  void* const handle = compiled(folder, source);
   using Make = void (*)(dSpaceID, dGeomID*);
   const auto make = reinterpret_cast<Make>(dlsym(handle, "make"));
   REQUIRE((make != nullptr));
@@ -448,9 +583,54 @@ TEST_CASE("the printed lines of C compile and create the bodies") {
   dlclose(handle);
 }
 
+TEST_CASE("the printed lines of C make a body whose centre of mass is its origin, whatever its name") {
+  const TemporaryFolder folder;
+  // The centre of mass of a superovoid is not its centre.
+  const std::vector<FittedBody> fitted = {fitted_of(placed_body(Family::Superovoid, 2, 2, -0.3))};
+  const FitError error = find_error(bodies_of(fitted), {scatter(fitted[0].body, {.points = 500}), {}, ""});
+  std::ostringstream code;
+  code.precision(17);
+  code << "#include <supernormal/supernormal.h>\nvoid make(dSpaceID space, dBodyID body, dMass *own);\n"
+       << "void make(dSpaceID space, dBodyID body, dMass *own) {\n";
+  for (const char* name : {"int", "space", "body", "dGeomID", "_Bool"}) {
+    code << "{\n"
+         << c_lines(fitted, name, "", error.body, 1200) << "dBodySetMass(body, &mass_" << name << ");\ndBodySetPosition(body, "
+         << error.body.centroid.x() << ", " << error.body.centroid.y() << ", " << error.body.centroid.z()
+         << ");\ndGeomSetBody(geom_" << name << ", body);\ndGeomSetOffsetWorldPosition(geom_" << name << ", 0.3, -0.2, 0.5);\n"
+         << "dGeomSetOffsetWorldQuaternion(geom_" << name << ", geom_" << name << "_orientation);\n"
+         << "snMassSet(own, 1200, geom_" << name << ");\n}\n";
+  }
+  code << "}\n";
+  void* const handle = compiled(folder, folder.write("moving.c", code.str()));
+  using Make = void (*)(dSpaceID, dBodyID, dMass*);
+  const auto make = reinterpret_cast<Make>(dlsym(handle, "make"));
+  REQUIRE((make != nullptr));
+  dInitODE2(0);
+  const dWorldID world = dWorldCreate();
+  const dBodyID body = dBodyCreate(world);
+  dMass own, mass;
+  make(nullptr, body, &own);  // dBodySetMass ends the program if the centre of mass is elsewhere
+  dBodyGetMass(body, &mass);
+  // The mass of the geom, in its own frame, moved to the frame of the body.
+  const dGeomID geom = dBodyGetFirstGeom(body);
+  dMassRotate(&own, dGeomGetOffsetRotation(geom));
+  const dReal* const place = dGeomGetOffsetPosition(geom);
+  dMassTranslate(&own, place[0], place[1], place[2]);
+  CHECK(double{mass.mass} == doctest::Approx(double{own.mass}));
+  for (int i = 0; i < 3; ++i) CHECK(std::abs(double{own.c[i]}) < 1e-8);
+  for (int i = 0; i < 12; ++i) CHECK(std::abs(double{mass.I[i] - own.I[i]}) < 1e-7 * double{mass.I[0]});
+  while (const dGeomID each = dBodyGetFirstGeom(body)) dGeomDestroy(each);
+  dWorldDestroy(world);
+  snClose();
+  dCloseODE();
+  dlclose(handle);
+}
+
 TEST_CASE("printed names are valid in C and in catalogues") {
   CHECK(identifier("bunny.bin") == "bunny_bin");
   CHECK(identifier("3 stones") == "fit_3_stones");
+  CHECK(identifier("gr\xc3\xb6\xc3\x9f"
+                   "e") == "gr__e");  // two characters of two bytes
   CHECK(identifier("") == "fit_");
 }
 

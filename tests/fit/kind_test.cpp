@@ -1,65 +1,186 @@
-#include "output/kind.hpp"
-
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <filesystem>
+#include <numeric>
+#include <stdexcept>
 #include <string>
+#include <vector>
+
+#include "kind/grain_kind.hpp"
+#include "kind/kind_text.hpp"
+#include "model/scene.hpp"  // of samples/falling_particles
+#include "output/paste.hpp"
+#include "samples/scene_text.hpp"
+#include "study/random_body.hpp"
+#include "study/truth.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace fit;
 
 namespace {
 
-/// A box with these half-axes, density 1.
-Solid box(const Vector3& a) {
-  const Vector3 squares = a.cwiseAbs2();
-  return {8 * a.prod(), Vector3::Zero(), 8 * a.prod() / 3 * Matrix3((squares.sum() - squares.array()).matrix().asDiagonal())};
+/// A body of this size and shape, z being its middle axis, in a random orientation.
+Body stone(double size, double b_over_a, double delta, double epsilon, std::mt19937_64& random) {
+  Body body = random_superellipsoid(random);
+  body.half_axes = {1, 0.5 * b_over_a, b_over_a};
+  body.delta = delta;
+  body.epsilon = epsilon;
+  body.half_axes *= size / size_of(body);
+  return body;
 }
 
-/// An ellipsoid with half-axes of 3, 2 and 1 mm, or a multiple.
-Specimen ellipsoid(double scale) {
-  Specimen specimen;
-  const Vector3 a = 1e-3 * scale * Vector3(3, 2, 1), squares = a.cwiseAbs2();
+FittedBody exact(const Body& body) {
   FittedBody fitted;
-  fitted.body.half_axes = a;
-  fitted.body.orientation = Eigen::Quaterniond(0.7, 0.3, -0.2, 0.5).normalized();
-  specimen.name = "ellipsoid";
-  specimen.fitted = {fitted};
-  const double volume = 4 * std::numbers::pi / 3 * a.prod();
-  specimen.solid = {volume, Vector3::Zero(), volume / 5 * Matrix3((squares.sum() - squares.array()).matrix().asDiagonal())};
-  return specimen;
+  fitted.body = body;
+  return fitted;
+}
+
+/// Stones whose ln sizes are ln(0.01 m) + ln(1.3) t for these t, of mean 0.
+constexpr std::array kOffsets = {-1.5, -0.5, 0.0, 0.0, 0.5, 1.5};
+const double kDeviationOfOffsets = 1;  // sqrt(5 / 5): of a sample
+
+std::vector<Body> stones() {
+  std::mt19937_64 random(7);
+  std::vector<Body> bodies;
+  for (std::size_t i = 0; i < kOffsets.size(); ++i) {
+    const double even = i % 2 == 0 ? 1 : -1;
+    bodies.push_back(stone(0.01 * std::pow(1.3, kOffsets[i]), 0.8 + 0.05 * even, 2.5, 4 - 0.5 * even, random));
+  }
+  return bodies;
+}
+
+/// What the stones have in closed form.
+void require_stones(const GrainKind& kind, double error) {
+  CHECK(kind.body.family == Family::Superellipsoid);
+  CHECK(kind.median == doctest::Approx(0.01).epsilon(error));
+  CHECK(kind.geometric_deviation == doctest::Approx(std::pow(1.3, kDeviationOfOffsets)).epsilon(error));
+  CHECK(size_of(kind.body) == doctest::Approx(kind.median).epsilon(1e-9));
+  // Half of the stones are above the mean by an amount, half below: the deviation of a sample of six is sqrt(6/5) of it.
+  const double sample = std::sqrt(6.0 / 5);
+  CHECK(kind.b_over_a.mean == doctest::Approx(0.4).epsilon(error));
+  CHECK(kind.b_over_a.deviation == doctest::Approx(0.025 * sample).epsilon(10 * error));
+  CHECK(kind.c_over_a.mean == doctest::Approx(0.8).epsilon(error));
+  CHECK(kind.c_over_a.deviation == doctest::Approx(0.05 * sample).epsilon(10 * error));
+  CHECK(kind.delta.mean == doctest::Approx(2.5).epsilon(error));
+  CHECK(kind.delta.deviation < 10 * error);
+  CHECK(kind.epsilon.mean == doctest::Approx(4).epsilon(error));
+  CHECK(kind.epsilon.deviation == doctest::Approx(0.5 * sample).epsilon(10 * error));
+  CHECK(kind.body.half_axes.z() / kind.body.half_axes.x() == doctest::Approx(0.8).epsilon(error));
 }
 
 }  // namespace
 
-TEST_CASE("the proportions of a box and of an ellipsoid follow from their moments") {
-  const Proportions of_box = proportions_of(box({1, 3, 2}));
-  CHECK(of_box.elongation == doctest::Approx(2.0 / 3));
-  CHECK(of_box.flatness == doctest::Approx(0.5));
-  CHECK(of_box.fullness == doctest::Approx(6 / std::numbers::pi / std::pow(5.0 / 3, 1.5)));
-  const Proportions of_ellipsoid = proportions_of(ellipsoid(2).solid);
-  CHECK(of_ellipsoid.elongation == doctest::Approx(2.0 / 3));
-  CHECK(of_ellipsoid.flatness == doctest::Approx(0.5));
-  CHECK(of_ellipsoid.fullness == doctest::Approx(1));
+TEST_CASE("a kind has the sizes, the mean shape and the spread of its bodies") {
+  std::vector<FittedBody> fitted;
+  for (const Body& body : stones()) fitted.push_back(exact(body));
+  require_stones(find_kind(fitted), 1e-9);
+  CHECK_THROWS_WITH_AS(find_kind(std::vector{fitted[0]}), "1 scans; a kind of grain takes at least 2", std::invalid_argument);
 }
 
-TEST_CASE("three grains, each twice as large as the last, spread by a factor of two about the middle one") {
-  const std::vector<Specimen> specimens = {ellipsoid(1), ellipsoid(2), ellipsoid(4)};
-  const std::string lines = scene_lines(specimens, "pebble");
-  CHECK(lines.find("name = \"pebble\"\n") != std::string::npos);
-  CHECK(lines.find("size = { distribution = \"lognormal\", median = 8.000000e-03, geometric_deviation = 2.000000, "
-                   "smallest = 4.000000e-03, largest = 1.600000e-02 }\n") != std::string::npos);
-  CHECK(describe(specimens).find("standard deviation") != std::string::npos);
+TEST_CASE("the kind of scanned bodies in any orientation is the kind of the bodies, one of them an ellipsoid") {
+  std::vector<Body> bodies = stones();
+  std::vector<FitsByAxis> fits;
+  for (const Body& body : bodies) {
+    const Cloud cloud = scatter(body, {.points = 500});
+    // Begin with another axis as z: the fit of an ellipsoid has its shortest one there.
+    const FittedBody first = fit_body(cloud, {.family = Family::Ellipsoid});
+    REQUIRE(first.body.family == Family::Ellipsoid);
+    fits.push_back(fit_each_axis(first, Family::Superellipsoid, cloud, {}));
+  }
+  REQUIRE(common_axis(fits) == 1);
+  std::vector<FittedBody> fitted;
+  for (const FitsByAxis& each : fits) fitted.push_back(each[1]);
+  require_stones(find_kind(fitted), 1e-5);
 }
 
-TEST_CASE("grains of one size have no distribution") {
-  CHECK(scene_lines(std::vector{ellipsoid(1), ellipsoid(1)}, "pebble").find("size") == std::string::npos);
+TEST_CASE("ellipsoids and bodies of revolution have one frame only") {
+  const Body body{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), {3, 2, 1}, 2, 2, 0};
+  const Cloud cloud = scatter(body, {.points = 300});
+  const FittedBody fitted = fit_body(cloud, {.family = Family::Ellipsoid});
+  for (const FittedBody& each : fit_each_axis(fitted, Family::Ellipsoid, cloud, {}))
+    CHECK(each.body.half_axes == fitted.body.half_axes);
+  FitSettings round;
+  round.family = Family::Superellipsoid;
+  round.limits.has_round_section = true;
+  const Body disc{Family::Superellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), {2, 2, 1}, 2, 4, 0};
+  const Cloud points = scatter(disc, {.points = 300});
+  const FittedBody revolved = fit_body(points, round);
+  for (const FittedBody& each : fit_each_axis(revolved, Family::Superellipsoid, points, round))
+    CHECK(each.body.half_axes == revolved.body.half_axes);
 }
 
-TEST_CASE("the specimen with the middle proportions stands for its kind") {
-  std::vector<Specimen> specimens = {ellipsoid(1), ellipsoid(1), ellipsoid(1)};
-  specimens[0].solid = box({3, 3, 1});
-  specimens[1].solid = box({3, 2, 1});
-  specimens[2].solid = box({3, 1.5, 1});
-  CHECK(typical_of(specimens) == 1);
+TEST_CASE("the taper of a kind is valid, however much the exponents differ") {
+  std::vector<FittedBody> fitted;
+  for (const double epsilon : {1.2, 2.0, 12.0}) {
+    Body egg{Family::Superovoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), {2, 2, 3}, 2, epsilon, 0};
+    egg.taper = -taper_limit(epsilon);
+    fitted.push_back(exact(egg));
+  }
+  const GrainKind kind = find_kind(fitted);
+  CHECK(kind.body.taper == doctest::Approx(-taper_limit(kind.body.epsilon)));
+  CHECK(size_of(kind.body) == doctest::Approx(kind.median));
+}
+
+TEST_CASE("a scene takes the lines of a kind, and its grains have the sizes of the scans") {
+  const TemporaryFolder folder;
+  std::vector<FittedBody> fitted;
+  for (const Body& body : stones()) fitted.push_back(exact(body));
+  const GrainKind kind = find_kind(fitted);
+  FittedBody mean;
+  mean.body = kind.body;
+  folder.write("grains.toml", std::string(kCatalogueText) + toml_lines(std::vector{mean}, "stone", 2600, "six scans"));
+  const std::string text = scene_lines(kind, "stone");
+  CHECK(text.find("count = 6\n") != std::string::npos);
+  const std::string scene =
+      replaced(replaced(kSceneText, "[[grain]]\nname = \"pea\"\ncount = 5\n", text), "count = 6", "count = 1000");
+  const auto loaded = falling_particles::load_scene(folder.write("scene.toml", scene));
+  REQUIRE(loaded.has_sizes());
+  std::vector<double> logarithms;
+  for (const auto& each : loaded.kinds) {
+    if (each.kind.name != "stone") continue;
+    for (const double scale : each.scales) logarithms.push_back(std::log(scale));
+  }
+  REQUIRE(logarithms.size() == 1000);
+  double square = 0;
+  for (const double x : logarithms) square += x * x / 1000;
+  CHECK(std::abs(std::accumulate(logarithms.begin(), logarithms.end(), 0.0)) < 1000 * 0.01 * std::log(1.3));
+  // The deviation of a normal distribution that is cut at three deviations is 0.9866 of it.
+  CHECK(std::sqrt(square) == doctest::Approx(0.9866 * std::log(kind.geometric_deviation)).epsilon(0.01));
+}
+
+TEST_CASE("scans of one size have no distribution, and scans of too many sizes a warning") {
+  std::mt19937_64 random(3);
+  const auto kind_of = [&](double factor) {
+    return find_kind(std::vector{exact(stone(0.01, 0.8, 2.5, 4, random)), exact(stone(0.01 * factor, 0.8, 2.5, 4, random))});
+  };
+  CHECK(scene_lines(kind_of(1), "stone") == "[[grain]]\nname = \"stone\"\ncount = 2\n");
+  CHECK(doubts_about(kind_of(1), {}).empty());
+  const GrainKind wide = kind_of(6);
+  CHECK(scene_lines(wide, "stone") == "[[grain]]\nname = \"stone\"\ncount = 2\n");
+  REQUIRE(doubts_about(wide, {}).size() == 1);
+  CHECK(doubts_about(wide, {})[0].find("geometric deviation of 3.55; allowed: up to 3.162") != std::string::npos);
+}
+
+TEST_CASE("the JSON of a kind has its units, the shape with its spread, and all scans") {
+  std::vector<FittedBody> fitted;
+  std::vector<KindScan> scans;
+  for (const Body& body : stones()) {
+    fitted.push_back(exact(body));
+    scans.push_back({"stone.ply", fitted.back(), {}, {}});
+  }
+  scans[0].doubts = {"it is bad"};
+  const GrainKind kind = find_kind(fitted);
+  const std::vector<std::string> doubts = doubts_about(kind, scans);
+  CHECK(doubts == std::vector<std::string>{"stone.ply: it is bad"});
+  Provenance provenance;
+  provenance.name = "stone";
+  const std::string text = json_text(kind, scans, doubts, provenance);
+  for (const char* part : {R"("lengths": "m")", R"("of": "cube root of the volume")", R"("standard_deviation")",
+                           R"("fit_error": null)", R"("file": "stone.ply")", R"(stone.ply: it is bad)"}) {
+    CAPTURE(part);
+    CHECK(text.find(part) != std::string::npos);
+  }
+  CHECK(text.find("nan") == std::string::npos);
 }

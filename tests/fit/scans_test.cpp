@@ -294,9 +294,18 @@ TEST_CASE("the aligned data lie in the frame of the grain, and the JSON has the 
   const DistanceFunction function(in_frame);
   for (const Vector3& x : aligned.vertices.points) CHECK(std::abs(function.find(x)->distance) < 1e-7);
   const FitError error = find_error(std::vector<Body>{fitted.body}, data);
-  const std::string text = json_text(std::vector{fitted}, error, {"a doubt"}, "stone", "a scan");
-  for (const char* part : {R"("name": "stone")", R"("family": "superellipsoid")", R"("delta": 2.5)", R"("delta_error": null)",
-                           R"("epsilon_error": 0.0)", R"("a doubt")"}) {
+  Provenance provenance;
+  provenance.name = "stone";
+  provenance.source = "a scan";
+  provenance.scale = 1e-3;
+  provenance.density = 2600;
+  provenance.is_mesh = true;
+  provenance.open.single = 12;
+  const std::string text = json_text(std::vector{fitted}, error, {"a doubt"}, provenance);
+  for (const char* part :
+       {R"("metres_per_unit_of_file": 0.001)", R"("density": 2600.0)", R"("kind": "open mesh")", R"("edges_with_one_triangle": 12)",
+        R"("lengths": "m")", R"("inertia": "m^5, for density 1)", R"("name": "stone")", R"("family": "superellipsoid")",
+        R"("delta": 2.5)", R"("delta_error": null)", R"("epsilon_error": 0.0)", R"("a doubt")"}) {
     CAPTURE(part);
     CHECK(text.find(part) != std::string::npos);
   }

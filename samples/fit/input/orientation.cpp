@@ -110,4 +110,35 @@ Oriented orient(Data& data) {
   return done;
 }
 
+OpenEdges open_edges(std::span<const Triangle> triangles) {
+  struct Use {
+    int count = 0, balance = 0;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Use> uses;
+  for (const Triangle& t : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = t[k], to = t[(k + 1) % 3];
+      Use& use = uses[std::minmax(from, to)];
+      ++use.count;
+      use.balance += from < to ? 1 : -1;
+    }
+  }
+  OpenEdges edges;
+  for (const auto& [edge, use] : uses) {
+    if (use.balance != 0) ++(use.count == 1 ? edges.single : edges.other);
+  }
+  return edges;
+}
+
+std::string describe(const OpenEdges& edges) {
+  const auto part = [](std::size_t count, const char* what) {
+    return std::to_string(count) + (count == 1 ? " edge has " : " edges have ") + what;
+  };
+  std::string text = "the mesh is open: ";
+  if (edges.single > 0) text += part(edges.single, "one triangle");
+  if (edges.single > 0 && edges.other > 0) text += ", ";
+  if (edges.other > 0) text += part(edges.other, "several triangles that do not pair up");
+  return text;
+}
+
 }  // namespace fit

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <string>
 
 #include "read_data.hpp"
 
@@ -17,5 +19,15 @@ struct Oriented {
 /// sign of its volume. A part inside another one is a cavity and is oriented together with it. Removes triangles with coincident
 /// vertices. Of two triangles with the same vertices (a two-sided mesh) it removes the second.
 Oriented orient(Data& data);
+
+/// The edges that keep oriented triangles from enclosing a volume: those that are not traversed equally often in both directions.
+struct OpenEdges {
+  std::size_t single = 0;  ///< with one triangle
+  std::size_t other = 0;   ///< with several, such as three, or two of a Moebius strip
+};
+OpenEdges open_edges(std::span<const Triangle> triangles);
+
+/// A sentence for the user, such as "the mesh is open: 12 edges have one triangle".
+std::string describe(const OpenEdges& edges);
 
 }  // namespace fit

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -19,12 +21,13 @@
 
 #include "base/read_file.hpp"  // of samples/falling_particles
 #include "orientation.hpp"
+#include "read_off.hpp"
 #include "read_ply.hpp"
 
 namespace fit {
 namespace {
 
-constexpr const char* kExtensions = ".stl, .off, .glb, .gltf (meshes), .obj, .ply (meshes or points), .xyz (points)";
+constexpr const char* kExtensions = ".stl, .glb, .gltf (meshes), .obj, .off, .ply (meshes or points), .xyz (points)";
 
 std::string lower_extension(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
@@ -143,11 +146,46 @@ void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent,
   for (unsigned i = 0; i < node.mNumChildren; ++i) append(scene, *node.mChildren[i], place, group, is_chosen, data, names);
 }
 
+/// The warnings and errors of Assimp while this object lives. A file that it repairs in silence has only these.
+class Complaints {
+ public:
+  Complaints() {
+    Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+    Assimp::DefaultLogger::get()->attachStream(&stream_, Assimp::Logger::Warn | Assimp::Logger::Err);
+  }
+  ~Complaints() {
+    Assimp::DefaultLogger::get()->detachStream(&stream_, Assimp::Logger::Warn | Assimp::Logger::Err);
+    Assimp::DefaultLogger::kill();
+  }
+  Complaints(const Complaints&) = delete;
+  Complaints& operator=(const Complaints&) = delete;
+
+  /// Each one once.
+  const std::set<std::string>& lines() const { return stream_.lines; }
+
+ private:
+  struct Stream : Assimp::LogStream {
+    void write(const char* message) override {
+      const std::string text = message;  // "Warn,  T0: …", with the end of a line
+      const std::size_t first = text.find(": ");
+      lines.insert(text.substr(first == std::string::npos ? 0 : first + 2, text.find_last_not_of('\n') + 1 - (first + 2)));
+    }
+    std::set<std::string> lines;
+  };
+  Stream stream_;
+};
+
 Data read_by_assimp(const std::string& path, const std::string& group) {
+  const Complaints complaints;
   Assimp::Importer importer;
   const aiScene* const scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr) throw InputError(path + ": cannot be read: " + importer.GetErrorString());
   Data data;
+  for (const std::string& line : complaints.lines()) {
+    // Assimp drops a face whose vertex does not exist, which opens a closed mesh.
+    if (line.find("out-of-range") != std::string::npos) throw InputError(path + ": cannot be read: " + line);
+    data.note += (data.note.empty() ? "" : "; ") + line;
+  }
   data.is_single = true;  // Assimp stores single precision
   std::set<std::string> names;
   append(*scene, *scene->mRootNode, {}, group, group.empty(), data, names);
@@ -176,9 +214,8 @@ void require_precision(const std::string& path, const std::vector<Eigen::Vector3
   throw InputError(text.str());
 }
 
-/// Describes the changes to a mesh.
-std::string note_of(const Oriented& done, std::size_t triangles, std::size_t stray) {
-  std::string note;
+/// Adds the changes to a mesh to what its reader noted.
+std::string note_of(std::string note, const Oriented& done, std::size_t triangles, std::size_t stray) {
   const auto add = [&](const std::string& text) { note += (note.empty() ? "" : "; ") + text; };
   if (done.removed > 0) add(std::to_string(done.removed) + " triangles that repeat others or have no three corners are left out");
   if (done.turned > 0) {
@@ -222,6 +259,11 @@ void check(const std::string& path, Data& data) {
 
 }  // namespace
 
+bool is_scan(const std::string& path) {
+  constexpr std::array kKnown = {".stl", ".obj", ".off", ".glb", ".gltf", ".ply", ".xyz"};
+  return std::ranges::find(kKnown, lower_extension(path)) != kKnown.end();
+}
+
 // They are not on the surface.
 std::size_t remove_stray_vertices(Data& data) {
   constexpr auto kStray = std::numeric_limits<std::uint32_t>::max();
@@ -243,18 +285,16 @@ std::size_t remove_stray_vertices(Data& data) {
 
 Data read_data(const std::string& path, double scale, const std::string& group) {
   const std::string extension = lower_extension(path);
-  constexpr std::array kMeshes = {".stl", ".obj", ".off", ".glb", ".gltf", ".ply"};
-  const bool is_text = extension == ".xyz";
-  if (!is_text && std::ranges::find(kMeshes, extension) == kMeshes.end()) {
-    throw InputError(path + ": unknown extension \"" + extension + "\"; allowed: " + kExtensions);
-  }
+  if (!is_scan(path)) throw InputError(path + ": unknown extension \"" + extension + "\"; allowed: " + kExtensions);
   if (const std::string other = falling_particles::what_is_no_file(path); !other.empty()) {
     throw InputError(path + ": " + other + ", and no file");
   }
   if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": no such file");
-  const bool has_groups = !is_text && extension != ".ply";
+  const std::map<std::string, Data (*)(const std::string&)> readers = {{".off", read_off}, {".ply", read_ply}, {".xyz", read_text}};
+  const auto reader = readers.find(extension);
+  const bool has_groups = reader == readers.end();
   if (!has_groups && !group.empty()) throw InputError(path + ": group \"" + group + "\"; a " + extension + " has no groups");
-  Data data = is_text ? read_text(path) : extension == ".ply" ? read_ply(path) : read_by_assimp(path, group);
+  Data data = has_groups ? read_by_assimp(path, group) : reader->second(path);
   check(path, data);
   if (data.is_single) require_precision(path, data.vertices.points);
   if (!data.triangles.empty()) {
@@ -262,7 +302,7 @@ Data read_data(const std::string& path, double scale, const std::string& group) 
     const Oriented done = orient(data);
     if (data.triangles.empty()) throw InputError(path + ": no triangle has three corners");
     const std::size_t stray = remove_stray_vertices(data);
-    data.note = note_of(done, data.triangles.size(), stray);
+    data.note = note_of(std::move(data.note), done, data.triangles.size(), stray);
   }
   for (Eigen::Vector3d& x : data.vertices.points) x *= scale;
   return data;

@@ -19,19 +19,23 @@ class InputError : public std::runtime_error {
 struct Data {
   Cloud vertices;                   ///< all points of the file, with its normals (points only)
   std::vector<Triangle> triangles;  ///< empty for a point cloud
-  std::string note;                 ///< the repairs, for the user; "": none
+  std::string note;                 ///< the repairs and what else the reader noted, for the user; "": none
   bool is_single = false;           ///< whether coordinates were rounded to single precision
 };
 
 /// Removes mesh vertices without a triangle. Returns how many.
 std::size_t remove_stray_vertices(Data& data);
 
-/// Reads a mesh (.stl, .obj, .off, .glb, .gltf, .ply) or points (.ply, .obj, .xyz). `group` names one of several objects of the
-/// file (a group of an .obj, a node or mesh of a .glb); "": all of them. A line of an .xyz is x y z, or x y z nx ny nz; # starts a
-/// comment. Multiplies lengths by `scale`. Removes mesh vertices without a triangle.
+/// Whether read_data() knows the extension of this path.
+bool is_scan(const std::string& path);
+
+/// Reads a mesh (.stl, .obj, .off, .glb, .gltf, .ply) or points (.ply, .obj, .off, .xyz). `group` names one of several objects of
+/// the file (a group of an .obj, a node or mesh of a .glb); "": all of them. A line of an .xyz is x y z, or x y z nx ny nz; #
+/// starts a comment. Multiplies lengths by `scale`. Removes mesh vertices without a triangle.
 ///
 /// Throws InputError for a missing or empty file, an unknown extension or group, a number that is not finite, decimal commas,
-/// invalid normals, or coordinates that lose too many digits in single precision.
+/// invalid normals, a header that promises more or less than the file has, a face with a vertex that does not exist, or coordinates
+/// that lose too many digits in single precision.
 Data read_data(const std::string& path, double scale, const std::string& group = "");
 
 }  // namespace fit

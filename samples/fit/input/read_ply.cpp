@@ -1,6 +1,6 @@
 #include "read_ply.hpp"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -13,6 +13,9 @@
 #include <optional>
 #include <sstream>
 #include <utility>
+
+#include "base/interval.hpp"  // of samples/falling_particles
+#include "polygon.hpp"
 
 namespace fit {
 namespace {
@@ -138,10 +141,10 @@ class Numbers {
 
   std::size_t next_count(const Type& type) {
     const double count = next(type);
-    if (!(count >= 0) || count != std::floor(count)) fail("a list has " + text_of(count) + " entries");
+    if (!(count >= 0) || count != std::floor(count)) fail("a list has " + falling_particles::shortest(count) + " entries");
     // Every entry takes at least one byte: refuse a count beyond the end of the file early.
     if (count > static_cast<double>(bytes_.size() - at_))
-      fail("a list has " + text_of(count) + " entries, but the file ends before");
+      fail("a list has " + falling_particles::shortest(count) + " entries, but the file ends before");
     return static_cast<std::size_t>(count);
   }
 
@@ -158,6 +161,15 @@ class Numbers {
                      ", but the file has room for " + std::to_string(room) + " at most: is it truncated?");
   }
 
+  /// Refuses text after the last element. Returns the number of bytes after it in a binary file.
+  std::size_t finish() {
+    if (format_ != Format::Text) return bytes_.size() - at_;
+    skip_space();
+    if (at_ < bytes_.size())
+      throw InputError(path_ + ":" + std::to_string(line_) + ": the file goes on after all that its header says");
+    return 0;
+  }
+
   [[noreturn]] void fail(const std::string& what) const {
     std::string where = path_ + ":";
     if (format_ == Format::Text) where += std::to_string(line_) + ":";
@@ -165,17 +177,15 @@ class Numbers {
                      ": " + what);
   }
 
-  static std::string text_of(double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
-  }
-
  private:
-  double next_of_text() {
+  void skip_space() {
     for (; at_ < bytes_.size() && std::isspace(static_cast<unsigned char>(bytes_[at_])) != 0; ++at_) {
       if (bytes_[at_] == '\n') ++line_;
     }
+  }
+
+  double next_of_text() {
+    skip_space();
     if (at_ == bytes_.size()) fail("the file ends here");
     const char* const first = bytes_.c_str() + at_;
     char* end = nullptr;
@@ -253,32 +263,11 @@ void read_vertices(const std::string& path, Numbers& numbers, const Element& ele
     data.vertices.points.push_back(vector_at(place));
     for (std::size_t k = 0; k < 3; ++k) {
       const double x = data.vertices.points.back()[static_cast<Eigen::Index>(k)];
-      if (!std::isfinite(x)) numbers.fail(std::string(1, "xyz"[k]) + " is " + Numbers::text_of(x) + ", but must be finite");
+      if (!std::isfinite(x))
+        numbers.fail(std::string(1, "xyz"[k]) + " is " + falling_particles::shortest(x) + ", but must be finite");
     }
     if (has_normals) data.vertices.normals.push_back(vector_at(normal));
   }
-}
-
-/// Triangulates a polygon as a fan from one vertex, if no triangle gets reversed. Returns false if there is no such vertex.
-bool append_fan(const std::vector<std::uint32_t>& corners, Data& data) {
-  const std::size_t count = corners.size();
-  if (count < 3) return true;  // zero area
-  const auto area = [&](std::size_t from, std::size_t k) -> Eigen::Vector3d {
-    const auto at = [&](std::size_t i) -> const Eigen::Vector3d& { return data.vertices.points[corners[(from + i) % count]]; };
-    return (at(k) - at(0)).cross(at(k + 1) - at(0));
-  };
-  Eigen::Vector3d whole = Eigen::Vector3d::Zero();
-  for (std::size_t k = 1; k + 1 < count; ++k) whole += area(0, k);
-  for (std::size_t from = 0; from < count; ++from) {
-    bool is_fan = true;
-    for (std::size_t k = 1; k + 1 < count && is_fan; ++k) is_fan = count == 3 || !(area(from, k).dot(whole) < 0);
-    if (!is_fan) continue;
-    for (std::size_t k = 1; k + 1 < count; ++k) {
-      data.triangles.push_back({corners[from], corners[(from + k) % count], corners[(from + k + 1) % count]});
-    }
-    return true;
-  }
-  return false;
 }
 
 void read_faces(Numbers& numbers, const Element& element, Data& data) {
@@ -287,21 +276,12 @@ void read_faces(Numbers& numbers, const Element& element, Data& data) {
   });
   const auto list = static_cast<std::size_t>(corners - element.properties.begin());
   std::vector<std::vector<double>> values;
-  std::vector<std::uint32_t> polygon;
   for (std::uint64_t i = 0; i < element.count; ++i) {
     numbers.expect(element, i);
     if (list == element.properties.size()) numbers.fail("faces have no list \"vertex_indices\"");
     read_values(numbers, element, values);
-    polygon.clear();
-    for (const double index : values[list]) {
-      const bool is_vertex = index >= 0 && index < static_cast<double>(data.vertices.points.size()) && index == std::floor(index);
-      if (!is_vertex) {
-        numbers.fail("there is no vertex " + Numbers::text_of(index) + "; allowed: 0 to " +
-                     std::to_string(data.vertices.points.size()) + " - 1");
-      }
-      polygon.push_back(static_cast<std::uint32_t>(index));
-    }
-    if (!append_fan(polygon, data)) numbers.fail("a polygon is so concave that it is not cut; give triangles");
+    const std::string complaint = append_polygon(values[list], data);
+    if (!complaint.empty()) numbers.fail(complaint);
   }
 }
 
@@ -328,6 +308,9 @@ Data read_ply(const std::string& path) {
         read_values(numbers, element, values);
       }
     }
+  }
+  if (const std::size_t rest = numbers.finish(); rest > 0) {
+    data.note = "what follows all that the header says, " + std::to_string(rest) + " bytes, is left out";
   }
   // A text file holds the digits that it shows, whatever type its header names.
   if (header.format == Format::Text) data.is_single = false;

@@ -5,13 +5,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <random>
 #include <stdexcept>
 #include <supernormal/shapes/polytope.hpp>
 #include <utility>
 
 #include "empty_space.hpp"
+#include "input/orientation.hpp"
 #include "point_tree.hpp"
 
 namespace fit {
@@ -35,16 +35,9 @@ Solid solid_of(const Body& body) {
   return solid;
 }
 
-/// Whether every edge is traversed equally often in both directions.
 bool is_closed(std::span<const Triangle> triangles) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
-  for (const Triangle& t : triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = t[k], to = t[(k + 1) % 3];
-      balance[std::minmax(from, to)] += from < to ? 1 : -1;
-    }
-  }
-  return !triangles.empty() && std::ranges::all_of(balance, [](const auto& edge) { return edge.second == 0; });
+  const OpenEdges edges = open_edges(triangles);
+  return !triangles.empty() && edges.single + edges.other == 0;
 }
 
 /// Whether the vertices of a triangle are collinear within single precision.

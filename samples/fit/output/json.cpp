@@ -56,16 +56,37 @@ Json moments_of(const Solid& solid) {
 }  // namespace
 
 std::string json_text(std::span<const FittedBody> fitted, const FitError& error, const std::vector<std::string>& warnings,
-                      const std::string& name, const std::string& source) {
-  Json json = {{"name", name}, {"source", source}, {"bodies", Json::array()}};
+                      const Provenance& provenance) {
+  Json json = {{"name", provenance.name},
+               {"source", provenance.source},
+               {"units",
+                {{"lengths", "m"},
+                 {"angles", "rad"},
+                 {"volumes", "m^3"},
+                 {"inertia", "m^5, for density 1: times density in kg m^2"},
+                 {"density", "kg/m^3"},
+                 {"exponents, tapers, lack_of_fit", "1"}}},
+               {"frames",
+                {{"position, centroid, grain_origin, inertia", "the axes of the file, in m; inertia about centroid"},
+                 {"orientation_wxyz", "turns the axes of the body into the axes of the file"},
+                 {"rotation_error", "about the x, y and z axis of the body"}}},
+               {"metres_per_unit_of_file", provenance.scale},
+               {"density", provenance.density},
+               {"bodies", Json::array()}};
   for (const FittedBody& each : fitted) json["bodies"].push_back(json_of(each));
   json["grain_origin"] = list_of(grain_origin(fitted));
   json["volume"] = error.body.volume;
   json["volume_error"] = error.volume_error;
   json["moments_of_inertia"] = moments_of(error.body);
   json["moments_of_inertia_error"] = list_of(error.moment_errors);
+  json["inertia"] = {list_of(error.body.inertia.row(0)), list_of(error.body.inertia.row(1)), list_of(error.body.inertia.row(2))};
   json["centroid"] = list_of(error.body.centroid);
-  json["data"] = {{"is_closed", !error.is_hull},
+  const char* const kind = !error.is_hull ? "closed mesh" : provenance.is_mesh ? "open mesh" : "points";
+  json["data"] = {{"kind", kind},
+                  {"is_closed", !error.is_hull},
+                  {"edges_with_one_triangle", provenance.open.single},
+                  {"edges_with_unpaired_triangles", provenance.open.other},
+                  {"volume_of", error.is_hull ? "convex hull" : "closed mesh"},
                   {"volume", error.data.volume},
                   {"moments_of_inertia", moments_of(error.data)},
                   {"centroid", list_of(error.data.centroid)},

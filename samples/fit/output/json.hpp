@@ -5,16 +5,25 @@
 #include <string>
 #include <vector>
 
+#include "input/orientation.hpp"
 #include "model/fit_body.hpp"
 #include "model/fit_error.hpp"
 
 namespace fit {
 
-/// JSON with the bodies, each number with its standard error, the errors of the fit, and the warnings. Lengths are in metres,
-/// rotations in rad, volumes in m^3, moments of inertia in m^5 (for density 1). A standard error is null if the data do not
-/// determine the number, and 0 if the number is fixed.
+/// Where the numbers come from.
+struct Provenance {
+  std::string name, source;
+  double scale = 1;       ///< metres in a unit of the file
+  double density = 1000;  ///< kg/m^3
+  bool is_mesh = false;
+  OpenEdges open = {};  ///< of a mesh
+};
+
+/// JSON with the bodies, each number with its standard error, the errors of the fit, and the warnings. It contains its units and
+/// frames. A standard error is null if the data do not determine the number, and 0 if the number is fixed.
 std::string json_text(std::span<const FittedBody> fitted, const FitError& error, const std::vector<std::string>& warnings,
-                      const std::string& name, const std::string& source);
+                      const Provenance& provenance);
 
 /// The origin of the grain in the frame of the data: the body's centre, or the mean centre of the bodies of a union.
 Vector3 grain_origin(std::span<const FittedBody> fitted);

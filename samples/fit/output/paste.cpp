@@ -96,10 +96,12 @@ int digits_of(double coordinate, double size, int digits) {
 }
 
 std::string identifier(const std::string& text) {
-  std::string name = text;
-  const auto is_allowed = [](unsigned char c) { return c < 128 && (std::isalnum(c) != 0 || c == '_'); };
-  std::ranges::replace_if(
-      name, [&](unsigned char c) { return !is_allowed(c); }, '_');
+  std::string name;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xc0) == 0x80) continue;  // of a character that has begun
+    name += byte < 128 && std::isalnum(byte) != 0 ? c : '_';
+  }
   if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) != 0) name = "fit_" + name;
   return name;
 }
@@ -122,11 +124,27 @@ std::string toml_lines(std::span<const FittedBody> bodies, const std::string& na
   return text + "density = " + literal(density) + "\nsource = " + falling_particles::toml_string(source) + "\n";
 }
 
-std::string c_lines(std::span<const FittedBody> bodies, const std::string& name, const std::string& source) {
-  std::string text = "/* " + harmless(source) + " */\n";
+std::string c_lines(std::span<const FittedBody> bodies, const std::string& name, const std::string& source, const Solid& solid,
+                    double density) {
+  const Vector3& c = solid.centroid;
+  const double size = bodies.front().body.half_axes.minCoeff();
+  std::string centre;
+  for (const double x : c) centre += (centre.empty() ? "" : ", ") + literal(x, digits_of(x, size, kDigits));
+  std::string text =
+      "/* " + harmless(source) +
+      "\n   The geoms lie in the frame of the scan. ODE wants the centre of mass of a body at its origin. For a body that moves:"
+      "\n   dBodySetMass(body, &mass_" +
+      name + ");\n   dBodySetPosition(body, " + centre +
+      ");\n   and for each geom dGeomSetBody(geom, body), and then dGeomSetOffsetWorldPosition and"
+      "\n   dGeomSetOffsetWorldQuaternion with the numbers below in place of dGeomSetPosition and dGeomSetQuaternion. */\n";
+  const Matrix3 I = density * solid.inertia;
+  text.append("dMass mass_").append(name).append(";\n");
+  text.append("dMassSetParameters(&mass_").append(name).append(", ").append(list({density * solid.volume, 0, 0, 0})).append(", ");
+  text.append(list({I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)})).append(");\n");
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i].body;
-    const std::string part = name_of_part(name, bodies.size(), i);
+    // The prefix keeps words of C, and names that these lines use, out of its way.
+    const std::string part = "geom_" + name_of_part(name, bodies.size(), i);
     const Eigen::Quaterniond& q = body.orientation;
     const std::string orientation = part + "_orientation";
     const std::string place = list_of_place(body);

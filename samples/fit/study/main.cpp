@@ -2,21 +2,42 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "compounds.hpp"
+#include "kind/kind_text.hpp"
+#include "stones.hpp"
 #include "studies.hpp"
+#include "truth.hpp"
 
 namespace {
 
 void write_points(const std::string& path, const std::vector<fit::Vector3>& points) {
   std::ofstream file(path);
+  file.precision(12);
   for (const fit::Vector3& x : points) file << x.x() << ' ' << x.y() << ' ' << x.z() << '\n';
   file.close();
   if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+/// Writes 4000 points of each stone, and prints the kind of the stones themselves.
+void write_stones(const std::string& folder, std::size_t count, double noise) {
+  std::filesystem::create_directories(folder);
+  std::vector<fit::FittedBody> exact;
+  std::vector<fit::KindScan> scans;
+  for (const fit::Body& stone : fit::make_stones(count, 1)) {
+    const std::string name = "stone_" + std::to_string(scans.size() + 101) + ".xyz";
+    write_points(folder + "/" + name, fit::scatter(stone, {.points = 4000, .noise = noise, .seed = scans.size() + 1}).points);
+    exact.emplace_back().body = stone;
+    fit::KindScan scan{name, exact.back(), {}, {}};
+    scan.error.radius = 1;
+    scans.push_back(scan);
+  }
+  std::fputs(fit::describe(fit::find_kind(exact), scans).c_str(), stdout);
 }
 
 int run_program(int argc, char** argv) {
@@ -40,11 +61,18 @@ int run_program(int argc, char** argv) {
   compound->add_option("file", path, "NAME.xyz, written")->required();
   compound->add_option("--sigma", sigma, "m, noise in every direction")->check(CLI::NonNegativeNumber)->capture_default_str();
   compound->add_option("--points", each, "of each of its parts")->check(CLI::Range(100, 1000000))->capture_default_str();
+  CLI::App* const stones = app.add_subcommand("stones", "writes a folder of scans of stones of one kind, and prints the kind");
+  std::size_t count = 20;
+  double noise = 0.01;
+  stones->add_option("folder", path, "written")->required();
+  stones->add_option("--scans", count, "in the folder")->check(CLI::Range(2, 10000))->capture_default_str();
+  stones->add_option("--noise", noise, "relative to the mean half-axis")->check(CLI::NonNegativeNumber)->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   if (*recovery) fit::print_recovery(bodies);
   if (*coverage) fit::print_coverage(bodies);
   if (*unions) fit::print_unions();
   if (*time) fit::print_time();
+  if (*stones) write_stones(path, count, noise);
   if (*compound) write_points(path, fit::scatter_union(fit::make_compound(name), each, sigma, 1).points);
   return 0;
 }

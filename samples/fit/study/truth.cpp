@@ -4,27 +4,15 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "input/sampling.hpp"
+#include "random_body.hpp"
 
 namespace fit {
-namespace {
-
-/// Normal random numbers, the same with every standard library (Box and Muller).
-class NormalNumbers {
- public:
-  explicit NormalNumbers(std::uint64_t seed) : random_(seed) {}
-  double operator()() {
-    const double u = 1 - static_cast<double>(random_() >> 11) * 0x1p-53, v = static_cast<double>(random_() >> 11) * 0x1p-53;
-    return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
-  }
-
- private:
-  std::mt19937_64 random_;
-};
-
-}  // namespace
+double NormalNumbers::operator()() {
+  const double u = 1 - uniform(random_), v = uniform(random_);
+  return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
+}
 
 double mean_half_axis(const Body& body) { return std::cbrt(body.half_axes.prod()); }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <random>
 
 #include "model/body.hpp"
 #include "model/cloud.hpp"
@@ -18,6 +19,16 @@ struct Scatter {
 
 /// Data of a body in its pose: uniformly spread points. `points` counts only the half that is kept.
 Cloud scatter(const Body& truth, const Scatter& settings);
+
+/// Normal random numbers, the same with every standard library (Box and Muller).
+class NormalNumbers {
+ public:
+  explicit NormalNumbers(std::uint64_t seed) : random_(seed) {}
+  double operator()();
+
+ private:
+  std::mt19937_64 random_;
+};
 
 double mean_half_axis(const Body& body);
 
