@@ -76,12 +76,12 @@ Inside::Inside(const World& world) : scene_(world.scene()), bottom_(kInfinity) {
     planes_.push_back({plane[0], plane[1], plane[2], plane[3]});
   }
   const auto* const gravity = scene_.gravity();
-  if (gravity == nullptr || !is_open(scene_.container)) return;
+  if (gravity == nullptr || gravity->acceleration.isZero(0) || !is_open(scene_.container)) return;
   down_ = gravity->acceleration.stableNormalized();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     if (scene_.periodic[static_cast<std::size_t>(axis)] && down_[axis] != 0) return;  // a fall comes back
   }
-  if (!down_.isZero(0)) bottom_ = bottom_of(world);
+  bottom_ = bottom_of(world);
 }
 
 // A free wall stops grains as long as it does not fall past all other walls itself.
