@@ -112,6 +112,13 @@ std::string list_sections() {
   lid_mass         kg, in (0, 1000000]
   presses_at       s, from 0, before time.duration; 0 without it
   shears_at        s, from 0, before time.duration; 0 without it
+[container] kind = "cell"
+  corner           m, three numbers in [-1000, 1000]; of least x, y and z; the origin without it
+  width            m, two numbers in (0, 1000]; along x and y
+  height           m, in (0, 1000]; open above without it
+  x_low, x_high    tables with motion, drive, friction and restitution of [[part]]; of the planes that are its sides
+  y_low, y_high    the same; a drive pushes along the normal, and a servo acts between the other sides
+  z_low, z_high    the same; z_high with height
 [container] kind = "conveyor"
   length           m, in (0, 1000]
   width            m, in (0, 1000]
@@ -180,7 +187,8 @@ std::string list_walls() {
               velocity: m/s, each in [-1000, 1000]; angular_velocity: rad/s, three, up to a tenth of a revolution in a step; 0
               from: s; the part is held before; 0 without it
 [part.drive]
-  parameters  axis: along or about which it pushes, and the only way it can go; one of force, pressure, torque, power and stress
+  parameters  axis: along or about which it pushes, and the only way it can go; of a plane its normal without it
+              one of force, pressure, torque, power and stress
               from, until: s; it is held before, and only its weight is left after; travel: least and most way, m, or degrees in [-170, 170]
   slides      force: N, in [-1e9, 1e9]; or pressure: Pa, and area: m^2, that of the part's shape without it
               or power: W, in (0, 1e9], and largest_force: N, in (0, 1e9], at rest; force is power / speed

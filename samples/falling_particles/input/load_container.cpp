@@ -91,11 +91,26 @@ Open read_open(const TomlTable& root, const TomlTable& table) {
   return open;
 }
 
-double read_length(const TomlTable& table, const char* key) { return table.number(key, Interval::positive(kLargestLength, "m")); }
-
 /// Reads the start (s) of a motion; 0 if it is not given.
 double read_start(const TomlTable& table, const char* key, const Time& time) {
   return table.has(key) ? table.number(key, {0, time.duration, true, false, "s (before time.duration)"}) : 0;
+}
+
+double read_length(const TomlTable& table, const char* key) { return table.number(key, Interval::positive(kLargestLength, "m")); }
+
+/// Reads a cell without the keys of its sides, which load_walls() reads.
+Cell read_cell(const TomlTable& table) {
+  table.refuse_unknown_keys({"kind", "corner", "width", "height", "x_low", "x_high", "y_low", "y_high", "z_low", "z_high"});
+  Vector3 corner = Vector3::Zero();
+  if (table.has("corner")) corner = read_vector(table, "corner", Interval::closed(-kLargestLength, kLargestLength, "m"));
+  const std::array<double, 2> width = read_width(table);
+  const double height = table.has("height") ? read_length(table, "height") : INFINITY;
+  if (std::isinf(height) && table.has("z_high")) {
+    table.fail("z_high", "container.z_high in a cell without container.height; allowed: with it");
+  }
+  constexpr double kFar = kLargestLength;  // m; leaks are found by the planes, and grains without weight fly on
+  const auto& [x, y, z] = std::array{corner.x(), corner.y(), corner.z()};
+  return {{{{x, y, z}, {width[0], width[1], height}}, {{x - kFar, y - kFar, z - kFar}, {3 * kFar, 3 * kFar, 3 * kFar}}}};
 }
 
 Drum read_drum(const TomlTable& table, const Time& time) {
@@ -214,10 +229,11 @@ void check_hopper(const TomlTable& table, const Scene& scene, const Hopper& hopp
 Container read_container(const TomlTable& root, const Time& time) {
   const TomlTable table = root.table("container");
   const std::string kind =
-      table.choice("kind", {"box", "hopper", "terrain", "periodic", "none", "drum", "tray", "shear_cell", "conveyor"});
+      table.choice("kind", {"box", "hopper", "terrain", "periodic", "none", "drum", "tray", "shear_cell", "conveyor", "cell"});
   if (kind == "hopper") return read_hopper(table, time, root.has("start"));
   if (kind == "terrain") return read_terrain(table);
   if (kind == "periodic") return read_periodic(table);
+  if (kind == "cell") return read_cell(table);
   if (kind == "none") return read_open(root, table);
   if (kind == "drum") return read_drum(table, time);
   if (kind == "tray") return read_tray(table, time);

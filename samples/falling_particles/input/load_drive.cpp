@@ -19,12 +19,13 @@ constexpr double kRadians = std::numbers::pi / 180;
 
 const std::vector<std::string> kLaws = {"force", "pressure", "torque", "power", "stress"};
 
-std::string find_law(const TomlTable& table) {
+/// `drive`: the name of the table.
+std::string find_law(const TomlTable& table, const std::string& drive) {
   std::vector<std::string> given;
   std::ranges::copy_if(kLaws, std::back_inserter(given), [&](const std::string& law) { return table.has(law); });
   if (given.size() == 1) return given.front();
   if (given.empty()) table.fail("", table.full_name("force") + " is missing; allowed: one of " + join(kLaws));
-  table.fail(given.back(), "part.drive has both " + given[0] + " and " + given[1] + "; allowed: one of " + join(kLaws));
+  table.fail(given.back(), drive + " has both " + given[0] + " and " + given[1] + "; allowed: one of " + join(kLaws));
 }
 
 /// m^2, the projected area of a wall along the axis of its drive. `axis` is in the wall's frame. 0 if the scene must give the area.
@@ -53,7 +54,7 @@ void read_travel(const TomlTable& table, double largest, const char* unit, const
   const std::vector<double> travel = table.numbers("travel", 2, Interval::closed(-largest, largest, unit));
   if (travel[0] > 0 || travel[1] < 0 || travel[0] == travel[1]) {
     table.fail("travel", table.full_name("travel") + " is [" + shortest(travel[0]) + ", " + shortest(travel[1]) +
-                             "]; allowed: from 0 or less to 0 or more, " + unit + ' ' + about + " part.drive.axis");
+                             "]; allowed: from 0 or less to 0 or more, " + unit + ' ' + about + ' ' + table.full_name("axis"));
   }
   drive.travel = {travel[0], travel[1]};
 }
@@ -69,13 +70,13 @@ void read_sliding(const TomlTable& table, const std::string& law, const Wall& wa
   if (law == "pressure") keys.emplace_back("area");
   if (law == "power") keys.emplace_back("largest_force");
   table.refuse_unknown_keys(with_times(std::move(keys)));
-  if (law == "force") drive.force = table.number("force", Interval::closed(-kLargest, kLargest, "N, along part.drive.axis"));
+  if (law == "force") drive.force = table.number("force", Interval::closed(-kLargest, kLargest, "N, along its axis"));
   if (law == "pressure") {
     const double area = read_area(table, wall, drive.axis);
-    drive.force = area * table.number("pressure", Interval::closed(-kLargest, kLargest, "Pa, along part.drive.axis"));
+    drive.force = area * table.number("pressure", Interval::closed(-kLargest, kLargest, "Pa, along its axis"));
   }
   if (law == "power") {
-    drive.power = table.number("power", Interval::positive(kLargest, "W, along part.drive.axis"));
+    drive.power = table.number("power", Interval::positive(kLargest, "W, along its axis"));
     drive.force = table.number("largest_force", Interval::positive(kLargest, "N, at rest"));
   }
   drive.mass = table.number("mass", Interval::closed(kLightest, kHeaviest, "kg"));
@@ -89,48 +90,51 @@ void read_turning(const TomlTable& table, const std::string& law, Drive& drive) 
   std::vector<std::string> keys = {law, "point", "moment", "mass", "damping"};
   if (law == "power") keys.emplace_back("largest_torque");
   table.refuse_unknown_keys(with_times(std::move(keys)));
-  drive.point = read_vector(table, "point", Interval::closed(-kLargestLength, kLargestLength, "m, on part.drive.axis"));
+  drive.point = read_vector(table, "point", Interval::closed(-kLargestLength, kLargestLength, "m, on its axis"));
   if (law == "torque") {
-    drive.force = table.number("torque", Interval::closed(-kLargest, kLargest, "N m, about part.drive.axis"));
+    drive.force = table.number("torque", Interval::closed(-kLargest, kLargest, "N m, about its axis"));
   } else {
-    drive.power = table.number("power", Interval::positive(kLargest, "W, about part.drive.axis"));
+    drive.power = table.number("power", Interval::positive(kLargest, "W, about its axis"));
     drive.force = table.number("largest_torque", Interval::positive(kLargest, "N m, at rest"));
   }
-  drive.mass = table.number("moment", Interval::closed(kLightest, kHeaviest, "kg m^2, about part.drive.axis"));
+  drive.mass = table.number("moment", Interval::closed(kLightest, kHeaviest, "kg m^2, about its axis"));
   if (table.has("mass")) drive.hung_mass = table.number("mass", Interval::closed(0, kHeaviest, "kg"));
   if (table.has("damping")) drive.damping = table.number("damping", Interval::closed(0, kLargest, "N m s"));
   read_travel(table, kLargestTravel, "degrees", "about", drive);
   for (double& end : drive.travel) end *= kRadians;
 }
 
-void read_servo(const TomlTable& table, const Wall& wall, Drive& drive) {
+void read_servo(const TomlTable& table, const Wall& wall, const std::vector<FacingWalls>& between, Drive& drive) {
   table.refuse_unknown_keys(with_times({"stress", "gain", "largest_speed", table.has("between") ? "between" : "area"}));
   Servo servo{};
-  servo.stress = table.number("stress", Interval::positive(kLargest, "Pa, of the grains against part.drive.axis"));
+  servo.stress = table.number("stress", Interval::positive(kLargest, "Pa, of the grains against its axis"));
   servo.gain = table.number("gain", Interval::positive(kLargest, "m/(s Pa)"));
   servo.largest_speed = table.number("largest_speed", Interval::positive(kLargestSpeed, "m/s"));
-  if (!table.has("between")) servo.area = read_area(table, wall, drive.axis);
+  const bool is_given = table.has("area") || table.has("between");
+  if (!is_given) servo.between = between;
+  if (!table.has("between") && servo.between.empty()) servo.area = read_area(table, wall, drive.axis);
   drive.servo = servo;
   read_travel(table, kLargestLength, "m", "along", drive);
 }
 
 }  // namespace
 
-std::optional<Drive> read_drive(const TomlTable& part, const Wall& wall) {
+std::optional<Drive> read_drive(const TomlTable& part, const Wall& wall, const std::vector<FacingWalls>& between) {
   const auto table = part.find_table(
       "drive", {"axis", "force", "pressure", "area", "torque", "point", "moment", "power", "largest_force", "largest_torque",
                 "stress", "gain", "largest_speed", "between", "mass", "damping", "from", "until", "travel"});
   if (!table) return std::nullopt;
   for (const WallMotion& motion : wall.motions) {
     if (std::holds_alternative<Conveyor>(motion.kind)) {
-      part.fail("drive", "part.drive besides a motion of kind \"conveyor\"; allowed: with the other kinds");
+      part.fail("drive", part.full_name("drive") + " besides a motion of kind \"conveyor\"; allowed: with the other kinds");
     }
   }
   Drive drive{};
-  const std::string law = find_law(*table);
-  drive.axis = read_direction(*table, "axis");
+  const std::string law = find_law(*table, part.full_name("drive"));
+  const auto* const plane = std::get_if<PlaneShape>(&wall.shape);
+  drive.axis = plane == nullptr || table->has("axis") ? read_direction(*table, "axis") : wall.start.rotation * plane->normal;
   if (law == "stress") {
-    read_servo(*table, wall, drive);
+    read_servo(*table, wall, between, drive);
   } else if (law == "torque" || (law == "power" && table->has("point"))) {
     read_turning(*table, law, drive);
   } else {
@@ -141,12 +145,17 @@ std::optional<Drive> read_drive(const TomlTable& part, const Wall& wall) {
 }
 
 void load_servos(const TomlTable& root, Scene& scene) {
-  if (!root.has("part")) return;
-  const std::vector<TomlTable> tables = root.tables("part");
-  for (std::size_t i = 0; i < tables.size(); ++i) {
-    Wall& wall = scene.walls[scene.walls.size() - tables.size() + i];
-    if (!wall.drive || !wall.drive->servo || wall.drive->servo->area > 0) continue;
-    wall.drive->servo->between = read_facing_walls(tables[i].table("drive"), "between", 2, scene.walls, wall.drive->axis);
+  const auto read = [&](const TomlTable& owner, Wall& wall) {
+    if (!wall.drive || !wall.drive->servo || wall.drive->servo->area > 0 || !wall.drive->servo->between.empty()) return;
+    wall.drive->servo->between = read_facing_walls(owner.table("drive"), "between", 2, scene.walls, wall.drive->axis);
+  };
+  const std::vector<TomlTable> parts = root.has("part") ? root.tables("part") : std::vector<TomlTable>();
+  const std::size_t of_container = scene.walls.size() - parts.size();
+  for (std::size_t i = 0; i < parts.size(); ++i) read(parts[i], scene.walls[of_container + i]);
+  if (!std::holds_alternative<Cell>(scene.container)) return;
+  const TomlTable container = root.table("container");
+  for (std::size_t i = 0; i < of_container; ++i) {
+    if (container.has(scene.walls[i].name)) read(container.table(scene.walls[i].name), scene.walls[i]);
   }
 }
 

@@ -153,21 +153,40 @@ std::string read_name(const TomlTable& table, const std::vector<Wall>& walls) {
   return name;
 }
 
+/// Reads how a wall moves, and what grains on it feel. `between`: of a servo without an area.
+void read_conduct(const TomlTable& table, const Time& time, const std::vector<FacingWalls>& between, Wall& wall) {
+  if (table.has("motion")) wall.motions = read_motions(table, time);
+  wall.drive = read_drive(table, wall, between);
+  if (table.has("friction")) wall.friction = table.number("friction", Interval::positive(100, ""));
+  if (table.has("restitution")) wall.restitution = table.number("restitution", Interval::positive(1, ""));
+}
+
 Wall read_wall(const TomlTable& table, const std::vector<Wall>& walls, const Time& time, const std::string& scene_path) {
   Wall wall{read_name(table, walls), read_shape(table, scene_path)};
   wall.start = read_pose(table);
-  if (table.has("motion")) wall.motions = read_motions(table, time);
-  wall.drive = read_drive(table, wall);
+  read_conduct(table, time, {}, wall);
   wall.flight = read_flight(table, wall, time);
-  if (table.has("friction")) wall.friction = table.number("friction", Interval::positive(100, ""));
-  if (table.has("restitution")) wall.restitution = table.number("restitution", Interval::positive(1, ""));
   return wall;
+}
+
+/// Reads the sides of a cell. A servo of one of them is between the other ones.
+void read_sides(const TomlTable& table, const Cell& cell, const Time& time, std::vector<Wall>& walls) {
+  std::vector<FacingWalls> pairs = {{"x_low", "x_high"}, {"y_low", "y_high"}};
+  if (cell.has_lid()) pairs.push_back({"z_low", "z_high"});
+  for (Wall& wall : walls) {
+    const auto side = table.find_table(wall.name, {"motion", "drive", "friction", "restitution"});
+    if (!side) continue;
+    std::vector<FacingWalls> others = pairs;
+    std::erase_if(others, [&](const FacingWalls& pair) { return pair[0] == wall.name || pair[1] == wall.name; });
+    read_conduct(*side, time, others.size() == 2 ? others : std::vector<FacingWalls>(), wall);
+  }
 }
 
 }  // namespace
 
 std::vector<Wall> load_walls(const TomlTable& root, const Scene& scene, const std::string& scene_path) {
   std::vector<Wall> walls = walls_in(scene.container);
+  if (const auto* cell = std::get_if<Cell>(&scene.container)) read_sides(root.table("container"), *cell, scene.time, walls);
   if (!root.has("part")) return walls;
   if (std::holds_alternative<Periodic>(scene.container)) {
     root.fail("part", "part in a periodic container; allowed: in any other container");

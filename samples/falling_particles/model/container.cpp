@@ -7,12 +7,16 @@
 namespace falling_particles {
 
 const char* kind_of(const Container& container) {
-  constexpr std::array kKinds = {"box", "hopper", "terrain", "periodic", "none", "drum", "tray", "shear_cell", "conveyor"};
+  constexpr std::array kKinds = {"box", "hopper", "terrain", "periodic", "none", "drum", "tray", "shear_cell", "conveyor", "cell"};
   return kKinds[container.index()];
 }
 
 Rectangle plan_of(const Container& container) {
   return std::visit([](const auto& kind) { return kind.plan(); }, container);
+}
+
+bool is_open(const Container& container) {
+  return std::holds_alternative<Open>(container) || std::holds_alternative<Cell>(container);
 }
 
 double lowest_start(const Container& container) {

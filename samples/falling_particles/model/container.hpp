@@ -1,4 +1,4 @@
-// The container of a scene: a box, a hopper, a terrain, a periodic cell, a moving container, or none.
+// The container of a scene: a box, a cell, a hopper, a terrain, a periodic cell, a moving container, or none.
 #pragma once
 
 #include <array>
@@ -36,13 +36,21 @@ struct Open {
   bool contains(const Point& p) const { return bounds.contains(p); }
 };
 
-using Container = std::variant<Box, Hopper, Terrain, Periodic, Open, Drum, Tray, ShearCell, ConveyorBelt>;
+/// A box of planes that may move and be driven. Grains start in the box, and are found everywhere in front of the planes.
+struct Cell : Open {
+  bool has_lid() const { return std::isfinite(start.size[2]); }
+};
+
+using Container = std::variant<Box, Hopper, Terrain, Periodic, Open, Drum, Tray, ShearCell, ConveyorBelt, Cell>;
 
 /// The name in the scene file: "box", "hopper", …
 const char* kind_of(const Container& container);
 
 /// The rectangle above which grains may start.
 Rectangle plan_of(const Container& container);
+
+/// Whether walls and bounds are apart: grains may fall to parts far below the lowest start, or past all of them.
+bool is_open(const Container& container);
 
 /// m, the lowest z at which grains may start. Except for a hopper's cone, the floor is nowhere above it.
 double lowest_start(const Container& container);

@@ -130,6 +130,16 @@ std::vector<Wall> walls_of(const ShearCell& cell) {
   return walls;
 }
 
+// The floor of a cell has the name of the lower end along z.
+std::vector<Wall> walls_of(const Cell& cell) {
+  std::vector<Wall> walls;
+  add_sides(cell.plan(), walls);
+  walls.push_back(plane("z_low", {0, 0, cell.lowest()}, Vector3::UnitZ()));
+  if (cell.has_lid()) walls.push_back(plane("z_high", {0, 0, cell.ceiling()}, {0, 0, -1}));
+  for (Wall& wall : walls) wall.role = WallRole::Part;
+  return walls;
+}
+
 std::vector<Wall> walls_of(const ConveyorBelt& belt) {
   const double t = belt.thickness;
   const double top = belt.height + belt.wall_height;

@@ -1,6 +1,7 @@
 // Leaks: grains that have left the container.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -11,8 +12,29 @@
 
 namespace falling_particles {
 
-/// A grain whose centre has left the container: through a wall, the floor or the ground, or over a hopper's rim. A grain in a sink
-/// has not left.
+/// The space in which grains have not leaked, with the walls where they are at the moment: the container and the sinks (is_inside).
+/// It ends at planes that are parts. In an open container under gravity it ends below the lowest wall or sink, since nothing there
+/// stops a fall.
+class Inside {
+ public:
+  explicit Inside(const World& world);
+
+  /// `position`: m, of the middle of a body; `reach`: m, of the body from there against gravity.
+  bool contains(const Point& position, double reach) const;
+  /// m, of a bounded wall from its middle, along gravity.
+  double reach_of(dGeomID wall) const;
+
+ private:
+  double bottom_of(const World& world) const;
+
+  const Scene& scene_;
+  std::vector<std::array<dReal, 4>> planes_;  // normal and offset (m) of parts
+  Vector3 down_ = Vector3::Zero();            // unit; zero without gravity
+  double bottom_ = 0;                         // m along down_, where the space ends; infinite if it does not
+};
+
+/// A grain that has left the container: through a wall, the floor or the ground, over a hopper's rim, or past all parts of an open
+/// container. A grain in a sink has not left.
 struct Leak {
   double time;                       ///< s, after the first step that left it outside
   std::size_t grain;                 ///< index in World::grains()
@@ -30,10 +52,13 @@ struct Leak {
 /// "grain 17 (soybean) left the container at t = 0.51 s: position …"
 std::string describe(const Leak& leak);
 
+/// A sentence for each free wall that is not Inside.
+std::vector<std::string> free_walls_outside(const World& world);
+
 /// Monitors all grains of a world in all steps.
 class LeakWatch {
  public:
-  LeakWatch(const World& world, const Scene& scene);
+  explicit LeakWatch(const World& world);
 
   void after_step(double time);
 
@@ -47,7 +72,6 @@ class LeakWatch {
 
  private:
   const World& world_;
-  const Scene& scene_;
   std::vector<bool> has_leaked_;
   std::size_t count_ = 0;
   std::optional<Leak> first_;

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "leaks.hpp"
+
 namespace falling_particles {
 namespace {
 
@@ -53,10 +55,11 @@ Overlap measure_overlap(const World& world) {
   return overlap;
 }
 
-std::size_t count_outside(const World& world, const Scene& scene) {
+std::size_t count_outside(const World& world) {
+  const Inside inside(world);
   std::size_t count = 0;
   for (const Grain& grain : world.present()) {
-    if (!is_inside(scene, grain.position())) ++count;
+    if (!inside.contains(grain.position(), grain.bounding_radius())) ++count;
   }
   return count;
 }

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 
-#include "model/scene.hpp"
 #include "world/world.hpp"
 
 namespace falling_particles {
@@ -23,7 +22,7 @@ struct Overlap {
 /// must be in place.
 Overlap measure_overlap(const World& world);
 
-/// The number of grains outside the container and every sink (is_inside).
-std::size_t count_outside(const World& world, const Scene& scene);
+/// The number of grains that are not Inside.
+std::size_t count_outside(const World& world);
 
 }  // namespace falling_particles

@@ -23,7 +23,7 @@ static_assert(sizeof(snStatistics) == kCounts.size() * sizeof(snCount));
 
 }  // namespace
 
-Watches::Watches(World& world, const Scene& scene, Random& random) : leaks(world, scene), energy(world, scene) {
+Watches::Watches(World& world, const Scene& scene, Random& random) : leaks(world), energy(world, scene) {
   if (const Hopper* hopper = std::get_if<Hopper>(&scene.container)) discharge.emplace(world, *hopper, random);
   if (scene.compression) compressor.emplace(world, *world.cell(), *scene.compression, scene.time.duration);
 }

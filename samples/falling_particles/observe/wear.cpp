@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/archive.hpp"
+#include "base/nearest_word.hpp"
 #include "measurement.hpp"
 #include "simulation.hpp"
 #include "surfaces.hpp"
@@ -168,7 +169,7 @@ class Wear final : public Measurement {
     for (const std::string& name : names) table.add(sample.time).add(name).add(works[name]).add(worn_ * works[name]).end_line();
   }
 
-  /// One line for each triangle with wear, and for each other wall with wear.
+  /// One line for each triangle with wear.
   void write_triangles(const Sample& sample, TableText& table) const {
     const std::vector<Wall>& walls = sample.world.scene().walls;
     for (std::size_t i = 0; i < walls.size(); ++i) {
@@ -180,13 +181,8 @@ class Wear final : public Measurement {
 
   void write_triangle(const Sample& sample, std::size_t index, std::size_t triangle, TableText& table) const {
     const double work = work_[index][triangle];
-    table.add(sample.time).add(sample.world.scene().walls[index].name);
-    if (triangles_[index].empty()) {
-      constexpr int kOfTriangle = 5;
-      table.blank(kOfTriangle).add(work).add(worn_ * work).blank().end_line();
-      return;
-    }
     const auto& [area, centroid] = triangles_[index][triangle];
+    table.add(sample.time).add(sample.world.scene().walls[index].name);
     table.add(triangle).add(centroid).add(area).add(work).add(worn_ * work);
     area > 0 ? table.add(worn_ * work / area).end_line() : table.blank().end_line();
   }
@@ -197,6 +193,28 @@ class Wear final : public Measurement {
   std::vector<std::vector<double>> work_;       // N m, of each triangle, or of the whole wall; empty for walls that are not chosen
 };
 
+/// Of `names`, of walls, those of meshes. Throws InputError if the scene names another one, or if there is none.
+std::vector<std::string> meshes_of(const std::vector<std::string>& names, const TomlTable& table, const Scene& scene) {
+  std::vector<std::string> all, chosen;
+  for (const Wall& wall : scene.walls) {
+    if (std::holds_alternative<MeshShape>(wall.shape)) all.push_back(wall.name);
+  }
+  if (all.empty()) {
+    table.fail(
+        "per",
+        R"(measurement.per is "triangle" in a scene without a wall that is a mesh; allowed: wall, or a part with shape = "mesh")");
+  }
+  for (const std::string& name : names) {
+    if (std::ranges::find(all, name) != all.end()) {
+      chosen.push_back(name);
+    } else if (table.has("surfaces")) {
+      table.fail("surfaces", "measurement.surfaces has \"" + name +
+                                 "\", which is no mesh and has no triangles; allowed: " + join(all) + ", or per = \"wall\"");
+    }
+  }
+  return chosen;
+}
+
 }  // namespace
 
 MeasurementKind wear_kind() {
@@ -206,19 +224,20 @@ MeasurementKind wear_kind() {
           .measures = "the volume that sliding grains have worn off walls since `from`, by Archard's law",
           .parameters = {{"coefficient", "1, in (0, 1]: the wear coefficient k of Archard's law; 1e-8 to 1e-2 is usual"},
                          {"hardness", "Pa, in [1e4, 1e12]: of the softer one of wall and grains"},
-                         {"surfaces", "names of walls, as for part_force; without it all"},
+                         {"surfaces", "names of walls, as for part_force; without it all; per triangle only meshes"},
                          {"per", "wall or triangle, for triangles of meshes with wear; wall without it"}},
           .columns =
               "time, wall, sum over contacts and steps of normal force times sliding distance, volume; per triangle also its index "
-              "in the mesh, centroid at the start, area and mean depth, which are empty for walls that are no mesh",
+              "in the mesh, centroid at the start, area and mean depth",
           .source = "V = k / H sum F s: Archard, J. Appl. Phys. 24 (1953) 981",
           .needs_contacts = true,
           .follows = true,
           .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             const double coefficient = table.number("coefficient", Interval::positive(1, ""));
             const double hardness = table.number("hardness", Interval::closed(kSoftest, kHardest, "Pa"));
-            const std::vector<std::string> names = read_surfaces(table, scene);
             const bool is_per_triangle = table.has("per") && table.choice("per", {"wall", "triangle"}) == "triangle";
+            std::vector<std::string> names = read_surfaces(table, scene);
+            if (is_per_triangle) names = meshes_of(names, table, scene);
             const auto per = is_per_triangle ? Wear::Per::Triangle : Wear::Per::Wall;
             return [=](const World& world) { return std::make_unique<Wear>(world, names, coefficient / hardness, per); };
           }};

@@ -135,7 +135,7 @@ void add_end_state(Lines& lines, const Summary& s) {
   lines.add("deepest_overlap_relative", s.overlap.depth / size, "to smallest_half_axis");
   lines.add("deepest_overlap_of_pair", s.overlap.relative_to_pair, "largest of depth / smallest half-axis of the pair itself");
   lines.add("overlapping_pairs", static_cast<unsigned long long>(s.overlap.pairs));
-  lines.add("bodies_outside", static_cast<unsigned long long>(s.outside), "centre beyond a wall or the floor");
+  lines.add("bodies_outside", static_cast<unsigned long long>(s.outside), "beyond a wall or the floor, or below all parts");
   lines.add("bodies_leaked", static_cast<unsigned long long>(s.leaked), "outside after any step");
   if (s.scene.gravity() != nullptr) {
     lines.add("kinetic_height", s.kinetic_height, "m, to which the kinetic energy would lift all grains");

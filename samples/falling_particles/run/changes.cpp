@@ -48,8 +48,12 @@ std::string keys_that_change(const Scene& scene) {
   for (const ContainerKey& entry : kContainerKeys) {
     if (kind_of(scene.container) == std::string_view(entry.container)) keys.push_back(std::string("container.") + entry.key);
   }
-  keys.emplace_back("part[NAME].motion");
-  for (const char* key : kDriveKeys) keys.push_back(std::string("part[NAME].drive.") + key);
+  std::vector<std::string> walls = {"part[NAME]"};
+  if (std::holds_alternative<Cell>(scene.container)) walls.emplace_back("container.SIDE");
+  for (const std::string& wall : walls) {
+    keys.push_back(wall + ".motion");
+    for (const char* key : kDriveKeys) keys.push_back(wall + ".drive." + key);
+  }
   return join(keys);
 }
 
@@ -57,7 +61,20 @@ std::string keys_that_change(const Scene& scene) {
   throw InputError(key + " is fixed during a run; allowed to change: " + keys_that_change(scene));
 }
 
+/// Of a motion or a drive of a wall. `rest`: the key after the name of the wall.
+Change change_of_wall(const std::string& key, std::string name, std::string_view rest, const Scene& scene) {
+  const bool is_motion = rest.starts_with(".motion") && rest.find_first_of(kNameCharacters, 7) != 7;
+  constexpr std::string_view kDrive = ".drive.";
+  const bool is_drive = rest.starts_with(kDrive) && std::ranges::find(kDriveKeys, rest.substr(kDrive.size())) != kDriveKeys.end();
+  if (!is_motion && !is_drive) refuse_key(key, scene);
+  return {false, {std::move(name)}, is_motion ? WallChange::Motion : WallChange::Drive};
+}
+
 Change change_of_container(const std::string& key, std::string_view name, const Scene& scene) {
+  const std::string_view side = name.substr(0, name.find('.'));
+  if (std::holds_alternative<Cell>(scene.container) && side.size() < name.size()) {
+    return change_of_wall(key, std::string(side), name.substr(side.size()), scene);
+  }
   const auto is_named = [&](const ContainerKey& entry) {
     return kind_of(scene.container) == std::string_view(entry.container) && name == entry.key;
   };
@@ -82,11 +99,7 @@ Change change_of_part(const std::string& key, std::string_view rest, const Scene
     throw InputError(key + ": there is no part \"" + name + '"' + did_you_mean(name, names) +
                      (names.empty() ? "; the scene has no parts" : "; allowed: " + join(names)));
   }
-  const bool is_motion = rest.starts_with(".motion") && rest.find_first_of(kNameCharacters, 7) != 7;
-  constexpr std::string_view kDrive = ".drive.";
-  const bool is_drive = rest.starts_with(kDrive) && std::ranges::find(kDriveKeys, rest.substr(kDrive.size())) != kDriveKeys.end();
-  if (!is_motion && !is_drive) refuse_key(key, scene);
-  return {false, {name}, is_motion ? WallChange::Motion : WallChange::Drive};
+  return change_of_wall(key, name, rest, scene);
 }
 
 Change change_of(const std::string& assignment, const Scene& scene) {

@@ -16,6 +16,7 @@
 #include "input/state_table.hpp"
 #include "model/grain_shape.hpp"
 #include "model/lattice.hpp"
+#include "observe/facing_walls.hpp"
 #include "output/wall_mesh.hpp"
 #include "world/world.hpp"
 
@@ -187,12 +188,15 @@ double largest_correcting_velocity(const Scene& scene) {
   return velocity;
 }
 
-/// What presses on grains: a heavy grain, or a part with a mass.
+/// What presses on grains: a heavy grain, a part with a mass, or a servo.
 struct Load {
   double mass;          // kg
   double acceleration;  // m/s^2, without the grains
   double bearers;       // of the lightest grains, that bear it
 };
+
+/// A load in steps of a length (s). A servo has the mass step x area / gain.
+using LoadInStep = std::function<Load(double)>;
 
 /// How a load sinks into the lightest grains, and what would prevent it.
 struct Sinking {
@@ -204,29 +208,57 @@ struct Sinking {
 
 constexpr double kBearers = 4;  // light grains that bear a heavy one; a bed below them spreads the load
 
-// The answer if quickstep cannot hold the load. A light grain of mass m bears the part q m of the load. An iteration of projected
-// Gauss-Seidel on its two contacts leaves q / (1 + q) of the error, the squared coupling of the two rows over the product of their
-// diagonals. After n iterations from 0 the load still moves with the fraction f = (q / (1 + q))^n of its acceleration. It rests
-// where the correction of its overlap makes up for this: (1 - f) erp depth / step = f acceleration step. grains.md, "Large and
-// small grains", has the measurements.
-std::optional<Sinking> sinking_of(const Load& load, const Extremes& grains, const Scene& scene) {
+/// The quotient f / (1 - f) of a load in a step, with f as below.
+struct Remainder {
+  double part;     // q
+  double unit;     // m; depth for the quotient 1
+  double actual;   // the quotient
+  double fastest;  // the quotient that no depth makes up for
+  double allowed;
+
+  bool is_allowed() const { return !(actual > allowed); }
+};
+
+// A light grain of mass m bears the part q m of the load. An iteration of projected Gauss-Seidel on its two contacts leaves
+// q / (1 + q) of the error, the squared coupling of the two rows over the product of their diagonals. After n iterations from 0 the
+// load still moves with the fraction f = (q / (1 + q))^n of its acceleration. It rests where the correction of its overlap makes up
+// for this: (1 - f) erp depth / step = f acceleration step. A servo has no speed from the step before: its acceleration is the
+// speed gain x stress over the step. grains.md, "Large and small grains", has the measurements.
+Remainder remainder_of(const Load& load, double step, const Extremes& grains, const Scene& scene) {
   constexpr double kDeep = 0.01;  // of the light grain's smallest half-axis: about 1 % of the bed's volume
-  const auto& [iterations, erp, cfm] = scene.solver;
-  if (!(load.acceleration > 0)) return std::nullopt;
-  const double step = scene.time.step;
   const double size = grains.light->smallest_scale() * grains.light->kind.smallest_half_axis();
-  const double part = load.mass / grains.least / load.bearers;                           // q
-  const double unit = load.acceleration * step * step / erp;                             // m; depth for f / (1 - f) = 1
-  const double fastest = largest_correcting_velocity(scene) / load.acceleration / step;  // f / (1 - f) that no depth makes up for
-  const double rest = 1 / std::expm1(iterations * std::log1p(1 / part));                 // f / (1 - f)
-  const double allowed = std::min(kDeep * size / unit, fastest);
-  if (!(rest > allowed)) return std::nullopt;
-  return Sinking{"with solver.iterations = " + std::to_string(iterations) + " it sinks into such grains " +
-                     (rest > fastest ? "until more than " + std::to_string(std::lround(load.bearers)) + " bear it"
-                                     : "by about " + rounded(unit * rest / size) + " of their smallest half-axis"),
-                 std::min(std::sqrt(kDeep * size * erp / load.acceleration / rest), step * fastest / rest),
-                 static_cast<long>(std::ceil(std::log1p(1 / allowed) / std::log1p(1 / part))),
-                 load.bearers * grains.least / std::expm1(std::log1p(1 / allowed) / iterations)};
+  const double part = load.mass / grains.least / load.bearers;
+  const double unit = load.acceleration * step * step / scene.solver.erp;
+  const double fastest = largest_correcting_velocity(scene) / load.acceleration / step;
+  return {part, unit, 1 / std::expm1(scene.solver.iterations * std::log1p(1 / part)), fastest,
+          std::min(kDeep * size / unit, fastest)};
+}
+
+/// The least factor from 1 on for which `holds` is true, if it is so for all larger ones; 1e12 if there is none.
+double least_factor(const std::function<bool(double)>& holds) {
+  double low = 0, high = std::log(1e12);
+  for (int i = 0; i < 50; ++i) {  // to 1e-13
+    const double middle = (low + high) / 2;
+    (holds(std::exp(middle)) ? high : low) = middle;
+  }
+  return std::exp(high);
+}
+
+/// The answer if quickstep cannot hold the load.
+std::optional<Sinking> sinking_of(const LoadInStep& load_in, const Extremes& grains, const Scene& scene) {
+  const double step = scene.time.step;
+  const Load load = load_in(step);
+  if (!(load.acceleration > 0)) return std::nullopt;
+  const auto& [part, unit, actual, fastest, allowed] = remainder_of(load, step, grains, scene);
+  if (!(actual > allowed)) return std::nullopt;
+  const double size = grains.light->smallest_scale() * grains.light->kind.smallest_half_axis();
+  const double shorter =
+      least_factor([&](double factor) { return remainder_of(load_in(step / factor), step / factor, grains, scene).is_allowed(); });
+  return Sinking{"with solver.iterations = " + std::to_string(scene.solver.iterations) + " it sinks into such grains " +
+                     (actual > fastest ? "until more than " + std::to_string(std::lround(load.bearers)) + " bear it"
+                                       : "by about " + rounded(unit * actual / size) + " of their smallest half-axis"),
+                 step / shorter, static_cast<long>(std::ceil(std::log1p(1 / allowed) / std::log1p(1 / part))),
+                 load.bearers * grains.least / std::expm1(std::log1p(1 / allowed) / scene.solver.iterations)};
 }
 
 /// m^2, of a wall as seen from where it presses to, within the plan of the container.
@@ -241,8 +273,14 @@ double shown_area(const Wall& wall, const Vector3& direction, const Scene& scene
   return std::min(area, plan.width[0] * plan.width[1]);
 }
 
-/// The load of a free part, or of one that slides under a force. Its lightest grains lie as spheres side by side. A smooth body
-/// rests on few of them, as a grain does.
+/// The lightest grains, as spheres, that lie side by side on an area (m^2).
+double bearers_on(double area, const Extremes& grains, const Scene& scene) {
+  const double diameter = std::cbrt(6 / std::numbers::pi * grains.least / grains.light->kind.density);
+  const double most = scene.feeders.empty() ? static_cast<double>(scene.grains_at_start()) : INFINITY;
+  return std::max(kBearers, std::min(area / (diameter * diameter), most));
+}
+
+/// The load of a free part, or of one that slides under a force. A smooth body rests on few grains, as a grain does.
 Load load_of(const Wall& part, const Extremes& grains, const Scene& scene) {
   const auto* const gravity = scene.gravity();
   Vector3 acceleration = gravity == nullptr ? Vector3::Zero() : gravity->acceleration;
@@ -251,36 +289,65 @@ Load load_of(const Wall& part, const Extremes& grains, const Scene& scene) {
   }
   Load load{part.flight ? part.flight->mass : part.drive->mass, acceleration.norm(), kBearers};
   if (std::holds_alternative<SmoothShape>(part.shape) || !(load.acceleration > 0)) return load;
-  const double diameter = std::cbrt(6 / std::numbers::pi * grains.least / grains.light->kind.density);
-  const double most = scene.feeders.empty() ? static_cast<double>(scene.grains_at_start()) : INFINITY;
-  const double side_by_side = shown_area(part, acceleration / load.acceleration, scene) / (diameter * diameter);
-  load.bearers = std::max(kBearers, std::min(side_by_side, most));
+  load.bearers = bearers_on(shown_area(part, acceleration / load.acceleration, scene), grains, scene);
   return load;
 }
 
-/// Adds a doubt if quickstep cannot hold the heaviest grain, or a part with a mass, on the lightest grains.
+/// m^2, of a servo at the start.
+double area_at_start(const Servo& servo, const Scene& scene) {
+  double area = servo.area > 0 ? servo.area : 1;
+  for (const FacingWalls& pair : servo.between) area *= faces_at_start(pair, scene.walls).distance();
+  return area;
+}
+
+/// Adds a doubt if quickstep cannot hold a load on the lightest grains. `remedy`: besides the step and the iterations.
+void add_load(const std::string& who, const LoadInStep& load, const std::function<std::string(const Sinking&)>& remedy,
+              const Extremes& grains, const Scene& scene, std::vector<std::string>& doubts) {
+  const std::optional<Sinking> sinking = sinking_of(load, grains, scene);
+  if (!sinking) return;
+  doubts.push_back(who + " has " + rounded(load(scene.time.step).mass / grains.least) + " times the mass of the lightest (\"" +
+                   grains.light->kind.name + "\"): " + sinking->in_words + "; time.step up to " + rounded(sinking->step) +
+                   " s, solver.iterations from " + std::to_string(sinking->iterations) + " on, or " + remedy(*sinking) +
+                   " would do (grains.md)");
+}
+
+void add_servo_load(const Wall& part, const Extremes& grains, const Scene& scene, std::vector<std::string>& doubts) {
+  const Servo& servo = *part.drive->servo;
+  const double area = area_at_start(servo, scene);
+  const double bearers = std::holds_alternative<SmoothShape>(part.shape) ? kBearers : bearers_on(area, grains, scene);
+  const auto load = [&](double step, double gain) { return Load{step * area / gain, gain * servo.stress / step, bearers}; };
+  const auto remedy = [&](const Sinking&) {
+    const double step = scene.time.step;
+    const double larger = least_factor(
+        [&](double factor) { return remainder_of(load(step, factor * servo.gain), step, grains, scene).is_allowed(); });
+    return "part.drive.gain from " + rounded(larger * servo.gain) + " m/(s Pa) on";
+  };
+  add_load(
+      "part \"" + part.name + "\" on grains, as a servo of the mass time.step x area / part.drive.gain,",
+      [&](double step) { return load(step, servo.gain); }, remedy, grains, scene, doubts);
+}
+
+/// Adds a doubt if quickstep cannot hold the heaviest grain, or what a part presses, on the lightest grains.
 void add_mass_ratio(const Scene& scene, std::vector<std::string>& doubts) {
   const auto* const gravity = scene.gravity();
   const Extremes grains = extremes_of(scene);
   if (grains.heavy == nullptr || has_soft_contacts(scene) || scene.compression || scene.solver.erp == 0) return;
-  const auto add = [&](const std::string& who, double mass, const Sinking& sinking, const std::string& remedy) {
-    doubts.push_back(who + " has " + rounded(mass / grains.least) + " times the mass of the lightest (\"" +
-                     grains.light->kind.name + "\"): " + sinking.in_words + "; time.step up to " + rounded(sinking.step) +
-                     " s, solver.iterations from " + std::to_string(sinking.iterations) + " on" + remedy + " would do (grains.md)");
-  };
   const Load heaviest{grains.most, gravity == nullptr ? 0 : gravity->acceleration.norm(), kBearers};
-  if (const auto sinking = sinking_of(heaviest, grains, scene)) {
-    add("the heaviest grain (\"" + grains.heavy->kind.name + "\")", heaviest.mass, *sinking,
-        ", or densities with masses up to 1 : " + rounded(sinking->mass / grains.least));
-  }
+  const auto denser = [&](const Sinking& sinking) {
+    return "densities with masses up to 1 : " + rounded(sinking.mass / grains.least);
+  };
+  add_load(
+      "the heaviest grain (\"" + grains.heavy->kind.name + "\")", [&](double) { return heaviest; }, denser, grains, scene, doubts);
   for (const Wall& part : scene.parts()) {
+    if (part.drive && part.drive->servo) add_servo_load(part, grains, scene, doubts);
     const bool is_pressed = part.drive && !part.drive->servo && !part.drive->turns();
     if (!part.flight && !is_pressed) continue;
     const Load load = load_of(part, grains, scene);
-    if (const auto sinking = sinking_of(load, grains, scene)) {
-      add("part \"" + part.name + "\" on grains", load.mass, *sinking,
-          part.flight ? ", or part.free.mass up to " + rounded(sinking->mass) + " kg" : ", or a smaller force on it");
-    }
+    const auto lighter = [&](const Sinking& sinking) {
+      return part.flight ? "part.free.mass up to " + rounded(sinking.mass) + " kg" : "a smaller force on it";
+    };
+    add_load(
+        "part \"" + part.name + "\" on grains", [&](double) { return load; }, lighter, grains, scene, doubts);
   }
 }
 
@@ -496,8 +563,7 @@ std::optional<Fall> fall_from_start(const Scene& scene) {
   const bool is_on_lattice = scene.grains_at_start() > 0 && !scene.start && !std::holds_alternative<Periodic>(scene.container);
   if (gravity == nullptr || !is_on_lattice) return std::nullopt;
   // The bounds of an open container may be far below all parts, on which grains land.
-  const bool is_open = std::holds_alternative<Open>(scene.container);
-  const double bottom = is_open ? lowest_start(scene.container) : room_of(scene.container).corner[2];
+  const double bottom = is_open(scene.container) ? lowest_start(scene.container) : room_of(scene.container).corner[2];
   const double height = filled_lattice(scene).top() - bottom;
   const double speed = std::sqrt(2 * gravity->acceleration.norm() * height);
   return Fall{height, speed, speed * scene.time.step};

@@ -26,6 +26,9 @@ RunEnd finish(StepwiseRun& run, const OutputFolder& folder, bool quiet) {
     std::fprintf(stderr, "Leak: %zu of %zu grains; the first: %s\n", leaks.count(), run.simulation().world.grains().size(),
                  describe(*leaks.first()).c_str());
   }
+  for (const std::string& sentence : free_walls_outside(run.simulation().world)) {
+    std::fprintf(stderr, "Leak: %s\n", sentence.c_str());
+  }
   if (!quiet) std::fprintf(stderr, "Results: %s\n", folder.path().c_str());
   return {!run.is_at_end(), leaks.count() > 0, folder.path(), run.renderings()};
 }

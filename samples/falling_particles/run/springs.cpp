@@ -29,6 +29,7 @@ struct Spring {
   double value;      // of the key
   double stiffness;  // N/m
   double exponent;   // of the stiffness as a power of the value
+  double depth;      // m, of the largest impact
 };
 
 bool is_spring(const fx::Effect& effect) {
@@ -77,20 +78,28 @@ double largest_speed(const Scene& scene) {
   return largest;
 }
 
-/// N/m, at the largest depth of an impact. `mobility`: 1/kg. The energy is 8/15 E* sqrt(R) depth^2.5.
-double stiffness_at_impact(const fx::Hertz& hertz, double radius, double mobility, double speed) {
-  const double modulus = hertz.youngs_modulus / (1 - hertz.poisson_ratio * hertz.poisson_ratio) / 2;
-  const double depth = std::pow(15 * speed * speed / (16 * mobility * modulus * std::sqrt(radius)), 0.4);
-  return 2 * modulus * std::sqrt(radius * depth);
-}
-
-Spring spring_of(const fx::Effect& effect, const Scene& scene, double mobility) {
+/// `mobility`: 1/kg; `speed`: m/s. Hertz's energy is 8/15 E* sqrt(R) depth^2.5.
+Spring spring_of(const fx::Effect& effect, const Scene& scene, double mobility, double speed) {
   if (const auto* const spring = std::get_if<fx::Compliance>(&effect)) {
-    return {"compliance", "stiffness", "N/m", spring->stiffness, spring->stiffness, 1};
+    const double depth = speed / std::sqrt(spring->stiffness * mobility);
+    return {"compliance", "stiffness", "N/m", spring->stiffness, spring->stiffness, 1, depth};
   }
   const auto& hertz = std::get<fx::Hertz>(effect);
-  const double stiffness = stiffness_at_impact(hertz, scene.smallest_half_axis() / 2, mobility, largest_speed(scene));
-  return {"hertz", "youngs_modulus", "Pa", hertz.youngs_modulus, stiffness, 0.8};
+  const double radius = scene.smallest_half_axis() / 2;
+  const double modulus = hertz.youngs_modulus / (1 - hertz.poisson_ratio * hertz.poisson_ratio) / 2;
+  const double depth = std::pow(15 * speed * speed / (16 * mobility * modulus * std::sqrt(radius)), 0.4);
+  return {"hertz", "youngs_modulus", "Pa", hertz.youngs_modulus, 2 * modulus * std::sqrt(radius * depth), 0.8, depth};
+}
+
+/// How much deeper softer springs overlap. `softer`: their value over the scene's. The depth at rest is as 1 / stiffness, and as
+/// E^(-2/3) of Hertz; the depth of an impact as stiffness^(-1/2), and as E^(-2/5).
+std::string overlaps_of(const Spring& spring, double softer, double speed, const Scene& scene) {
+  std::string text = "softer springs overlap " + rounded(std::pow(softer, spring.exponent == 1 ? -1 : -2.0 / 3)) +
+                     " times as deep under the same load";
+  if (!(speed > 0)) return text;
+  const double size = scene.smallest_half_axis();
+  return text + ", and by " + rounded(spring.depth * std::pow(softer, -spring.exponent / 2) / size) + " and not " +
+         rounded(spring.depth / size) + " of the smallest half-axis in an impact with " + rounded(speed) + " m/s";
 }
 
 }  // namespace
@@ -114,14 +123,16 @@ std::vector<std::string> doubts_about_springs(const Scene& scene) {
     if (mobility > mobility2) name2 = "part \"" + part.name + '"';
     mobility2 = std::max(mobility, mobility2);
   }
-  const Spring spring = spring_of(*effect, scene, mobility1 + mobility2);
+  const double speed = largest_speed(scene);
+  const Spring spring = spring_of(*effect, scene, mobility1 + mobility2, speed);
   const double steps = std::numbers::pi / (scene.time.step * std::sqrt(spring.stiffness * (mobility1 + mobility2)));
   if (!(steps < fx::kLeastContactSteps)) return {};
   const double shorter = steps / fx::kLeastContactSteps;
+  const double softer = std::pow(shorter, 2 / spring.exponent);
   return {spring.section + " has contacts of fewer than ten steps: a shorter step would be better; " + name1 + " and " + name2 +
-          " may touch for " + rounded(steps) + " steps, and time.step up to " + rounded(scene.time.step * shorter) + " s, or " +
-          spring.section + '.' + spring.key + " up to " + rounded(spring.value * std::pow(shorter, 2 / spring.exponent)) + ' ' +
-          spring.unit + " would do"};
+          " may touch for " + rounded(steps) + " steps, and time.step up to " + rounded(scene.time.step * shorter) +
+          " s would do; " + spring.section + '.' + spring.key + " up to " + rounded(spring.value * softer) + ' ' + spring.unit +
+          " would do too, but " + overlaps_of(spring, softer, speed, scene)};
 }
 
 }  // namespace falling_particles

@@ -210,7 +210,7 @@ Summary StepwiseRun::summarize() {
           largest_kinetic_energy(world),
           watches.energy,
           measure_overlap(world),
-          count_outside(world, scene_),
+          count_outside(world),
           watches.leaks.count(),
           box == nullptr ? std::nullopt : std::optional(measure_bed(world, *box, simulation_->random)),
           watches.discharge ? &*watches.discharge : nullptr,

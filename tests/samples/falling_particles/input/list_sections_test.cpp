@@ -115,6 +115,7 @@ const std::vector<Section>& sections() {
        "100, "
        "lid_mass = 1, lid = 0.09}",
        {"kind"}},
+      {"[container] kind = \"cell\"", "container", "container={kind = \"cell\", width = [0.1, 0.1], height = 0.1}", {"kind"}},
       {"[container] kind = \"conveyor\"",
        "container",
        "container={kind = \"conveyor\", length = 0.3, width = 0.1, height = 0.1, thickness = 0.05, wall_height = 0.1, speed = 0.1, "

@@ -145,7 +145,7 @@ TEST_CASE("a part that turns has a point, a moment and a travel in degrees") {
   CHECK(motor.drive->force == 7);
   CHECK(motor.drive->hung_mass == 0.4);
   const std::vector<Mistake> mistakes = {
-      {"point = [0.1, 0, 0]", "", {"part.drive.point is missing", "m, on part.drive.axis"}},
+      {"point = [0.1, 0, 0]", "", {"part.drive.point is missing", "m, on its axis"}},
       {"moment = 0.3", "moment = 0", {"part.drive.moment is 0", "kg m^2"}},
       {"moment = 0.3", "mass = 0.3", {"part.drive.moment is missing"}},
       {"[-90, 60]", "[-90, 180]", {"part.drive.travel[1] is 180", "[-170, 170] degrees"}},

@@ -10,6 +10,8 @@
 
 #include "complaint.hpp"
 #include "observe/leaks.hpp"
+#include "observe/overlap.hpp"
+#include "observe/simulation.hpp"
 #include "scenes.hpp"
 #include "world/placement.hpp"
 #include "world/world.hpp"
@@ -155,7 +157,7 @@ TEST_CASE("a leak is counted once") {
   scene.kinds[0].count = 2;
   scene.kinds.resize(1);
   const World world(scene, {{0, {0.02, 0.02, 0.02}, {1, 0, 0, 0}}, {0, {0.04, 0.04, 0.02}, {1, 0, 0, 0}}});
-  LeakWatch watch(world, scene);
+  LeakWatch watch(world);
   watch.after_step(0.1);
   CHECK(watch.count() == 0);
   CHECK_FALSE(watch.first());
@@ -175,4 +177,79 @@ TEST_CASE("a leak is counted once") {
   watch.after_step(0.5);
   CHECK(watch.count() == 2);
   CHECK(watch.first()->grain == 1);
+}
+
+namespace {
+
+/// A pea within bounds of 18 m, in a scene without walls but its parts and sinks.
+Scene in_bounds(const std::string& parts, const std::string& gravity = "[0, 0, -9.81]") {
+  const std::string text = replaced(kSceneText, "kind = \"box\"\nwidth = [0.05, 0.06]\n",
+                                    "kind = \"none\"\nstart = { corner = [0, 0, 0], size = [0.05, 0.06, 0.5] }\n"
+                                    "bounds = { corner = [-9, -9, -9], size = [18, 18, 18] }\n");
+  return scene_of(replaced(text, "[0, 0, -9.81]", gravity) + parts);
+}
+
+bool has_leaked(const Scene& scene, const Point& at) {
+  const World world(scene, {{0, at, {1, 0, 0, 0}}});
+  LeakWatch watch(world);
+  watch.after_step(0.1);
+  CHECK(count_outside(world) == watch.count());
+  return watch.count() > 0;
+}
+
+}  // namespace
+
+TEST_CASE("grains below all parts of an open container have leaked, as far as nothing can stop them") {
+  const double radius = 3e-3;
+  const std::string plate = "[[part]]\nname = \"plate\"\nshape = \"box\"\nsize = [0.1, 0.1, 0.02]\nposition = [0, 0, -0.01]\n";
+  const Scene scene = in_bounds(plate);
+  CHECK_FALSE(has_leaked(scene, {1, 0, -0.02 - 0.999 * radius}));
+  CHECK(has_leaked(scene, {1, 0, -0.02 - 1.001 * radius}));
+  CHECK(has_leaked(scene, {10, 0, 1}));
+  CHECK_FALSE(has_leaked(in_bounds(plate, "[0, 0, 0]"), {0, 0, -5}));
+  const Scene upwards = in_bounds(plate, "[0, 0, 1]");
+  CHECK_FALSE(has_leaked(upwards, {0, 0, -5}));
+  CHECK(has_leaked(upwards, {0, 0, 1.001 * radius}));
+
+  const auto sloping = [](const char* angle) {
+    return std::string("[[part]]\nname = \"plane\"\nshape = \"plane\"\nposition = [0, 0, -8]\naxis = [0, 1, 0]\nangle = ") + angle +
+           "\n";
+  };
+  CHECK_FALSE(has_leaked(in_bounds(plate + sloping("80")), {1, 0, -1}));
+  CHECK(has_leaked(in_bounds(plate + sloping("100")), {1, 0, -1}));  // an overhang
+
+  const std::string upright = "[[part]]\nname = \"side\"\nshape = \"plane\"\nposition = [2, 0, 0]\naxis = [0, 1, 0]\nangle = -90\n";
+  CHECK_FALSE(has_leaked(in_bounds(plate + upright), {1.999, 0, 1}));
+  CHECK(has_leaked(in_bounds(plate + upright), {2.001, 0, 1}));
+  CHECK(has_leaked(in_bounds(plate + upright, "[0, 0, 0]"), {2.001, 0, 1}));
+  const std::string beyond = "[[sink]]\nname = \"s\"\ncorner = [2, -1, 0]\nsize = [1, 2, 2]\n";
+  CHECK_FALSE(has_leaked(in_bounds(plate + upright + beyond), {2.001, 0, 1}));
+
+  const std::string box = "[[sink]]\nname = \"s\"\ncorner = [0, 0, -2]\nsize = [0.1, 0.1, 0.1]\n";
+  CHECK_FALSE(has_leaked(in_bounds(plate + box), {1, 0, -1}));
+  CHECK(has_leaked(in_bounds(plate + box), {1, 0, -2.1}));
+  CHECK_FALSE(has_leaked(in_bounds(plate + "[[sink]]\nname = \"s\"\npoint = [0, 0, -8]\nnormal = [0, 0, 1]\n"), {1, 0, -7}));
+}
+
+TEST_CASE("a free part that falls past all other parts takes no grain with it") {
+  const auto leaked = [](const std::string& more) {
+    Scene scene = in_bounds(
+        "[[part]]\nname = \"tray\"\nshape = \"box\"\nsize = [0.1, 0.1, 0.02]\nposition = [0, 0, -0.01]\n"
+        "free = { mass = 1, from = 0.02 }\n" +
+        more);
+    scene.start = StartState{.overlap = 0.1, .grains = {{.position = {0, 0, 3e-3}}}};
+    Simulation simulation(scene, 1);
+    std::vector<std::size_t> counts;
+    for (int i = 1; i <= 400; ++i) {
+      simulation.stepper.step(false);
+      simulation.watches.after_step(i * scene.time.step, simulation.stepper);
+      if (i == 39 || i == 400) counts.push_back(simulation.watches.leaks.count());
+    }
+    CHECK(free_walls_outside(simulation.world).size() == counts.back());
+    return counts;
+  };
+  const std::string post = "[[part]]\nname = \"post\"\nshape = \"box\"\nsize = [0.02, 0.02, 0.1]\nposition = ";
+  CHECK(leaked("") == std::vector<std::size_t>{0, 1});                          // the tray is held until 0.02 s
+  CHECK(leaked(post + "[0.5, 0, -0.1]\n") == std::vector<std::size_t>{0, 1});   // beside the tray
+  CHECK(leaked(post + "[0, 0, -0.0701]\n") == std::vector<std::size_t>{0, 0});  // below the tray
 }

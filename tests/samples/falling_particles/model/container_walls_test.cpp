@@ -8,11 +8,16 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/input_error.hpp"
 #include "complaint.hpp"
 #include "observe/leaks.hpp"
+#include "observe/simulation.hpp"
+#include "run/changes.hpp"
+#include "run/stepwise_run.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"
 #include "world/stepper.hpp"
@@ -36,7 +41,7 @@ direction = [0, 0, 1]
 amplitude = 0.001
 frequency = 30)";
 
-constexpr const char* kCell = R"(kind = "shear_cell"
+constexpr const char* kShearCell = R"(kind = "shear_cell"
 width = [0.05, 0.06]
 height = 0.12
 cut = 0.02
@@ -45,6 +50,15 @@ lid = 0.11
 lid_mass = 0.1
 pressure = 500
 speed = 0.05)";
+
+constexpr const char* kCell = R"(kind = "cell"
+width = [0.05, 0.06]
+height = 0.1
+x_low.drive = { stress = 1000, gain = 1e-4, largest_speed = 0.2, area = 0.007 }
+x_high.drive = { stress = 1000, gain = 1e-4, largest_speed = 0.2 }
+y_high.friction = 0.2
+y_high.motion = [{ kind = "velocity", velocity = [0, -0.1, 0] }]
+z_high.drive = { force = 0.5, mass = 0.1 })";
 
 constexpr const char* kBelt = R"(kind = "conveyor"
 length = 0.2
@@ -166,7 +180,7 @@ TEST_CASE("grains in a drum that turns stay in it, and its flat sides stand wher
     Random random(1);
     const World world(scene, place(scene, random));
     Stepper stepper(world, scene);
-    LeakWatch leaks(world, scene);
+    LeakWatch leaks(world);
     for (int step = 1; step <= 2200; ++step) {
       stepper.step();
       leaks.after_step(step * scene.time.step);
@@ -196,7 +210,7 @@ TEST_CASE("all parts of a tray shake together, and grains fit between its walls"
 }
 
 TEST_CASE("the lower half of a shear cell moves, the upper one stands, and the lid presses on the plan") {
-  const Scene scene = scene_of(scene_in(kCell));
+  const Scene scene = scene_of(scene_in(kShearCell));
   for (const Wall& wall : scene.walls) {
     CAPTURE(wall.name);
     CHECK(wall.moves() == !wall.name.starts_with("upper"));
@@ -208,6 +222,85 @@ TEST_CASE("the lower half of a shear cell moves, the upper one stands, and the l
   CHECK(lid.drive->force == doctest::Approx(500 * 0.05 * 0.06));
   CHECK(lid.drive->axis == Vector3(0, 0, -1));
   CHECK(face(lid, 2, -1) == doctest::Approx(0.11));
+}
+
+TEST_CASE("the sides of a cell are planes around the start, which may stand, move, press and be servos between the others") {
+  const Scene scene = scene_of(scene_in(kCell));
+  CHECK(names_of(scene.walls) == std::vector<std::string>{"x_low", "x_high", "y_low", "y_high", "z_low", "z_high"});
+  CHECK(scene.parts().size() == 6);
+  CHECK(plane_of(scene.walls[0]) == std::array<double, 4>{1, 0, 0, 0});
+  CHECK(plane_of(scene.walls[1]) == std::array<double, 4>{-1, 0, 0, -0.05});
+  CHECK(plane_of(scene.walls[2]) == std::array<double, 4>{0, 1, 0, 0});
+  CHECK(plane_of(scene.walls[3]) == std::array<double, 4>{0, -1, 0, -0.06});
+  CHECK(plane_of(scene.walls[4]) == std::array<double, 4>{0, 0, 1, 0});
+  CHECK(plane_of(scene.walls[5]) == std::array<double, 4>{0, 0, -1, -0.1});
+  CHECK(scene.walls[0].drive->servo->area == 0.007);
+  CHECK(scene.walls[0].drive->axis == Vector3(1, 0, 0));
+  CHECK(scene.walls[1].drive->servo->between == std::vector<FacingWalls>{{"y_low", "y_high"}, {"z_low", "z_high"}});
+  CHECK(scene.walls[1].drive->axis == Vector3(-1, 0, 0));
+  CHECK_FALSE(scene.walls[2].moves());
+  CHECK(scene.walls[3].friction == 0.2);
+  CHECK(std::get<Translation>(scene.walls[3].motions.at(0).kind).velocity == Vector3(0, -0.1, 0));
+  CHECK(scene.walls[5].drive->force == 0.5);
+  CHECK(scene.walls[5].drive->axis == Vector3(0, 0, -1));
+
+  const Scene elsewhere = scene_of(scene_in(replaced(kCell, "width", "corner = [-0.01, 0.02, 0.3]\nwidth")));
+  CHECK(plane_of(elsewhere.walls[0]) == std::array<double, 4>{1, 0, 0, -0.01});
+  CHECK(plane_of(elsewhere.walls[3])[3] == doctest::Approx(-0.08));
+  CHECK(plane_of(elsewhere.walls[4]) == std::array<double, 4>{0, 0, 1, 0.3});
+  CHECK(plane_of(elsewhere.walls[5])[3] == doctest::Approx(-0.4));
+  Random random(1);
+  for (const Placement& grain : place(elsewhere, random)) {
+    CHECK(Region{{-0.01, 0.02, 0.3}, {0.05, 0.06, 0.1}}.contains(grain.position));
+  }
+
+  const std::string lidless = "kind = \"cell\"\nwidth = [0.05, 0.06]\n";
+  const Scene open = scene_of(scene_in(lidless + "z_low.drive = { stress = 1000, gain = 1e-4, largest_speed = 0.2 }"));
+  CHECK(names_of(open.walls) == std::vector<std::string>{"x_low", "x_high", "y_low", "y_high", "z_low"});
+  CHECK(open.walls[4].drive->servo->between == std::vector<FacingWalls>{{"x_low", "x_high"}, {"y_low", "y_high"}});
+  const std::string plate =
+      "[[part]]\nname = \"plate\"\nshape = \"plane\"\nposition = [0, 0, 0.3]\naxis = [1, 0, 0]\nangle = 180\n";
+  const Scene other = scene_of(scene_in(lidless + "x_high.drive = { stress = 1e3, gain = 1e-4, largest_speed = 0.2, "
+                                                  "between = [\"y_low\", \"y_high\", \"z_low\", \"plate\"] }") +
+                               plate);
+  CHECK(other.walls[1].drive->servo->between == std::vector<FacingWalls>{{"y_low", "y_high"}, {"z_low", "plate"}});
+}
+
+TEST_CASE("two servos of a cell press a grain between them with their stress times the area between the other sides") {
+  const std::string servo = ".drive = { stress = 10, gain = 0.02, largest_speed = 0.2 }\n";
+  Scene scene =
+      scene_of(replaced(scene_in("kind = \"cell\"\nwidth = [0.05, 0.06]\nheight = 0.07\nx_low" + servo + "x_high" + servo),
+                        "[0, 0, -9.81]", "[0, 0, 0]"));
+  scene.start = StartState{.overlap = 0.1, .grains = {{.position = {0.02, 0.03, 0.03}}}};
+  Simulation simulation(scene, 1);
+  const WallBodies& walls = simulation.world.walls();
+  for (int i = 0; i < 800; ++i) simulation.stepper.step();
+  CHECK(walls.driven(0)->push == relative(10 * 0.06 * 0.07).epsilon(1e-12));
+  for (const std::size_t side : {0U, 1U}) CHECK(*walls.servo_stress(side) == relative(10).epsilon(1e-3));
+  const double width = walls.state(1).pose.position.x() - walls.state(0).pose.position.x();
+  CHECK(width == relative(2 * 3e-3).epsilon(0.01));
+  CHECK(walls.state(0).pose.position.x() > 0.01);
+}
+
+TEST_CASE("the stress and the motion of a side of a cell change during a run, and its friction does not") {
+  const std::string text = scene_in(kCell);
+  Scene scene = scene_of(text);
+  StepwiseRun run(scene, 1, std::nullopt);
+  run.advance(1, nullptr);
+  const auto change = [&](const std::string& assignment) {
+    change_values(run, scene, {assignment}, [&] { return scene_of(text, {assignment}); });
+  };
+  change("container.x_high.drive.stress=20");
+  change("container.y_high.motion=[{ kind = \"velocity\", velocity = [0, -0.2, 0] }]");
+  CHECK(scene.walls[1].drive->servo->stress == 20);
+  CHECK(std::get<Translation>(scene.walls[3].motions.at(0).kind).velocity == Vector3(0, -0.2, 0));
+  std::string refusal;
+  try {
+    change("container.y_high.friction=0.3");
+  } catch (const InputError& error) {
+    refusal = error.what();
+  }
+  check_says(refusal, {"container.y_high.friction is fixed during a run", "container.SIDE.motion", "container.SIDE.drive.stress"});
 }
 
 TEST_CASE("the belt and its rollers have one speed where they meet") {
@@ -236,9 +329,19 @@ TEST_CASE("the error of a moving container names the key, its value and the allo
       {kTray, {"frequency = 30", "frequency = 300", {"container.frequency is 300", "ten time.step"}}},
       {kTray, {"amplitude = 0.001", "amplitude = -1", {"container.amplitude is -1", "(0, 1000] m"}}},
       {kTray, {"direction = [0, 0, 1]", "direction = [0, 0, 0]", {"container.direction", "a direction, not 0"}}},
-      {kCell, {"cut = 0.02", "cut = 0.2", {"container.cut is 0.2", "below container.height"}}},
-      {kCell, {"speed = 0.05", "speed = 0.2", {"container.speed is 0.2", "container.thickness"}}},
-      {kCell, {"lid = 0.11", "lid = 0.04", {"the scene has 7 grains", "up to"}}},
+      {kShearCell, {"cut = 0.02", "cut = 0.2", {"container.cut is 0.2", "below container.height"}}},
+      {kShearCell, {"speed = 0.05", "speed = 0.2", {"container.speed is 0.2", "container.thickness"}}},
+      {kShearCell, {"lid = 0.11", "lid = 0.04", {"the scene has 7 grains", "up to"}}},
+      {kCell,
+       {"stress = 1000, gain = 1e-4, largest_speed = 0.2 }",
+        "stress = -1, gain = 1, largest_speed = 1 }",
+        {"container.x_high.drive.stress is -1", "(0, 1e+09] Pa"}}},
+      {kCell, {"height = 0.1\n", "", {"container.z_high", "without container.height"}}},
+      {kCell, {"z_high.drive = { force", "z_hig.drive = { force", {"unknown key \"z_hig\"", "did you mean \"z_high\""}}},
+      {kCell, {"force = 0.5, mass", "force = 0.5, stress = 1, mass", {"container.z_high.drive has both force and stress"}}},
+      {kCell, {"y_high.friction = 0.2", "y_high.shape = \"box\"", {"unknown key \"shape\"", "container.y_high"}}},
+      {"kind = \"cell\"\nwidth = [0.05, 0.06]\nx_low.drive = { stress = 1, gain = 1, largest_speed = 1 }",
+       {"gain = 1,", "gain = 2,", {"container.x_low.drive.area is missing", "m^2"}}},
       {kBelt, {"thickness = 0.02", "thickness = 0.2", {"container.thickness is 0.2", "container.height"}}},
       {kBelt, {"speed = 0.4", "speed = 40", {"container.speed is 40", "a tenth"}}},
       {kBelt, {"drop_length = 0.1", "drop_length = 0.01", {"container.drop_length is 0.01", "beyond the last roller"}}},
@@ -251,7 +354,7 @@ TEST_CASE("the error of a moving container names the key, its value and the allo
 }
 
 TEST_CASE("the sample scenes with parts are valid, and their grains start within the container") {
-  for (const char* name : {"drum", "tray", "shear_cell", "conveyor", "piston"}) {
+  for (const char* name : {"drum", "tray", "shear_cell", "conveyor", "piston", "cell"}) {
     CAPTURE(name);
     const Scene scene = load_scene(SUPERNORMAL_SAMPLES "/scenes/" + std::string(name) + ".toml");
     Random random(scene.seed);

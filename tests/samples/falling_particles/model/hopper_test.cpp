@@ -257,7 +257,7 @@ TEST_CASE("grains rest on the lid, flow out when it is removed, and none leaks")
   Random random(2);
   World world(scene, place(scene, random));
   Stepper stepper(world, scene);
-  LeakWatch leaks(world, scene);
+  LeakWatch leaks(world);
   Discharge discharge(world, kHopper, random);
   constexpr int kSteps = 1600;  // 0.8 s
   for (int step = 1; step <= kSteps; ++step) {

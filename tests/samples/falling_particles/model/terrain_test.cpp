@@ -140,7 +140,7 @@ TEST_CASE("round, flat and boxy grains fall on a terrain and stay on it") {
   Random random(2);
   const World world(scene, place(scene, random));
   Stepper stepper(world, scene);
-  LeakWatch leaks(world, scene);
+  LeakWatch leaks(world);
   constexpr int kSteps = 1600;  // 0.8 s
   for (int step = 1; step <= kSteps; ++step) {
     stepper.step();

@@ -267,6 +267,20 @@ TEST_CASE("wear: in a periodic cell the area and centroid of a triangle belong t
   }
 }
 
+TEST_CASE("wear: triangles of a wall that is no mesh are refused") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string sheet = "[[part]]\nname = \"sheet\"\nshape = \"mesh\"\nunit = \"m\"\nfile = \"" + mesh + "\"\n";
+  const auto complaint_of = [](const std::string& parts, const std::string& surfaces) {
+    return complaint(open_scene(parts + wear_every(0.1, "per = \"triangle\"\n" + surfaces), 0.1));
+  };
+  check_says(complaint_of(kFloor, ""), {"measurement.per is \"triangle\"", "without a wall that is a mesh", "allowed: wall"});
+  check_says(complaint_of(kFloor + sheet, "surfaces = [\"sheet\", \"floor\"]\n"),
+             {"measurement.surfaces has \"floor\"", "no mesh", "allowed: sheet, or per = \"wall\""});
+  CHECK(complaint_of(kFloor + sheet, "surfaces = [\"sheet\"]\n").empty());
+  CHECK(complaint_of(kFloor + sheet, "").empty());
+}
+
 TEST_CASE("wear: a hardness in GPa, MPa or HV is refused") {
   for (const char* const hardness : {"1.5", "1500", "200"}) {
     const std::string text = complaint(open_scene(kFloor + replaced(wear_every(0.1), "1.5e9", hardness), 0.1));

@@ -75,9 +75,9 @@ TEST_CASE("the deepest overlap is found, between grains and with walls") {
   CHECK(overlap.pairs == 2);
   CHECK(overlap.depth == supernormal::test::relative(3e-3).epsilon(1e-9));
   CHECK(overlap.relative_to_pair == supernormal::test::relative(0.3).epsilon(1e-9));
-  CHECK(count_outside(world, scene) == 0);
+  CHECK(count_outside(world) == 0);
   dBodySetPosition(world.grains()[0].body, 0.05, 0.1, -0.001);
-  CHECK(count_outside(world, scene) == 1);
+  CHECK(count_outside(world) == 1);
 }
 
 TEST_CASE("nothing overlaps when all are apart") {

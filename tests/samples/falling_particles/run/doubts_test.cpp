@@ -12,9 +12,11 @@
 #include "base/interval.hpp"
 #include "complaint.hpp"
 #include "model/grain_shape.hpp"
+#include "observe/overlap.hpp"
 #include "observe/simulation.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"
+#include "world/placement.hpp"
 
 using namespace falling_particles;
 using supernormal::test::relative;
@@ -244,6 +246,39 @@ TEST_CASE("doubts: grains that start above nothing") {
                   {"7 of 7 grains start above nothing"});
 }
 
+TEST_CASE("doubts: grains of a start or a feeder that are partly above nothing are counted, with what their width may catch") {
+  // Grains start from x = 0 to 50 mm. The plate ends within, and a grate has bars nearer to each other than a pea is wide.
+  const auto plate = [](double end) {
+    return "[[part]]\nname = \"p\"\nshape = \"box\"\nsize = [1, 1, 0.1]\nposition = [" + shortest(end - 0.5) + ", 0, -0.05]\n";
+  };
+  const auto lost = [&](double end) {
+    const std::vector<std::string> doubts = doubts_about(in_open(plate(end)));
+    if (doubts.empty()) return 0;
+    check_says(doubts.front(), {" of 7 grains start above nothing", "they fall out of it unless other grains turn them aside"});
+    return static_cast<int>(std::stod(doubts.front()));
+  };
+  const Scene scene = in_open(plate(1));
+  Random random(scene.seed);
+  std::vector<double> ends;  // m, of the grains against x
+  for (const Placement& at : place(scene, random)) {
+    ends.push_back(at.position[0] - scene.kinds[at.kind].kind.bounding_radius());
+  }
+  for (const double end : {0.01, 0.02, 0.03, 0.05}) {
+    CAPTURE(end);
+    CHECK(lost(end) == std::ranges::count_if(ends, [&](double from) { return from > end; }));
+  }
+  std::string grate;
+  for (int i = 0; i < 16; ++i) {
+    grate += "[[part]]\nname = \"bar" + std::to_string(i) + "\"\nshape = \"box\"\nsize = [0.0015, 1, 0.01]\nposition = [" +
+             shortest(0.0045 * i - 0.005) + ", 0, -0.02]\n";
+  }
+  CHECK(doubts_about(in_open(grate)).empty());
+  const std::string feeder = "[[feeder]]\nname = \"f\"\ncorner = [0, 0, 0.6]\nsize = [0.1, 0.06, 0.05]\ngrains_per_second = 100\n";
+  const std::vector<std::string> doubts = doubts_about(in_open(feeder + plate(0.07)));
+  REQUIRE(doubts.size() == 1);
+  check_says(doubts.front(), {"some grains that feeder \"f\" brings are above nothing"});
+}
+
 TEST_CASE("doubts: sinks that take grains where they come, and parts that no grain meets") {
   const std::string text = kSceneText;
   check_one_doubt(scene_of(text + "[[sink]]\nname = \"s\"\ncorner = [-1, -1, -1]\nsize = [2, 2, 2]\n"),
@@ -355,6 +390,79 @@ TEST_CASE("doubts: a part with a mass is compared with the grains that bear it, 
   CHECK(doubts_about(drive(100, -9.81 * 100)).empty());  // held by its drive
 }
 
+namespace {
+
+/// A single layer of 5 x 5 weightless balls on a floor. A servo presses them with 1.23 kPa, in `steps` of 20 ms at most.
+struct PressedLayer {
+  double step = 0.02;  // s
+  double gain = 2e-5;  // m/(s Pa)
+  int iterations = 40;
+
+  Scene scene() const {
+    constexpr double kPitch = 0.0102;  // m
+    Scene scene = scene_of(Box{{5 * kPitch, 5 * kPitch}}, {{ball(), 25}});
+    scene.effects.erase(scene.effects.begin());  // gravity
+    scene.start = StartState{.overlap = 0.1};
+    for (int i = 0; i < 25; ++i) {
+      scene.start->grains.push_back(
+          {.position = {kPitch * (i % 5 + 0.5), kPitch * (i / 5 + 0.5), 5e-3}});  // NOLINT(*-integer-division)
+    }
+    scene.walls.push_back({"lid", BoxShape{{5 * kPitch, 5 * kPitch, 5e-3}}, {{2.5 * kPitch, 2.5 * kPitch, 0.01251}}});
+    scene.walls.back().drive = Drive{-Vector3::UnitZ(), 0, 0};
+    scene.walls.back().drive->servo = Servo{kStress, gain, 0.1, area()};
+    scene.solver.iterations = iterations;
+    scene.time = {600 * step, step, 600 * step};
+    return scene;
+  }
+  double overlap() const {  // of a half-axis, at rest
+    const Scene pressed = scene();
+    Simulation simulation(pressed, 1);
+    for (int i = 0; i < 600; ++i) simulation.stepper.step(false);
+    return measure_overlap(simulation.world).relative_to_pair;
+  }
+
+  static constexpr double kStress = 1234;
+  static double area() { return 0.051 * 0.051; }
+};
+
+double number_after(const std::string& text, const std::string& words) {
+  const std::size_t at = text.find(words);
+  REQUIRE(at != std::string::npos);
+  return std::stod(text.substr(at + words.size()));
+}
+
+}  // namespace
+
+TEST_CASE("doubts: a servo on a single layer is compared with the iterations, as a run overlaps, and each remedy would do") {
+  const auto doubts_of = [](const PressedLayer& layer) { return doubts_about(layer.scene()); };
+  const PressedLayer coarse;
+  // The servo has the mass step x area / gain on 25 grains, and the speed gain x stress in each step.
+  const double part = coarse.step * PressedLayer::area() / coarse.gain / 25 / mass_of(ball());     // q
+  const double allowed = 0.01 * 5e-3 * 0.2 / (coarse.gain * PressedLayer::kStress * coarse.step);  // f / (1 - f)
+  const double iterations = std::log1p(1 / allowed) / std::log1p(1 / part);
+  CHECK(doubts_of({.iterations = static_cast<int>(iterations) + 1}).empty());
+  CHECK(doubts_of({.iterations = static_cast<int>(iterations)}).size() == 1);
+
+  const std::vector<std::string> doubts = doubts_of(coarse);
+  REQUIRE(doubts.size() == 1);
+  check_says(doubts.front(),
+             {"part \"lid\" on grains, as a servo of the mass time.step x area / part.drive.gain, has",
+              "it sinks into such grains by about 0.", "or part.drive.gain from", "m/(s Pa) on would do (grains.md)"});
+  CHECK(coarse.overlap() > 0.1);
+  constexpr double kRounding = 0.005;  // of three digits
+  const double step = number_after(doubts.front(), "time.step up to ");
+  const double gain = number_after(doubts.front(), "part.drive.gain from ");
+  const auto fewest = static_cast<int>(number_after(doubts.front(), "solver.iterations from "));
+  const std::vector<PressedLayer> remedies = {
+      {.step = step * (1 - kRounding)}, {.gain = gain * (1 + kRounding)}, {.iterations = fewest}};
+  for (const PressedLayer& remedy : remedies) {
+    CHECK(doubts_of(remedy).empty());
+    CHECK(remedy.overlap() < 0.01);
+  }
+  CHECK(doubts_of({.step = step * (1 + kRounding)}).size() == 1);
+  CHECK(doubts_of({.gain = gain * (1 - kRounding)}).size() == 1);
+}
+
 TEST_CASE("doubts: a free part that does not start where the run before has left it is named, with its place") {
   const auto started = [](const std::string& parts) {
     const TemporaryFolder folder;
@@ -463,8 +571,8 @@ TEST_CASE("doubts: a servo that turns its back to all grains is named, with the 
                   {"part \"p\" is a servo whose axis points away from all grains", "part.drive.axis = [0, 0, -1] would do"});
   CHECK(doubts_about(servo("[0.025, 0.03, 0.005]", "[0, 0, 1]")).empty());
   const std::string plane =
-      "shape = \"plane\"\nposition = [0, 0, 1]\naxis = [1, 0, 0]\nangle = 180\n[part.drive]\nstress = 1000\ngain = 1e-4\n"
-      "largest_speed = 1\narea = 1\naxis = ";
+      "shape = \"plane\"\nposition = [0, 0, 1]\naxis = [1, 0, 0]\nangle = 180\n[part.drive]\nstress = 100\ngain = 1e-4\n"
+      "largest_speed = 1\narea = 0.003\naxis = ";
   CHECK(doubts_about(with_part(plane + "[0, 0, -1]\n")).empty());
   check_one_doubt(with_part(plane + "[0, 0, 1]\n"), {"points away from all grains"});
 }
@@ -504,7 +612,24 @@ TEST_CASE("doubts: springs with contacts of fewer than ten steps are named, as a
   }
   check_one_doubt(on_springs(ball(), 4 * stiffness),
                   {"compliance has contacts of fewer than ten steps: a shorter step would be better", R"("ball" and "ball")",
-                   "may touch for 5 steps", "time.step up to 0.00025 s", "compliance.stiffness up to"});
+                   "may touch for 5 steps", "time.step up to 0.00025 s would do; compliance.stiffness up to",
+                   "N/m would do too, but softer springs overlap 4 times as deep under the same load, and by"});
+}
+
+TEST_CASE("doubts: softer springs overlap as deep as they are said to") {
+  const double stiffness = 16 * std::pow(std::numbers::pi / 10 / 5e-4, 2) * mass_of(ball()) / 2;  // 2.5 steps
+  const std::vector<std::string> doubts = doubts_about(on_springs(ball(), stiffness));
+  REQUIRE(doubts.size() == 1);
+  check_says(doubts.front(), {"softer springs overlap 16 times as deep under the same load", "in an impact with 0.1 m/s"});
+  // m: the depth is speed / sqrt(stiffness (1 / m1 + 1 / m2)), of the fastest grain against one at rest.
+  const double depth = 0.1 * std::sqrt(mass_of(ball()) / 2 / stiffness);
+  CHECK(number_after(doubts.front(), "the same load, and by ") == relative(4 * depth / 5e-3).epsilon(0.005));
+  CHECK(number_after(doubts.front(), " and not ") == relative(depth / 5e-3).epsilon(0.005));
+  Scene resting = on_springs(ball(), stiffness);
+  for (StartGrain& grain : resting.start->grains) grain.velocity = {};
+  const std::vector<std::string> of_rest = doubts_about(resting);
+  REQUIRE(of_rest.size() == 1);
+  CHECK(of_rest.front().ends_with("times as deep under the same load"));
 }
 
 TEST_CASE("doubts: a light part on springs is named with the grain that it meets") {
@@ -543,5 +668,11 @@ TEST_CASE("doubts: Hertz's contacts of the fall from the start are named if they
   CHECK(half_period(modulus) == relative(10 * 5e-4).epsilon(1e-9));
   const double youngs = 2 * modulus * (1 - 0.3 * 0.3);
   CHECK(doubts_about(with(0.99 * youngs)).empty());
-  check_one_doubt(with(1.01 * youngs), {"hertz has contacts of fewer than ten steps", "hertz.youngs_modulus up to"});
+  check_one_doubt(with(1.01 * youngs), {"hertz has contacts of fewer than ten steps", "hertz.youngs_modulus up to",
+                                        "Pa would do too, but softer springs overlap 1.0"});
+  const std::vector<std::string> doubts = doubts_about(with(32 * youngs));  // 32^0.4 = 4 times fewer steps
+  REQUIRE(doubts.size() == 1);
+  CHECK(number_after(doubts.front(), "softer springs overlap ") == relative(std::pow(32, 2.0 / 3)).epsilon(0.005));
+  CHECK(number_after(doubts.front(), "the same load, and by ") ==
+        relative(4 * number_after(doubts.front(), " and not ")).epsilon(0.01));
 }

@@ -51,7 +51,7 @@ TEST_CASE("a grain keeps its velocity through a periodic boundary, and meets a g
   dBodySetLinearVel(moving.body, 0.5, 0, 0);
   const double before = momentum(world);
   Stepper stepper(world, scene);
-  LeakWatch leaks(world, scene);
+  LeakWatch leaks(world);
   int steps = 0;
   while (stepper.contacts() == 0) {
     REQUIRE(steps < 200);
@@ -81,7 +81,7 @@ TEST_CASE("the stress of a periodic bed balances its weight, and the floor bears
   const World world(scene, place(scene, random));
   REQUIRE(world.walls().geoms().size() == 1);
   Stepper stepper(world, scene);
-  LeakWatch leaks(world, scene);
+  LeakWatch leaks(world);
   constexpr int kSettling = 1600, kSamples = 100;
   double stress = 0, moment = 0, floor = 0, weight = 0;
   for (int step = 1; step <= kSettling + kSamples; ++step) {
@@ -137,7 +137,7 @@ TEST_CASE("a drum that is periodic along its axis has no ends, and keeps its gra
   Random random(1);
   const World world(scene, place(scene, random));
   Stepper stepper(world, scene);
-  LeakWatch leaks(world, scene);
+  LeakWatch leaks(world);
   for (int step = 1; step <= 2000; ++step) {
     stepper.step();
     leaks.after_step(step * scene.time.step);
@@ -169,7 +169,7 @@ size = [0.02, 0.02, 0.02]
     World world(scene, {});
     Population population(world, scene);
     Stepper stepper(world, scene, threads);
-    LeakWatch leaks(world, scene);
+    LeakWatch leaks(world);
     for (int step = 1; step <= 800; ++step) {
       population.before_step(step * scene.time.step);
       stepper.step();

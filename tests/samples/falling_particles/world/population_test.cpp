@@ -48,7 +48,7 @@ constexpr Quantity kilograms(double number) { return {number, Quantity::Of::Mass
 /// A world and its population, stepped together.
 struct Plant {
   explicit Plant(const Scene& scene, const std::vector<Placement>& placements = {})
-      : world(scene, placements), population(world, scene), stepper(world, scene), energy(world, scene), leaks(world, scene) {}
+      : world(scene, placements), population(world, scene), stepper(world, scene), energy(world, scene), leaks(world) {}
   void step() {
     ++steps;
     energy.exchange(population.before_step(steps * kStepOfChanges));

@@ -41,7 +41,7 @@ bool leaves(const Scene& scene, const Point& velocity) {
   const World world(scene, {{0, {0.025, 0.025, 0.02}, {1, 0, 0, 0}}});
   dBodySetLinearVel(world.grains()[0].body, velocity[0], velocity[1], velocity[2]);
   Stepper stepper(world, scene);
-  LeakWatch leaks(world, scene);
+  LeakWatch leaks(world);
   for (int k = 1; k <= 20; ++k) {
     stepper.step();
     leaks.after_step(k * scene.time.step);
