@@ -28,10 +28,18 @@ std::string shortest(double value) {
   return {buffer.data(), end};
 }
 
-std::string rounded(double value) {
+std::string rounded(double value, int digits) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
+  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
   return text.data();
+}
+
+std::string rounded_up(double value) {
+  constexpr int kDigits = 6;
+  const std::string nearest = rounded(value, kDigits);
+  if (value == 0 || std::stod(nearest) >= value) return nearest;
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - kDigits + 1);
+  return rounded(value + unit / 2, kDigits);
 }
 
 }  // namespace falling_particles

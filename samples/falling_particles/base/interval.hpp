@@ -31,7 +31,10 @@ struct Interval {
 /// The shortest text that reads back as the same number.
 std::string shortest(double value);
 
-/// The number as text, with three significant digits.
-std::string rounded(double value);
+/// The number as text, with three significant digits, or as many as are asked for.
+std::string rounded(double value, int digits = 3);
+
+/// The least number of six significant digits that is not below `value`: a computed bound, which an input may have as it is read.
+std::string rounded_up(double value);
 
 }  // namespace falling_particles

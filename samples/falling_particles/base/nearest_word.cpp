@@ -31,6 +31,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates) {
+  // A word without what follows its first underscore, such as the unit of a column.
+  for (const std::string& candidate : candidates) {
+    if (!word.empty() && candidate.size() > word.size() && candidate.starts_with(word) && candidate[word.size()] == '_')
+      return candidate;
+  }
   std::string best;
   std::size_t fewest_edits = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {

@@ -256,19 +256,19 @@ TomlFile::TomlFile(const std::string& path, const std::string& what, const std::
     : TomlFile(Text{content_of(path, what), path}, assignments) {}
 
 TomlFile::TomlFile(const Text& text, const std::vector<std::string>& assignments) {
-  const auto& [content, path] = text;
+  const auto& [content, name] = text;
   if (const std::optional<unsigned> line = find_deep_toml(content)) {
-    throw InputError(path, *line,
+    throw InputError(name, *line,
                      "keys, arrays or tables are nested in more than " + std::to_string(kMostTomlLevels) +
                          " levels; allowed: up to " + std::to_string(kMostTomlLevels));
   }
   try {
-    auto root = std::make_shared<toml::table>(toml::parse(content, path));
+    auto root = std::make_shared<toml::table>(toml::parse(content, name));
     set_values(*root, assignments);
     const toml::table* top = root.get();
-    node_ = std::make_shared<const TomlTable::Node>(TomlTable::Node{std::move(root), top, path, ""});
+    node_ = std::make_shared<const TomlTable::Node>(TomlTable::Node{std::move(root), top, name, ""});
   } catch (const toml::parse_error& error) {
-    throw InputError(path, error.source().begin.line, std::string(error.description()) + " (allowed: valid TOML 1.0)");
+    throw InputError(name, error.source().begin.line, std::string(error.description()) + " (allowed: valid TOML 1.0)");
   }
 }
 

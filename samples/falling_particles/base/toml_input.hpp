@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "input_error.hpp"
 #include "interval.hpp"
 
 namespace falling_particles {
@@ -73,10 +74,10 @@ class TomlFile {
   /// Replaces values of the file first (set_values()). Throws InputError when `path` is not a readable file or not valid TOML.
   /// `what` names its purpose in the message: "scene file".
   TomlFile(const std::string& path, const std::string& what, const std::vector<std::string>& assignments = {});
-  /// The content of a file. `path` names the file in messages; it need not exist.
+  /// A text, which messages call `name`.
   struct Text {
     std::string content;
-    std::string path;
+    std::string name{InputError::kText};
   };
   explicit TomlFile(const Text& text, const std::vector<std::string>& assignments = {});
 

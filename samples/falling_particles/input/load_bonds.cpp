@@ -77,6 +77,7 @@ class PairReader {
     for (const StateTable::Row& row : table.rows()) {
       if (table.has("bond") && table.word(row, "bond") != rule_.name) continue;
       pairs.push_back(read_pair(table, row));
+      pairs.back().line = row.line;
       if (table.has("radius_m")) pairs.back().radius = table.number(row, "radius_m", Interval::positive(kLargestLength, "m"));
       if (has_rest) pairs.back().rest = read_rest(table, row);
     }
@@ -205,6 +206,7 @@ void read_pairs(const TomlTable& section, const Scene& scene, const std::string&
     section.fail("file", "bond.file: there is no file \"" + path.string() +
                              "\"; allowed: final_bonds.csv of a run, or another CSV file, its path relative to the scene file");
   }
+  rule.file = path;
   rule.pairs = reader.read_file(path);
 }
 

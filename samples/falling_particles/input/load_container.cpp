@@ -184,8 +184,8 @@ void check_width(const TomlTable& table, const Scene& scene) {
   const char* key = "width";
   if (std::holds_alternative<Open>(scene.container)) key = "start";
   if (std::holds_alternative<Drum>(scene.container)) key = plan.width[0] < plan.width[1] ? "diameter" : "length";
-  table.fail(key, "container." + std::string(key) + " is " + shortest(narrowest) + " at its narrowest; allowed: at least " +
-                      shortest(cell) + " m, so that the largest grain fits in any orientation");
+  table.fail(key, "container." + std::string(key) + " is " + rounded(narrowest, 6) + " at its narrowest; allowed: at least " +
+                      rounded_up(cell) + " m, so that the largest grain fits in any orientation");
 }
 
 /// Below a ceiling there may be no space for all grains of the start.
@@ -207,7 +207,7 @@ void check_ceiling(const TomlTable& table, const Scene& scene) {
 void check_periodic(const TomlTable& table, const Scene& scene, const Periodic& periodic) {
   const double least = 4 * scene.largest_bounding_radius();
   if (periodic.side >= least) return;
-  table.fail("side", "container.side is " + shortest(periodic.side) + "; allowed: at least " + shortest(least) +
+  table.fail("side", "container.side is " + shortest(periodic.side) + "; allowed: at least " + rounded_up(least) +
                          " m, so that no grain meets itself");
 }
 
@@ -215,13 +215,14 @@ void check_periodic(const TomlTable& table, const Scene& scene, const Periodic& 
 void check_hopper(const TomlTable& table, const Scene& scene, const Hopper& hopper) {
   const double narrowest = 3 * scene.smallest_cell();
   if (hopper.diameter < narrowest) {
-    table.fail("diameter", "container.diameter is " + shortest(hopper.diameter) + "; allowed: at least " + shortest(narrowest) +
+    table.fail("diameter", "container.diameter is " + shortest(hopper.diameter) + "; allowed: at least " + rounded_up(narrowest) +
                                " m, so that the lattice of the grains' starts has a cell in it");
   }
   const double missing = filled_lattice(scene).top() - hopper.top();
   if (missing <= 0) return;
   table.fail("cylinder_height", "container.cylinder_height is " + shortest(hopper.cylinder_height) + "; allowed: at least " +
-                                    shortest(hopper.cylinder_height + missing) + " m, so that all grains start within the hopper");
+                                    rounded_up(hopper.cylinder_height + missing) +
+                                    " m, so that all grains start within the hopper");
 }
 
 }  // namespace

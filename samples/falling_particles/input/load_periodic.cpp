@@ -46,7 +46,7 @@ Period read_period(const TomlTable& table, std::size_t axis, const Scene& scene)
   const double least = 4 * scene.largest_bounding_radius();
   if (!(period.length >= least)) {
     table.fail(key, "periodic." + std::string(key) + " is " + in_brackets(period) + "; allowed: the upper end at least " +
-                        shortest(least) + " m above the lower one, so that no grain meets itself");
+                        rounded_up(least) + " m above the lower one, so that no grain meets itself");
   }
   if (const Open* open = std::get_if<Open>(&scene.container)) {
     check_start(table, key, period, *open, axis);

@@ -120,7 +120,7 @@ void check_size(const TomlTable& table, const Feeder& feeder, const Scene& scene
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (feeder.region.size[axis] >= width) continue;
       table.fail("size", table.full_name("size") + "[" + std::to_string(axis) + "] is " + shortest(feeder.region.size[axis]) +
-                             "; allowed: at least " + shortest(width) + " m, so that grain \"" + entry.kind.name +
+                             "; allowed: at least " + rounded_up(width) + " m, so that grain \"" + entry.kind.name +
                              "\" fits in any orientation");
     }
   }

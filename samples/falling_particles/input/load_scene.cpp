@@ -274,11 +274,12 @@ std::vector<std::string> sections() {
   return names;
 }
 
-Scene load(const TomlFile& file, const std::string& path, const std::vector<std::string>& overrides) {
+Scene load(const TomlFile& file, const std::string& path, const std::string& called, const std::vector<std::string>& overrides) {
   const TomlTable root = file.root(sections());
   Scene scene{};
   scene.name = std::filesystem::path(path).stem().string();
   scene.path = path;
+  scene.called = called;
   scene.overrides = overrides;
   scene.seed = static_cast<std::uint64_t>(root.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
   scene.time = read_time(root.table("time", {"duration", "step", "frame"}));
@@ -309,13 +310,13 @@ Scene load(const TomlFile& file, const std::string& path, const std::vector<std:
 }  // namespace
 
 Scene load_scene(const std::string& path, const std::vector<std::string>& overrides) {
-  Scene scene = load(TomlFile(path, "scene file", overrides), path, overrides);
+  Scene scene = load(TomlFile(path, "scene file", overrides), path, path, overrides);
   scene.files.insert(scene.files.begin(), path);
   return scene;
 }
 
 Scene load_scene_text(const std::string& content, const std::string& path, const std::vector<std::string>& overrides) {
-  return load(TomlFile(TomlFile::Text{content, path}, overrides), path, overrides);
+  return load(TomlFile(TomlFile::Text{content}, overrides), path, std::string(InputError::kText), overrides);
 }
 
 }  // namespace falling_particles

@@ -102,7 +102,7 @@ class StateTable::Lines {
   unsigned number_ = 0;
 };
 
-StateTable::StateTable(const std::filesystem::path& path) : path_(path), text_(read_file(path)) {
+StateTable::StateTable(const std::filesystem::path& path, Frames frames) : path_(path), frames_(frames), text_(read_file(path)) {
   if (text_.starts_with(kByteOrderMark)) text_.erase(0, kByteOrderMark.size());
   is_dump_ = text_.starts_with("ITEM:");
   Lines lines(text_);
@@ -114,8 +114,9 @@ void StateTable::fail(unsigned line, const std::string& text) const { throw Inpu
 
 void StateTable::add_row(const Line& line, std::vector<std::string_view> fields) {
   if (fields.size() != columns_.size()) {
-    fail(line.number, "the line has " + std::to_string(fields.size()) + " fields; allowed: " + std::to_string(columns_.size()) +
-                          ", as line " + std::to_string(head_) + " has columns");
+    fail(line.number, "the line has " + std::to_string(fields.size()) + (fields.size() == 1 ? " field" : " fields") +
+                          "; allowed: " + std::to_string(columns_.size()) + ", as line " + std::to_string(head_) +
+                          " has columns, separated by " + (is_dump_ ? "blanks" : "commas"));
   }
   rows_.push_back({line.number, std::move(fields)});
 }
@@ -128,9 +129,13 @@ void StateTable::read_csv(Lines& lines) {
     if (has(name)) fail(head_, "column " + in_quotes(name) + " occurs twice; allowed: once");
     columns_.emplace_back(name);
   }
+  if (columns_.size() == 1) {
+    fail(head_, "the line with the names of the columns is " + in_quotes(columns_[0]) +
+                    ", without a comma; allowed: columns separated by commas, with points in their numbers");
+  }
   while (const std::optional<Line> line = lines.next()) {
     add_row(*line, split_at_commas(line->text));
-    if (!has("time_s")) continue;
+    if (frames_ == Frames::All || !has("time_s")) continue;
     const double time = number(rows_.back(), "time_s", Interval::finite("a time, s"));
     if (time_ && time < *time_) {
       rows_.pop_back();

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
@@ -33,6 +34,7 @@ struct BondedPair {
   std::size_t second = 0;             ///< the same
   std::optional<double> radius = {};  ///< m; as the rule says if empty
   std::optional<BondRest> rest = {};  ///< the unstrained pose; the start if empty
+  unsigned line = 0;                  ///< of BondRule::file
 };
 
 enum class BondKind {
@@ -48,6 +50,7 @@ struct BondRule {
   BondKind kind = BondKind::Beam;
   std::optional<double> touching = {};   ///< bonds all pairs with a gap up to this fraction of the smallest half-axis
   std::vector<BondedPair> pairs = {};    ///< the bonded pairs, if `touching` is empty
+  std::filesystem::path file = {};       ///< from which the pairs are; empty if the scene names them
   std::optional<std::size_t> wall = {};  ///< index into Scene::walls: bonds grains to this part, not to one another
   double modulus = 0;                    ///< Pa, Young's
   double poisson_ratio = 0;

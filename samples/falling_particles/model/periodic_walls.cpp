@@ -180,8 +180,8 @@ std::optional<std::string> find_end(const Wall& wall, std::size_t axis, const Pe
   const Ends ends = ends_of(wall, axis);
   const Ends needed{period.lower - way, period.upper() + way};
   if (ends.lower <= needed.lower + kRounding && ends.upper >= needed.upper - kRounding) return std::nullopt;
-  return "it reaches from " + shortest(ends.lower) + " to " + shortest(ends.upper) + " m and must from " + shortest(needed.lower) +
-         " to " + shortest(needed.upper) + " m, where the images of grains meet it";
+  return "it reaches from " + rounded(ends.lower, 6) + " to " + rounded(ends.upper, 6) + " m and must from " +
+         rounded(needed.lower, 6) + " to " + rounded(needed.upper, 6) + " m, where the images of grains meet it";
 }
 
 }  // namespace falling_particles

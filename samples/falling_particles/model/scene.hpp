@@ -75,8 +75,9 @@ struct Compression {
 };
 
 struct Scene {
-  std::string name;       ///< name of the file without folder and extension
-  std::string path = {};  ///< of the file, or where a text would be
+  std::string name;         ///< name of the file without folder and extension
+  std::string path = {};    ///< of the file, or where a text would be
+  std::string called = {};  ///< in messages
   std::uint64_t seed;
   Container container;
   std::vector<GrainCount> kinds;
@@ -127,8 +128,8 @@ bool is_inside(const Scene& scene, const Point& point);
 /// Loads a scene file, with `overrides` in place of its own values (toml_override.hpp). Throws InputError.
 Scene load_scene(const std::string& path, const std::vector<std::string>& overrides = {});
 
-/// Loads the content of a scene file. `path` is where the file would be: it names the scene and the file in messages, and the paths
-/// in the scene are relative to its folder. Scene::files has no entry for it.
+/// Loads the content of a scene file. `path` is where the file would be: it names the scene, and the paths in the scene are
+/// relative to its folder. Scene::files has no entry for it.
 Scene load_scene_text(const std::string& content, const std::string& path, const std::vector<std::string>& overrides = {});
 
 }  // namespace falling_particles

@@ -65,7 +65,7 @@ void add_run(Lines& lines, const Summary& s) {
   }
   lines.add("steps", static_cast<unsigned long long>(s.steps));
   lines.add("simulated", s.simulated_seconds, "s");
-  lines.add("interrupted", s.interrupted, "stopped by Ctrl-C before the end");
+  lines.add("interrupted", s.interrupted, "whether the run ended before time.duration");
 }
 
 void add_sizes(Lines& lines, const std::vector<DrawnSizes>& all) {
@@ -247,7 +247,9 @@ void add_costs(Lines& lines, const Summary& s) {
   lines.add_time("share_narrow_phase", narrow / total, "contacts of the pairs, on all threads");
   lines.add_time("share_contact_setup", c.contact_setup.seconds() / total, "contact joints made and removed");
   lines.add_time("share_solver", solver / total, "dWorldQuickStep");
-  lines.add_time("share_output", (total - c.collision.seconds() - c.contact_setup.seconds() - solver) / total, "the rest");
+  if (s.bonds != nullptr) lines.add_time("share_bonds", c.bonds.seconds() / total, "forces and breaks of bonds");
+  const double known = c.collision.seconds() + c.contact_setup.seconds() + solver + c.bonds.seconds();
+  lines.add_time("share_output", (total - known) / total, "the rest");
   if (s.checkpoints.number > 0) {
     lines.add("checkpoints", s.checkpoints.number, "written");
     lines.add_time("checkpoint_seconds", s.checkpoints.watch.seconds(), "s, besides real: to write them and to go on from them");
@@ -255,16 +257,21 @@ void add_costs(Lines& lines, const Summary& s) {
   lines.add_time("seconds_per_pair", c.pairs_tested == 0 ? 0 : narrow / static_cast<double>(c.pairs_tested), "s, of narrow phase");
 }
 
-/// Adds the cost of each effect that the scene names, rigid contact first. The seconds are the time of its own passes and, by rows,
-/// its share of the solver's time.
-void add_effect_costs(Lines& lines, const Summary& s) {
-  unsigned long long rows = 0;
+/// Adds the cost of the bonds, and of each effect that the scene names, rigid contact first. The seconds are the time of its own
+/// passes and, by rows, its share of the solver's time.
+void add_costs_by_rows(Lines& lines, const Summary& s) {
+  constexpr const char* kSeconds = "s, in its passes and its rows' share of the solver";
+  unsigned long long rows = s.bonds == nullptr ? 0 : s.bonds->rows();
   for (const supernormal::effects::Cost& cost : s.effects) rows += cost.rows;
+  if (s.bonds != nullptr) {
+    const double seconds = s.costs.bonds.seconds() + ratio(s.bonds->rows(), rows) * s.costs.solver.seconds();
+    lines.add_time("bonds.seconds", seconds, kSeconds);
+    lines.add("bonds.rows", static_cast<unsigned long long>(s.bonds->rows()), "constraint rows added");
+  }
   for (const supernormal::effects::Cost& cost : s.effects) {
     const std::string section = std::string("effect.") + cost.name + ".";
     const auto add = [&](const char* key, auto value, const char* comment) { lines.add((section + key).c_str(), value, comment); };
-    lines.add_time((section + "seconds").c_str(), cost.seconds + ratio(cost.rows, rows) * s.costs.solver.seconds(),
-                   "s, in its passes and its rows' share of the solver");
+    lines.add_time((section + "seconds").c_str(), cost.seconds + ratio(cost.rows, rows) * s.costs.solver.seconds(), kSeconds);
     if (cost.rows > 0) add("rows", cost.rows, "constraint rows added");
     const bool is_ahead = std::string_view(cost.name) == "speculative_contacts";
     if (cost.contacts > 0) add("contacts", cost.contacts, is_ahead ? "ahead of touch" : "touched");
@@ -299,7 +306,7 @@ std::string to_toml(const Summary& summary, Times times) {
   if (summary.packing) add_packing(lines, *summary.packing);
   if (summary.heap) add_heap(lines, *summary.heap);
   add_costs(lines, summary);
-  add_effect_costs(lines, summary);
+  add_costs_by_rows(lines, summary);
   add_measurement_costs(lines, summary);
   return lines.text();
 }

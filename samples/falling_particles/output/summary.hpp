@@ -37,7 +37,7 @@ struct CheckpointCost {
 /// The work and the results of a run.
 struct Summary {
   const Scene& scene;
-  bool interrupted;
+  bool interrupted;  ///< before the end of the scene
   int steps;
   double simulated_seconds;
   double real_seconds;  ///< s, of the steps and their output, without the measurements at the end

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <supernormal/shapes/description.hpp>
+#include <variant>
 
 #include "model/grain_shape.hpp"
 #include "world/to_vector.hpp"
@@ -152,7 +153,7 @@ py::dict contacts_of(const StepwiseRun& run) {
 py::dict walls_of(const StepwiseRun& run) {
   const WallBodies& walls = run.simulation().world.walls();
   py::list names;
-  Vectors3 position(walls.count()), velocity(walls.count()), angular_velocity(walls.count());
+  Vectors3 position(walls.count()), normal(walls.count()), velocity(walls.count()), angular_velocity(walls.count());
   Quaternions quaternion(walls.count());
   for (std::size_t i = 0; i < walls.count(); ++i) {
     const WallState state = walls.state(i);
@@ -160,6 +161,11 @@ py::dict walls_of(const StepwiseRun& run) {
     names.append(walls.wall(i).name);
     position.set(i, values_of(state.pose.position));
     quaternion.set(i, std::array{q.w(), q.x(), q.y(), q.z()});
+    if (const auto* const plane = std::get_if<PlaneShape>(&walls.wall(i).shape)) {
+      normal.set(i, values_of(q * plane->normal));
+    } else {
+      normal.set_none(i);
+    }
     velocity.set(i, values_of(state.velocity.linear));
     angular_velocity.set(i, values_of(state.velocity.angular));
   }
@@ -167,6 +173,7 @@ py::dict walls_of(const StepwiseRun& run) {
   fields["name"] = py::tuple(names);
   fields["position"] = position.array();
   fields["quaternion"] = quaternion.array();
+  fields["normal"] = normal.array();
   fields["velocity"] = velocity.array();
   fields["angular_velocity"] = angular_velocity.array();
   return fields;

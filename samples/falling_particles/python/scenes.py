@@ -47,45 +47,51 @@ _MOST_STEPS = 1_000_000_000  # of a scene
 
 @dataclasses.dataclass(frozen=True)
 class Kind:
-    """A kind of grain of a scene."""
+    """A kind of grain of a scene.
+
+    name: in the catalogue.
+    count: grains at the start.
+    density: kg/m^3; of a compound, the mean.
+    mass: kg, of a grain of scale 1.
+    bounding_radius: m, of a sphere about the centre of mass that contains a grain of scale 1.
+    components: the bodies of a grain of scale 1 with their poses in its frame; one, unless the kind is a compound.
+    """
 
     name: str
     count: int
-    """Grains at the start."""
     density: float
-    """kg/m^3; of a compound, the mean."""
     mass: float
-    """kg, of a grain of scale 1."""
     bounding_radius: float
-    """m, of a sphere about the centre of mass that contains a grain of scale 1."""
     components: Tuple[Tuple[Shape, Pose], ...]
-    """The bodies of a grain of scale 1 with their places in its frame; one, unless the kind is a compound."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Grains:
-    """All grains so far, N of them. An index stays the grain's, also after a sink has removed it."""
+    """All grains so far, N of them. An index stays the grain's, also after a sink has removed it.
+
+    kind: (N,); index into Scene.kinds.
+    is_present: (N,); False for a removed grain, whose position, quaternion and velocities are NaN.
+    is_awake: (N,); False while [auto_disable] lets a grain sleep.
+    scale: (N,); the factor on the lengths of the kind.
+    mass: (N,); kg.
+    volume: (N,); m^3.
+    position: (N, 3); m, of the centre of mass, in the frame of the world. Along periodic axes it may be outside the cell.
+    quaternion: (N, 4); w, x, y, z: the unit rotation from the frame of the grain to the world's. The axes of a grain are those of
+        its half_axes, or of its compound, in the catalogue.
+    velocity: (N, 3); m/s, of the centre of mass, in the frame of the world.
+    angular_velocity: (N, 3); rad/s, in the frame of the world.
+    """
 
     kind: npt.NDArray[np.int64]
-    """(N,); index into Scene.kinds."""
     is_present: npt.NDArray[np.bool_]
-    """(N,); False for a removed grain, whose position, quaternion and velocities are NaN."""
     is_awake: npt.NDArray[np.bool_]
-    """(N,); False while [auto_disable] lets a grain sleep."""
     scale: Array
-    """(N,); the factor on the lengths of the kind."""
     mass: Array
-    """(N,); kg."""
     volume: Array
-    """(N,); m^3."""
     position: Array
-    """(N, 3); m, of the centre of mass. Along periodic axes it may be outside the cell."""
     quaternion: Array
-    """(N, 4); w, x, y, z."""
     velocity: Array
-    """(N, 3); m/s, of the centre of mass."""
     angular_velocity: Array
-    """(N, 3); rad/s."""
 
     def __len__(self) -> int:
         return len(self.kind)
@@ -94,22 +100,24 @@ class Grains:
 @dataclasses.dataclass(frozen=True)
 class Contacts:
     """The contact points of the last step, M of them. A pair has up to five. There are none before a step and after a change of
-    effects."""
+    effects. Vectors are in the frame of the world.
+
+    grain1: (M,); index into Grains.
+    grain2: (M,); index into Grains; -1 for a wall.
+    wall: (M,); index into Walls; -1 for a grain.
+    position: (M, 3); m, where the force acts.
+    normal: (M, 3); unit, from grain 2 or the wall towards grain 1. Along it a force pushes grain 1 away.
+    depth: (M,); m, along the normal, at the start of the step: positive for overlap, negative for contacts ahead of touch.
+    force: (M, 3); N, on grain 1, during the step; NaN unless World.step() was asked for forces.
+    """
 
     grain1: npt.NDArray[np.int64]
-    """(M,); index into Grains."""
     grain2: npt.NDArray[np.int64]
-    """(M,); index into Grains; -1 for a wall."""
     wall: npt.NDArray[np.int64]
-    """(M,); index into Walls; -1 for a grain."""
     position: Array
-    """(M, 3); m."""
     normal: Array
-    """(M, 3); unit, towards grain 1."""
     depth: Array
-    """(M,); m, at the start of the step; negative for contacts ahead of touch."""
     force: Array
-    """(M, 3); N, on grain 1, during the step; NaN unless World.step() was asked for forces."""
 
     def __len__(self) -> int:
         return len(self.grain1)
@@ -117,17 +125,24 @@ class Contacts:
 
 @dataclasses.dataclass(frozen=True)
 class Walls:
-    """The walls of the container and the parts of the scene, K of them."""
+    """The walls of the container and the parts of the scene, K of them. Vectors are in the frame of the world.
+
+    name: K names, as in parts.csv and in measurements.
+    position: (K, 3); m, of the origin of the wall's frame: the `position` of a part, a point of a plane, the middle of another wall
+        of a container, the origin for a mesh.
+    quaternion: (K, 4); w, x, y, z: the unit rotation from the wall's frame to the world's. It is (1, 0, 0, 0) for a wall of a
+        container that stands, a plane too: `normal` has its direction.
+    normal: (K, 3); unit, of a plane, towards the grains; NaN for other walls.
+    velocity: (K, 3); m/s, of `position`, mean of the last step, without the motion of a conveyor's surface.
+    angular_velocity: (K, 3); rad/s, mean of the last step.
+    """
 
     name: Tuple[str, ...]
     position: Array
-    """(K, 3); m."""
     quaternion: Array
-    """(K, 4); w, x, y, z."""
+    normal: Array
     velocity: Array
-    """(K, 3); m/s, mean of the last step, without the motion of a conveyor's surface."""
     angular_velocity: Array
-    """(K, 3); rad/s."""
 
     def __len__(self) -> int:
         return len(self.name)
@@ -135,23 +150,28 @@ class Walls:
 
 @dataclasses.dataclass(frozen=True)
 class Energy:
-    """The energy of all present grains, J."""
+    """The energy of all present grains.
+
+    kinetic: J, of translation and rotation.
+    potential: J, in the scene's gravity, 0 at the origin, and of bonds.
+    """
 
     kinetic: float
-    """Of translation and rotation."""
     potential: float
-    """In the scene's gravity, 0 at the origin."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Results:
-    """What a run has left."""
+    """What a run has left.
+
+    folder: of its files; README.md of falling_particles lists them.
+    summary: the text of summary.toml.
+    first_leak: the first grain that left the container, in words; None if all stayed.
+    """
 
     folder: pathlib.Path
     summary: str
-    """The text of summary.toml."""
     first_leak: Optional[str]
-    """The first grain that left the container, in words; None if all stayed."""
 
 
 def to_toml(value: Any) -> str:
@@ -159,6 +179,11 @@ def to_toml(value: Any) -> str:
 
     Raises TypeError for what TOML has no form for.
     """
+    return _toml("value", value)
+
+
+def _toml(name: str, value: Any) -> str:
+    """`name`: of the value, in messages."""
     if isinstance(value, np.generic) or isinstance(value, np.ndarray):
         value = value.tolist()
     if isinstance(value, bool):
@@ -168,10 +193,10 @@ def to_toml(value: Any) -> str:
     if isinstance(value, (str, os.PathLike)):
         return '"' + "".join(map(_escaped, os.fspath(value))) + '"'
     if isinstance(value, collections.abc.Mapping):
-        return "{" + ", ".join(f"{_key(key)} = {to_toml(item)}" for key, item in value.items()) + "}"
+        return "{" + ", ".join(f"{_key(name, key)} = {_toml(f'{name}[{key!r}]', item)}" for key, item in value.items()) + "}"
     if isinstance(value, collections.abc.Sequence) and not isinstance(value, (bytes, bytearray)):
-        return "[" + ", ".join(map(to_toml, value)) + "]"
-    raise TypeError(f"value is {value!r}; allowed: bool, int, float, str, a path, a mapping, a sequence or an array of these")
+        return "[" + ", ".join(_toml(f"{name}[{index}]", item) for index, item in enumerate(value)) + "]"
+    raise TypeError(f"{name} is {value!r}; allowed: bool, int, float, str, a path, a mapping, a sequence or an array of these")
 
 
 def _escaped(letter: str) -> str:
@@ -180,9 +205,9 @@ def _escaped(letter: str) -> str:
     return f"\\u{ord(letter):04x}" if ord(letter) < 0x20 or ord(letter) == 0x7F else letter
 
 
-def _key(key: Any) -> str:
+def _key(name: str, key: Any) -> str:
     if not isinstance(key, str):
-        raise TypeError(f"key is {key!r}; allowed: str")
+        raise TypeError(f"{name} has the key {key!r}; allowed: str")
     return to_toml(key)
 
 
@@ -194,7 +219,7 @@ def _assignments(values: Optional[Values]) -> List[str]:
     for key in values:
         if not isinstance(key, str) or "=" in key:
             raise TypeError(f"values has the key {key!r}; allowed: a key of a scene, such as 'time.step' or 'grain[pea].count'")
-    return [f"{key}={to_toml(value)}" for key, value in values.items()]
+    return [f"{key}={_toml(f'values[{key!r}]', value)}" for key, value in values.items()]
 
 
 def _integer(name: str, value: Any, lowest: int, highest: int) -> int:
@@ -227,7 +252,10 @@ class Scene:
 
     @classmethod
     def from_text(cls, text: str, values: Optional[Values] = None, *, folder: Path = ".", name: str = "scene") -> Scene:
-        """The scene of a text in TOML. Paths in it are relative to `folder`. `name`: of the scene and of the folder of its results."""
+        """The scene of a text in TOML. Paths in it are relative to `folder`. `name`: of the scene and of the folder of its results.
+
+        Messages name `the text` and its line.
+        """
         if not isinstance(text, str):
             raise TypeError(f"text is {text!r}; allowed: str")
         scene = cls.__new__(cls)
@@ -240,11 +268,11 @@ class Scene:
     ) -> Scene:
         """The scene of a dictionary, as tomllib.load() makes it of a scene file: {"seed": 1, "container": {"kind": "box", …}, …}.
 
-        The line in a message counts the keys of the dictionary.
+        `the text, line 3` in a message is the third key of the dictionary.
         """
         if not isinstance(tables, collections.abc.Mapping):
             raise TypeError(f"tables is {tables!r}; allowed: a mapping from the sections of a scene to their values")
-        text = "".join(f"{_key(key)} = {to_toml(value)}\n" for key, value in tables.items())
+        text = "".join(f"{_key('tables', key)} = {_toml(f'tables[{key!r}]', value)}\n" for key, value in tables.items())
         return cls.from_text(text, values, folder=folder, name=name)
 
     def _load(self, source: _scenes.Source) -> None:

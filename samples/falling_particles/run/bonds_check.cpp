@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/input_error.hpp"
 #include "base/interval.hpp"
@@ -14,7 +15,40 @@ namespace {
 /// The largest relative stiffness of bonds for each iteration of the solver (Bonds::stiffness). bonds.md has the measurement.
 constexpr double kStiffnessPerIteration = 10;
 
-[[noreturn]] void refuse_bond(const Scene& scene, const std::string& text) { throw InputError(scene.path + ": " + text); }
+[[noreturn]] void refuse_bond(const Scene& scene, const std::string& text) { throw InputError(scene.called + ": " + text); }
+
+/// What the radius of a bond follows from.
+struct Radius {
+  std::string key;
+  double value;
+  const char* unit;
+  unsigned line = 0;  // of BondRule::file, if the radius is there
+};
+
+Radius radius_of(const Bond& bond, const BondRule& rule) {
+  const auto pair = std::ranges::find_if(rule.pairs, [&](const BondedPair& named) {
+    return named.second == bond.second && (rule.wall || named.first == bond.first) && named.radius;
+  });
+  if (pair != rule.pairs.end()) return {"radius_m", bond.radius, " m", pair->line};
+  if (rule.radius) return {"bond.radius", *rule.radius, " m"};
+  return {"bond.relative_radius", rule.relative_radius, ""};
+}
+
+/// The largest factor on the radii of the bonds of the worst grain, or on the radius of its stiffest bond, with which the grain has
+/// the allowed stiffness. 0 if there is none above 1e-6.
+double allowed_factor(const Bonds& bonds, double allowed, bool single) {
+  const auto [relative, grain, bond] = bonds.stiffness();
+  const auto is_allowed = [&, grain = grain, bond = bond](double factor) {
+    return bonds.relative_stiffness(grain, factor, single ? std::optional(bond) : std::nullopt) <= allowed;
+  };
+  double least = 1e-6, most = 1;
+  if (!is_allowed(least)) return 0;
+  while (most / least > 1.0001) {
+    const double middle = std::sqrt(least * most);
+    (is_allowed(middle) ? least : most) = middle;
+  }
+  return least;
+}
 
 }  // namespace
 
@@ -33,16 +67,24 @@ void refuse_bad_bonds(const World& world) {
 
 void refuse_stiff_bonds(const World& world, int iterations) {
   const Scene& scene = world.scene();
-  const auto [relative, grain, rule] = world.bonds()->stiffness();
+  const auto [relative, grain, index] = world.bonds()->stiffness();
   const double allowed = kStiffnessPerIteration * iterations;
   if (relative <= allowed) return;
-  const BondRule& stiff = scene.bonds[rule];
-  const double enough = std::ceil(relative / kStiffnessPerIteration);
-  refuse_bond(scene, "bond \"" + stiff.name + "\" is too stiff for grain " + std::to_string(grain) + " (" +
-                         world.grains()[grain].kind->name + "): bond.modulus is " + shortest(stiff.modulus) +
-                         " Pa; allowed: up to " + rounded(stiff.modulus * allowed / relative) + " Pa, or time.step up to " +
-                         rounded(scene.time.step * std::sqrt(allowed / relative)) + " s" +
-                         (enough > Solver::kMostIterations ? "" : ", or solver.iterations from " + shortest(enough) + " on"));
+  const Bond& bond = world.bonds()->all()[index];
+  const BondRule& rule = scene.bonds[bond.rule];
+  const Radius radius = radius_of(bond, rule);
+  std::string enough = "bond.modulus up to " + rounded(rule.modulus * allowed / relative) + " Pa, ";
+  if (const double factor = allowed_factor(*world.bonds(), allowed, radius.line > 0); factor > 0) {
+    enough += radius.key + " up to " + rounded(factor * radius.value) + radius.unit + ", ";
+  }
+  enough += "or time.step up to " + rounded(scene.time.step * std::sqrt(allowed / relative)) + " s";
+  const double most = std::ceil(relative / kStiffnessPerIteration);
+  if (most <= Solver::kMostIterations) enough += ", or solver.iterations from " + shortest(most) + " on";
+  const std::string text = "bond \"" + rule.name + "\" is too stiff for grain " + std::to_string(grain) + " (" +
+                           world.grains()[grain].kind->name + "): bond.modulus is " + shortest(rule.modulus) + " Pa, and " +
+                           radius.key + " is " + rounded(radius.value) + radius.unit + "; allowed: " + enough;
+  if (radius.line > 0) throw InputError(rule.file.string(), radius.line, text);
+  refuse_bond(scene, text);
 }
 
 }  // namespace falling_particles

@@ -66,7 +66,8 @@ std::string slower(const Drive& drive, double factor) {
 }
 
 std::string in_half_axes(double way, const Scene& scene) {
-  return rounded(way / scene.smallest_half_axis()) + " of the smallest half-axis (" + shortest(scene.smallest_half_axis()) + " m)";
+  return rounded(way / scene.smallest_half_axis()) + " of the smallest half-axis (" + rounded(scene.smallest_half_axis(), 6) +
+         " m)";
 }
 
 /// Adds a doubt about a time that is no multiple of the step.
@@ -384,7 +385,7 @@ void add_rolling(const Scene& scene, std::vector<std::string>& doubts) {
   const auto add = [&](const char* key, double length) {
     if (length <= size) return;
     doubts.push_back(std::string("rolling_resistance.") + key + " is a length, " + shortest(length) + " m, " +
-                     rounded(length / size) + " times the largest half-axis (" + shortest(size) +
+                     rounded(length / size) + " times the largest half-axis (" + rounded(size, 6) +
                      " m): grains may not roll at all; of a coefficient without unit, such as 0.1, it is the product with the "
                      "radius");
   };
@@ -398,20 +399,85 @@ void add_rolling(const Scene& scene, std::vector<std::string>& doubts) {
   }
 }
 
+/// A part that presses grains.
+struct Pressing {
+  double pressure;    // Pa
+  double area;        // m^2
+  Vector3 direction;  // unit
+};
+
+/// Empty for a part that stands, is moved, turns, or pulls.
+std::optional<Pressing> pressing_of(const Wall& part, const Scene& scene) {
+  if (part.drive && part.drive->servo) {
+    const Servo& servo = *part.drive->servo;
+    double area = servo.area > 0 ? servo.area : 1;
+    for (const FacingWalls& pair : servo.between) area *= faces_at_start(pair, scene.walls).distance();
+    return Pressing{servo.stress, area, part.drive->axis};
+  }
+  if (!part.flight && (!part.drive || part.drive->turns())) return std::nullopt;
+  const auto* const gravity = scene.gravity();
+  Vector3 force = gravity == nullptr ? Vector3::Zero() : gravity->acceleration;
+  force *= part.flight ? part.flight->mass : part.drive->mass;
+  if (part.drive) force = (part.drive->force + force.dot(part.drive->axis)) * part.drive->axis;
+  const double size = force.norm();
+  const double area = size > 0 ? shown_area(part, force / size, scene) : 0;
+  return area > 0 ? std::optional(Pressing{size / area, area, force / size}) : std::nullopt;
+}
+
+/// Adds doubts about parts that press harder than quickstep can carry. A step starts without forces, and an iteration carries them
+/// from layer to layer. The force pressure x diameter^2 would move a free grain by force x step^2 / mass. Beds hold it if this is
+/// below kHeld half-axes x iterations / layers^2. parts.md, "How hard a part may press", has the measurement.
+void add_pressing(const Scene& scene, std::vector<std::string>& doubts) {
+  constexpr double kHeld = 0.05;   // beds give way from 0.15 on; twice as much is silent about 0.08 half-axes, 4 layers deep
+  constexpr double kPacked = 0.6;  // volume fraction of a bed
+  const Extremes grains = extremes_of(scene);
+  if (grains.light == nullptr || has_soft_contacts(scene) || scene.compression) return;
+  double volume = 0;  // m^3, of all grains
+  for (const GrainCount& entry : scene.kinds) {
+    for (int i = 0; i < entry.count; ++i) {
+      volume += std::pow(entry.scale(static_cast<std::size_t>(i)), 3) * mass_of(entry.kind) / entry.kind.density;
+    }
+  }
+  const double diameter = std::cbrt(6 / std::numbers::pi * grains.least / grains.light->kind.density);
+  const double size = grains.light->smallest_scale() * grains.light->kind.smallest_half_axis();
+  for (const Wall& part : scene.parts()) {
+    const std::optional<Pressing> pressing = pressing_of(part, scene);
+    if (!pressing) continue;
+    const auto& [pressure, area, direction] = *pressing;
+    const Rectangle plan = plan_of(scene.container);
+    const double across = std::max(area, std::abs(direction.z()) * plan.width[0] * plan.width[1]);  // m^2, of the bed
+    const double layers = std::max(1.0, volume / (kPacked * across * diameter));
+    const double way = pressure * diameter * diameter * scene.time.step * scene.time.step / grains.least;
+    const double held = kHeld * size * scene.solver.iterations / (layers * layers);
+    if (!(way > held)) continue;
+    const double excess = way / held;
+    doubts.push_back("part \"" + part.name + "\" presses with " + rounded(pressure) + " Pa on about " + rounded(layers) +
+                     (layers == 1 ? " layer" : " layers") + " of grains: a free grain would move by " + rounded(way) +
+                     " m in a step, " + in_half_axes(way, scene) +
+                     ", and solver.iterations = " + std::to_string(scene.solver.iterations) + " hold " + rounded(held / size) +
+                     ": they may overlap, and be pressed through walls; time.step up to " +
+                     rounded(scene.time.step / std::sqrt(excess)) + " s, solver.iterations from " +
+                     std::to_string(std::lround(std::ceil(scene.solver.iterations * excess))) + " on, or up to " +
+                     rounded(pressure / excess) + " Pa would do (parts.md)");
+  }
+}
+
 /// m, the displacement of a free wall in the first step of its flight; of its farthest point if it turns.
 double first_way_of(const Wall& wall, const Flight& flight, double step) {
   return step * (flight.velocity.linear.norm() + flight.velocity.angular.norm() * bounding_radius(wall.shape));
 }
 
-/// Adds a doubt about a motion, drive or flight that starts at the end of the run or later.
+/// Adds a doubt about each motion, drive or flight that starts at the end of the run or later.
 void add_late(const Scene& scene, const Wall& wall, std::vector<std::string>& doubts) {
-  const auto is_late = [&](double from) { return from >= scene.time.duration; };
-  if (std::ranges::none_of(wall.motions, [&](const WallMotion& motion) { return is_late(motion.from); }) &&
-      !(wall.drive && is_late(wall.drive->from)) && !(wall.flight && is_late(wall.flight->from))) {
-    return;
-  }
-  doubts.push_back("part \"" + wall.name + "\" has a motion, a drive or a flight that starts at the end of the run, after " +
-                   shortest(scene.time.duration) + " s, or later");
+  const auto add = [&](const std::string& key, double from) {
+    if (from < scene.time.duration) return;
+    doubts.push_back("part \"" + wall.name + "\" has " + key + ".from = " + shortest(from) + " s, and the run ends after " +
+                     shortest(scene.time.duration) + " s: it never starts; a smaller " + key +
+                     ".from, or a longer time.duration would do");
+  };
+  for (std::size_t i = 0; i < wall.motions.size(); ++i) add("motion[" + std::to_string(i) + ']', wall.motions[i].from);
+  if (wall.drive) add("drive", wall.drive->from);
+  if (wall.flight) add("free", wall.flight->from);
 }
 
 /// Adds a doubt about a servo on springs. A spring is explicit: it is stable while stiffness x step^2 is below four masses. A servo
@@ -427,50 +493,6 @@ void add_gain(const Scene& scene, const Wall& wall, std::vector<std::string>& do
                      " m/(s Pa), with which it may be unstable on the springs of compliance: part.drive.gain up to " +
                      rounded(most) + " m/(s Pa), or a smaller time.step would do");
     return;
-  }
-}
-
-/// The last poses of the parts of a run, by their names, of its table parts.csv. Empty if there is no such table.
-std::map<std::string, WallPose, std::less<>> poses_left_in(const std::filesystem::path& file) {
-  std::map<std::string, WallPose, std::less<>> poses;
-  if (!std::filesystem::is_regular_file(file)) return poses;
-  try {
-    const StateTable table(file);
-    table.require({"part", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"});
-    for (const StateTable::Row& row : table.rows()) {
-      const auto number = [&](const char* column) { return table.number(row, column, Interval::finite("")); };
-      const Eigen::Quaterniond rotation(number("qw"), number("qx"), number("qy"), number("qz"));
-      poses[std::string(table.word(row, "part"))] = {{number("x_m"), number("y_m"), number("z_m")}, rotation.normalized()};
-    }
-  } catch (const InputError&) {
-    return {};  // a file of the user's with this name
-  }
-  return poses;
-}
-
-/// Adds doubts about free parts that do not start where the run that left the state has left them: a state holds grains alone.
-void add_left_parts(const Scene& scene, std::vector<std::string>& doubts) {
-  // Of the smallest half-axis. In the scene plate this moves grains as another seed does, 0.02 ten times as far; 0.001 doubts
-  // numbers with four digits, 0.1 is silent about three.
-  constexpr double kTyped = 0.01;
-  if (!scene.start || std::ranges::none_of(scene.parts(), [](const Wall& part) { return part.flight.has_value(); })) return;
-  const std::filesystem::path file = scene.start->file.parent_path() / "parts.csv";
-  const auto poses = poses_left_in(file);
-  for (const Wall& part : scene.parts()) {
-    const auto left = poses.find(part.name);
-    if (!part.flight || left == poses.end()) continue;
-    const auto& [position, rotation] = left->second;
-    const double off =
-        (position - part.start.position).norm() + bounding_radius(part.shape) * rotation.angularDistance(part.start.rotation);
-    if (off <= kTyped * scene.smallest_half_axis()) continue;
-    const auto list = [](const Vector3& v) {
-      return '[' + shortest(v.x()) + ", " + shortest(v.y()) + ", " + shortest(v.z()) + ']';
-    };
-    const Eigen::AngleAxisd turn(rotation);
-    doubts.push_back("part \"" + part.name + "\" is free and starts " + rounded(off) + " m from where " + file.string() +
-                     " leaves it, since start.file has grains alone; part.position = " + list(position) +
-                     ", part.axis = " + list(turn.axis()) + " and part.angle = " + shortest(turn.angle() * 180 / std::numbers::pi) +
-                     " would do (start.md)");
   }
 }
 
@@ -537,8 +559,8 @@ void refuse_start_in_parts(const World& world) {
     constexpr double kRounding = 1e-6;  // of the smallest half-axis
     if (!(proximity.gap < -kRounding * grain.smallest_half_axis())) continue;
     const auto [x, y, z] = grain.position();
-    throw InputError(scene.path + ": grain " + std::to_string(world.index_of(grain)) + " (" + grain.kind->name + ") starts at [" +
-                     shortest(x) + ", " + shortest(y) + ", " + shortest(z) + "] m, " + rounded(-proximity.gap) +
+    throw InputError(scene.called + ": grain " + std::to_string(world.index_of(grain)) + " (" + grain.kind->name + ") starts at [" +
+                     rounded(x, 6) + ", " + rounded(y, 6) + ", " + rounded(z, 6) + "] m, " + rounded(-proximity.gap) +
                      " m deep in part \"" + part->name + "\"; allowed: parts that leave the start of the grains free");
   }
 }
@@ -607,15 +629,16 @@ std::vector<std::string> doubts_about(const Scene& scene) {
   add_rounded_times(scene.time, doubts);
   add_fall(scene, doubts);
   add_speed(scene, doubts);
-  add_left_parts(scene, doubts);
   add_sinking(scene, doubts);
   add_solver(scene, doubts);
   add_mass_ratio(scene, doubts);
+  add_pressing(scene, doubts);
   add_layer(scene, doubts);
   add_replaced_friction(scene, doubts);
   add_rolling(scene, doubts);
   add_walls(scene, doubts);
   add_feeders(scene, doubts);
+  std::ranges::move(doubts_about_continuation(scene), std::back_inserter(doubts));
   std::ranges::move(doubts_about_springs(scene), std::back_inserter(doubts));
   std::ranges::move(doubts_about_origins(scene), std::back_inserter(doubts));
   std::ranges::move(doubts_about_measurements(scene), std::back_inserter(doubts));

@@ -43,6 +43,10 @@ std::vector<std::string> doubts_about(const Scene& scene);
 /// space for them (origins.cpp).
 std::vector<std::string> doubts_about_origins(const Scene& scene);
 
+/// Sentences about bonds and walls that do not go on where the run has left them that wrote the state of the start
+/// (continuation.cpp).
+std::vector<std::string> doubts_about_continuation(const Scene& scene);
+
 /// Sentences about measurements whose box or plane no grain reaches (reach.cpp).
 std::vector<std::string> doubts_about_measurements(const Scene& scene);
 

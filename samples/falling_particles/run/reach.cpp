@@ -100,7 +100,7 @@ std::string doubt_along(const MeasurementRequest& request, const Scene& scene, s
   const double slack = scene.largest_bounding_radius();  // contacts are beside the centres
   const Span box{request.box->corner[axis], request.box->corner[axis] + request.box->size[axis]};
   if (box.upper > reach.lower - slack && box.lower < reach.upper + slack) return "";
-  return "a box that no grain reaches: measurement.lower and upper are " + shortest(box.lower) + " and " + shortest(box.upper) +
+  return "a box that no grain reaches: measurement.lower and upper are " + rounded(box.lower, 6) + " and " + rounded(box.upper, 6) +
          along + centres;
 }
 

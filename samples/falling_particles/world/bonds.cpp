@@ -208,9 +208,9 @@ void Bonds::refuse_zero_length(const Bond& bond, double least) const {
   const Scene& scene = world_.scene();
   const BondRule& rule = scene.bonds[bond.rule];
   const std::string first = rule.wall ? "part " + scene.walls[*rule.wall].name : "grain " + std::to_string(bond.first);
-  throw InputError(scene.path + ": bond \"" + rule.name + "\": the length from " + first + " to grain " +
+  throw InputError(scene.called + ": bond \"" + rule.name + "\": the length from " + first + " to grain " +
                    std::to_string(bond.second) + " (" + world_.grains()[bond.second].kind->name + ") is " +
-                   shortest(bond.rest.length()) + " m; allowed: from " + rounded(least) +
+                   rounded(bond.rest.length()) + " m; allowed: from " + rounded_up(least) +
                    " m on, between two centres, or the centre of a grain and the surface of a part");
 }
 
@@ -366,6 +366,7 @@ void Bonds::before_step() {
     dJointSetBallAnchor(joints.linear, strain.middle.x(), strain.middle.y(), strain.middle.z());
     apply(joints.first, -force, -moment, strain.middle);
     apply(joints.second, force, moment, strain.middle);
+    state_.rows += joints.angular == nullptr ? 3 : kRows;
     joints.before = strain;
     joints.first_arm = strain.middle - to_vector(dBodyGetPosition(joints.first));
     joints.second_arm = strain.middle - to_vector(dBodyGetPosition(joints.second));
@@ -441,29 +442,49 @@ void Bonds::reduce(std::vector<dContactGeom>& contacts) {
   });
 }
 
+/// 1/s^2, stiffness / mass of a bond for each of its grains, with `factor` times its radius.
+std::array<double, 2> Bonds::rates_of(std::size_t index, double factor) const {
+  const Bond& bond = state_.bonds[index];
+  const Rows k = stiffness_of(world_.scene().bonds[bond.rule], factor * bond.radius, bond.rest.length());
+  const std::array<Rows, 2> inverse = inverse_masses(bond, joints_[index]);
+  std::array<double, 2> rates{};
+  std::ranges::transform(inverse, rates.begin(), [&k](const Rows& w) {
+    // Shear along y and bending about z act on the same rotation.
+    return std::max({k[0] * w[0], k[1] * w[1] + k[5] * w[5], k[2] * w[2] + k[4] * w[4], k[3] * w[3]});
+  });
+  return rates;
+}
+
 Bonds::Stiffness Bonds::stiffness() const {
   struct Load {
     double sum = 0, largest = 0;  // 1/s^2
-    std::size_t rule = 0;
+    std::size_t bond = 0;
   };
   std::vector<Load> loads(world_.grains().size());
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     if (joints_[i].linear == nullptr) continue;
     const Bond& bond = state_.bonds[i];
-    const Rows& k = joints_[i].stiffness;
-    const std::array<Rows, 2> inverse = inverse_masses(bond, joints_[i]);
-    for (const auto& [w, grain] : {std::pair(inverse[0], bond.first), std::pair(inverse[1], bond.second)}) {
+    const auto [of_first, of_second] = rates_of(i, 1);
+    for (const auto& [rate, grain] : {std::pair(of_first, bond.first), std::pair(of_second, bond.second)}) {
       if (grain == Bond::kPart) continue;
-      // Shear along y and bending about z act on the same rotation.
-      const double rate = std::max({k[0] * w[0], k[1] * w[1] + k[5] * w[5], k[2] * w[2] + k[4] * w[4], k[3] * w[3]});
       Load& load = loads[grain];
       load.sum += rate;
-      if (rate > load.largest) std::tie(load.largest, load.rule) = std::pair(rate, static_cast<std::size_t>(bond.rule));
+      if (rate > load.largest) std::tie(load.largest, load.bond) = std::pair(rate, i);
     }
   }
   const auto worst = std::ranges::max_element(loads, {}, &Load::sum);
   if (worst == loads.end()) return {};
-  return {2 * step_ * step_ * worst->sum, static_cast<std::size_t>(worst - loads.begin()), worst->rule};
+  return {2 * step_ * step_ * worst->sum, static_cast<std::size_t>(worst - loads.begin()), worst->bond};
+}
+
+double Bonds::relative_stiffness(std::size_t grain, double factor, std::optional<std::size_t> single) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const Bond& bond = state_.bonds[i];
+    if (joints_[i].linear == nullptr || (bond.first != grain && bond.second != grain)) continue;
+    sum += rates_of(i, single.value_or(i) == i ? factor : 1)[bond.first == grain ? 0 : 1];
+  }
+  return 2 * step_ * step_ * sum;
 }
 
 void Bonds::measure_energy() {

@@ -71,12 +71,13 @@ std::string cause_of(const BondBreak& failure, const BondRule& rule);
 
 struct BondsState {
   std::uint64_t steps = 0;
+  std::uint64_t rows = 0;
   std::vector<Bond> bonds;
   std::vector<BondBreak> breaks;
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(steps, bonds, breaks);
+    archive(steps, rows, bonds, breaks);
   }
 };
 
@@ -97,6 +98,7 @@ class Bonds {
   const std::vector<BondBreak>& breaks() const { return state_.breaks; }      ///< in the order of time
   std::size_t intact() const { return all().size() - state_.breaks.size(); }  ///< number of bonds
   double energy() const { return energy_; }                                   ///< J, elastic, of all bonds
+  std::uint64_t rows() const { return state_.rows; }                          ///< of the solver, in all steps
   /// Whether the geoms belong to bonded bodies that do not collide.
   bool hide(dGeomID g1, dGeomID g2) const { return !hidden_.empty() && hidden_.contains(key_of(g1, g2)); }
   /// Reduces the contacts of broken bonds whose grains still overlap by the overlap that they had.
@@ -114,9 +116,11 @@ class Bonds {
   struct Stiffness {
     double relative = 0;
     std::size_t grain = 0;
-    std::size_t rule = 0;  ///< of its stiffest bond
+    std::size_t bond = 0;  ///< its stiffest one, an index into all()
   };
   Stiffness stiffness() const;
+  /// Stiffness::relative of a grain, if the radii of all its bonds, or of a single one, were `factor` times as large.
+  double relative_stiffness(std::size_t grain, double factor, std::optional<std::size_t> single = {}) const;
 
   const BondsState& save() const { return state_; }
 
@@ -150,6 +154,7 @@ class Bonds {
   void remove_joints(std::size_t bond);
   void place_anchor(const Bond& bond, const Joints& joints) const;
   std::array<Rows, 2> inverse_masses(const Bond& bond, const Joints& joints) const;
+  std::array<double, 2> rates_of(std::size_t bond, double factor) const;
   Strain strain_of(const Bond& bond, const Joints& joints) const;
   Strain in_step(const Joints& joints) const;
   BondStress stress_of(const Bond& bond, const Strain& strain) const;

@@ -78,16 +78,24 @@ void Stepper::step(bool measures) {
     joints_.replace(contacts_, measures);
     joints_of_walls_.replace(contacts_of_walls_);
     world_.effects().apply_forces();
-    if (Bonds* bonds = world_.bonds()) bonds->before_step();
     if (PeriodicCell* cell = world_.cell(); cell != nullptr && world_.scene().looks_ahead()) cell->share_ways();
+  }
+  if (Bonds* bonds = world_.bonds()) {
+    const Stopwatch::Lap lap(costs_.bonds);
+    bonds->before_step();
   }
   costs_.contacts += contacts_.size();
   for (const dContactGeom& contact : contacts_) deepest_contact_ = std::max<double>(deepest_contact_, contact.depth);
-  const Stopwatch::Lap lap(costs_.solver);
-  dWorldQuickStep(world_.id(), step_);
-  if (PeriodicCell* cell = world_.cell()) cell->gather();
-  world_.walls().after_step();
-  if (Bonds* bonds = world_.bonds()) bonds->after_step();
+  {
+    const Stopwatch::Lap lap(costs_.solver);
+    dWorldQuickStep(world_.id(), step_);
+    if (PeriodicCell* cell = world_.cell()) cell->gather();
+    world_.walls().after_step();
+  }
+  if (Bonds* bonds = world_.bonds()) {
+    const Stopwatch::Lap lap(costs_.bonds);
+    bonds->after_step();
+  }
 }
 
 void Stepper::collide_grains() {

@@ -21,12 +21,13 @@ struct StepCosts {
   Stopwatch broad_phase;    ///< bounding boxes and pairs; part of collision
   Stopwatch contact_setup;  ///< passes of the effects, creation and removal of contact joints
   Stopwatch solver;         ///< dWorldQuickStep
+  Stopwatch bonds;          ///< forces and breaks of bonds, without their rows in the solver
   unsigned long long pairs_tested = 0;
   unsigned long long contacts = 0;
   double narrow_phase_seconds() const { return collision.seconds() - broad_phase.seconds(); }
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(collision, broad_phase, contact_setup, solver, pairs_tested, contacts);
+    archive(collision, broad_phase, contact_setup, solver, bonds, pairs_tested, contacts);
   }
 };
 

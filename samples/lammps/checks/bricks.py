@@ -1,8 +1,12 @@
-"""Bricks rest on their faces: one as in ODE, and a wall of them. A rod rests on its side."""
+"""Bricks rest on their faces: one as in ODE, and a wall of them. Rods and cans rest on their sides."""
 
 import csv
 import subprocess
 
+from walls import write_pan
+
+# Floors: words of fix wall/supernormal.
+PLANE, MESH = "plane 0 0 0 0 0 1", "mesh floor.stl 1"
 COURSES, LONGEST = 6, 5
 LENGTH, HEIGHT = 0.04, 0.02  # m
 STEPS = 50000
@@ -68,28 +72,40 @@ def check_wall(driver):
         count = LONGEST - course % 2
         lines += [f"create_atoms 1 single {(k - (count - 1) / 2) * 1.005 * LENGTH} 0 {(course + 0.5) * HEIGHT}" for k in range(count)]
     (driver.folder / "wall.bricks").write_text("\n".join(lines) + "\n", encoding="ascii")
-    (table,) = driver.run("bricks", 1, bricks="wall.bricks", steps=STEPS, every=STEPS // 10, out="wall.dump")
-    frames = driver.dump("wall.dump")
-    start, end = frames[0], frames[STEPS]
-    moved = max(max(abs(a - b) for a, b in zip(old[1:4], new[1:4])) for old, new in zip(start, end))
-    tilted = max(2 * max(abs(q) for q in row[5:8]) for row in end)
-    yield "wall of bricks after 1 s: distance moved, of the height of a brick", moved / HEIGHT, 0.01
-    yield "wall of bricks: rotation, rad", tilted, 2e-3
-    yield "wall of bricks: kinetic energy, J", table[-1]["v_kinetic"], 1e-12
-    yield "wall of bricks: weight on the floor", abs(table[-1]["v_borne"] - 1), 1e-6
+    for kind, floor in (("", PLANE), (" on a mesh", MESH)):
+        (table,) = driver.run("bricks", 1, bricks="wall.bricks", steps=STEPS, every=STEPS // 10, out="wall.dump", floor=floor)
+        frames = driver.dump("wall.dump")
+        start, end = frames[0], frames[STEPS]
+        moved = max(max(abs(a - b) for a, b in zip(old[1:4], new[1:4])) for old, new in zip(start, end))
+        tilted = max(2 * max(abs(q) for q in row[5:8]) for row in end)
+        yield f"wall of bricks{kind} after 1 s: distance moved, of the height of a brick", moved / HEIGHT, 0.01
+        yield f"wall of bricks{kind}: rotation, rad", tilted, 2e-3
+        yield f"wall of bricks{kind}: kinetic energy, J", table[-1]["v_kinetic"], 1e-12
+        yield f"wall of bricks{kind}: weight on the floor", abs(table[-1]["v_borne"] - 1), 1e-6
 
 
 def check_rod(driver):
-    """A rod with an oval outline drops on its side."""
-    (table,) = driver.run("rod", 1, exponents="2 20", steps=STEPS, every=STEPS // 50)
+    """A rod with an oval outline drops on its side, on floors of three kinds."""
+    for kind, floor in (("plane", PLANE), ("mesh", MESH), ("pipe", "cylinder 0 0 0.1 1 0 0 0.1")):
+        (table,) = driver.run("rod", 1, exponents="2 20", floor=floor, steps=STEPS, every=STEPS // 50)
+        end = table[-1]
+        yield f"rod on its side after 0.5 s, {kind}: slope, rad", abs(end["c_slope"]), 1e-9
+        yield f"rod, {kind}: kinetic energy, J", end["v_kinetic"], 1e-20
+        yield f"rod, {kind}: weight on the floor", abs(end["v_borne"] - 1), 1e-9
+
+
+def check_pile(driver):
+    """A can drops on its side on a brick, and a log on two others."""
+    (table,) = driver.run("pile", 1, steps=2 * STEPS, every=STEPS)
     end = table[-1]
-    yield "rod on its side after 0.5 s: slope, rad", abs(end["c_slope"]), 1e-9
-    yield "rod: kinetic energy, J", end["v_kinetic"], 1e-20
-    yield "rod: weight on the floor", abs(end["v_borne"] - 1), 1e-9
+    yield "a can on a brick, and a log on two, after 1 s: kinetic energy, J", end["v_kinetic"], 1e-15
+    yield "the same: weight on the floor", abs(end["v_borne"] - 1), 1e-9
 
 
 def check(driver):
     """Yields the name, the value and the limit of each comparison."""
+    write_pan(driver.folder / "floor.stl", 0.12, 0.01, 9)
     yield from check_ode(driver)
     yield from check_wall(driver)
     yield from check_rod(driver)
+    yield from check_pile(driver)

@@ -5,12 +5,15 @@ import math
 MASS = 1e-3  # kg
 # Their faces meet: they start parallel, and every kind is flat somewhere.
 BOXY = dict(exponents1="8 8", exponents2="20 20", exponents3="2 12", exponents4="60 60", orientation="quat 0 0 1 0")
+# All have straight sides: cans, one with a flattened outline, and a pillow.
+CANS = dict(exponents1="2 20", exponents2="3 12", exponents3="2 12", exponents4="20 2", orientation="quat 0 0 1 0")
 
 
 def check(driver, steps=10000, law="hooke 1e4", limit=1e-4):
     """Yields the name, the value and the limit of each figure."""
     yield from check_gas(driver, "gas", steps, law, limit)
     yield from check_gas(driver, "gas of bricks", steps, law, limit, **BOXY)
+    yield from check_gas(driver, "gas of cans", steps, law, limit, **CANS)
     if law == "hooke 1e4":
         yield from check_rigid(driver, steps, limit)
 

@@ -1,6 +1,6 @@
 """Forces do not depend on the number of ranks, and a restarted run gives the same bytes."""
 
-BED, BRICKS = "bed.restart", "bricks.restart"
+BED, BRICKS, CANS = "bed.restart", "bricks.restart", "cans.restart"
 
 
 def largest_difference(rows, reference, columns):
@@ -59,9 +59,10 @@ def check(driver):
     """Yields the name, the value and the limit of each comparison."""
     driver.run("dense", out=BED)
     driver.run("dense", out=BRICKS, exponents1="20 20", exponents2="8 12", scale=0.84)
+    driver.run("dense", out=CANS, exponents1="2 20", exponents2="20 2", scale=0.84)
     # With newton off, ghosts are solved from positions rounded differently, and single pairs from another normal. On nearly flat
     # faces both change an answer within the tolerance of the query, 1e-9.
-    for bed, *options in ((BED, 1e-10, 1e-10, ("on", "off")), (BRICKS, 1e-12, 1e-6, ("on",))):
+    for bed, *options in ((BED, 1e-10, 1e-10, ("on", "off")), (BRICKS, 1e-12, 1e-6, ("on",)), (CANS, 1e-12, 1e-6, ("on",))):
         yield from check_forces(driver, bed, *options)
         yield from check_restart(driver, bed)
     yield from check_particle_exponents(driver)

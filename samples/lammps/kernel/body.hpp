@@ -24,6 +24,7 @@ struct Body {
   std::span<const Side> sides{};               ///< none for a round body
   double bulge = 0;                            ///< m; no face and no side sticks out of the body by more than this
 
+  bool is_flat() const { return !(faces.empty() && sides.empty()); }
   /// The velocity of the body's point at `arm` from its centre, m/s.
   Vector3 velocity_at(const Vector3& arm) const { return velocity + angular_velocity.cross(arm); }
 };

@@ -189,7 +189,7 @@ class Pressure {
     for (int k = 0; k < faces.count; ++k) {
       const FaceCorner& corner = faces.corners[static_cast<std::size_t>(k)];
       const double stiffness = faces.share * face_stiffness * corner.weight;
-      add({corner.point, faces.normal, corner.lateral, stiffness * corner.depth, faces.share * corner.weight * material.adhesion,
+      add({corner.point, corner.normal, corner.lateral, stiffness * corner.depth, faces.share * corner.weight * material.adhesion,
            stiffness});
     }
   }

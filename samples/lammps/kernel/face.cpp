@@ -28,6 +28,10 @@ constexpr double kRoundOutline = 6;
 constexpr double kLargestTilt = std::numbers::pi / 8;
 constexpr double kSmallestTilt = 1e-6;  // rad
 
+// A normal this near to an axis, as a part of the support function, is at a flat spot of an outline with an exponent above 2. There
+// the point that it touches with rotates around the body infinitely fast.
+constexpr double kFlatSpot = 0.01;
+
 Vector3 from_face(int axis, double x, double y, double height) {
   Vector3 point;
   point[axis] = height;
@@ -121,18 +125,30 @@ Vector3 thinnest(const Side& can) {
   return {std::cos(angle), std::sin(angle), 0};
 }
 
-/// (u^e + w^e)^(1/e) of two numbers from 0 on, and its derivatives.
-struct PowerMean {
-  double value = 0, by_u = 0, by_w = 0;
-
-  PowerMean(double u, double w, double e) {
-    const double larger = std::max(u, w);
-    if (larger == 0) return;
-    value = larger * std::pow(std::pow(u / larger, e) + std::pow(w / larger, e), 1 / e);
-    by_u = std::pow(u / value, e - 1);
-    by_w = std::pow(w / value, e - 1);
-  }
-};
+/// Where the curve spanned by two vectors, c U + s W with |c|^d + |s|^d = 1, reaches farthest along a direction. `u` and `w` are
+/// the parts of the vectors along it, from 0 on, and `e` the exponent of the support function.
+Side::End farthest_on(const Vector3& to_u, double u, const Vector3& to_w, double w, double e) {
+  const double larger = std::max(u, w);
+  if (larger == 0) return {0, Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), 0};
+  const double power_u = std::pow(u / larger, e), power_w = std::pow(w / larger, e), sum = power_u + power_w;
+  const double support = larger * std::pow(sum, 1 / e);
+  const double part_u = u / support, part_w = w / support;
+  // The part to the power e - 1.
+  const double by_u = part_u > 0 ? power_u / (sum * part_u) : 0, by_w = part_w > 0 ? power_w / (sum * part_w) : 0;
+  // The same, smooth, and its slope.
+  const auto smooth = [e](double part) {
+    const double square = part * part, size = square + kFlatSpot * kFlatSpot, power = std::pow(size, 0.5 * e - 2);
+    return std::pair(part * size * power, (size + (e - 2) * square) * power);
+  };
+  const auto [place_u, slope_u] = smooth(part_u);
+  const auto [place_w, slope_w] = smooth(part_w);
+  return {support,
+          by_u * to_u + by_w * to_w,
+          place_u * to_u + place_w * to_w,
+          (slope_u * by_w * to_u - slope_w * by_u * to_w) / support,
+          part_w * to_u - part_u * to_w,
+          (e - 1) * std::pow(part_u * part_w, e - 2) / support};
+}
 
 }  // namespace
 
@@ -145,22 +161,19 @@ double farthest(double a, double b, double e) {
 }
 
 Side::End Side::end(const Vector3& normal, int sign) const {
-  const Vector3 signs = normal.cwiseSign();
   const Vector3 sizes = half_axes.cwiseProduct(normal.cwiseAbs());
+  const auto axis = [&](int k) -> Vector3 { return std::copysign(half_axes[k], normal[k]) * Vector3::Unit(k); };
+  const Vector3 shift = sign * reach * Vector3::Unit(along);
   if (across == along) {
-    const PowerMean outline(sizes.x(), sizes.y(), dual(delta));
-    const double height = sign * reach;
-    return {outline.value + height * normal.z(),
-            {signs.x() * half_axes.x() * outline.by_u, signs.y() * half_axes.y() * outline.by_w, height}};
+    End outline = farthest_on(axis(0), sizes.x(), axis(1), sizes.y(), dual(delta));
+    outline.support += shift.dot(normal);
+    outline.point += shift;
+    outline.place += shift;
+    return outline;
   }
   // A profile through one edge of the boxy outline.
-  const double outwards = std::max(0.0, sizes[across] + sign * reach * normal[along]);
-  const PowerMean profile(outwards, sizes.z(), dual(epsilon));
-  Vector3 point;
-  point[across] = signs[across] * half_axes[across] * profile.by_u;
-  point[along] = sign * reach * profile.by_u;
-  point.z() = signs.z() * half_axes.z() * profile.by_w;
-  return {profile.value, point};
+  const double outwards = std::max(0.0, sizes[across] + shift.dot(normal));
+  return farthest_on(axis(across) + shift, outwards, axis(2), sizes.z(), dual(epsilon));
 }
 
 double Side::part_across(const Vector3& normal) const {

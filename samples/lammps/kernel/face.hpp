@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "supernormal/proximity/pose.hpp"
@@ -27,6 +28,8 @@ struct Face {
   /// m; along the two following axes, counter-clockwise about the axis.
   std::array<Vector2, kMostVertices> vertices;
   int count = 0;  ///< the first `count` vertices are valid
+
+  std::span<const Vector2> outline() const { return std::span(vertices).first(static_cast<std::size_t>(count)); }
 };
 
 /// The faces of a body, at most three. A round body has none. A face that is flat along one axis only, as the side of a can, is no
@@ -48,10 +51,15 @@ struct Side {
 
   /// Where a curve reaches farthest along a direction.
   struct End {
-    double support;  ///< m; along the direction
-    Vector3 point;   ///< m
+    double support;   ///< m; along the direction
+    Vector3 point;    ///< m
+    Vector3 place;    ///< m; the point, but smooth where the curve is flat: there the point almost jumps
+    Vector3 roll;     ///< the place moves by roll (by_roll . d(normal))
+    Vector3 by_roll;  ///< m
+    double bend;      ///< 1/m; the second derivative of `support` along t is bend (by_roll . t)^2. Infinite where the curve is flat
   };
-  /// The curve at one of the ends; `sign`: 1 or -1. `normal` is unit, in the body's frame. The point is the gradient of `support`.
+  /// The curve at one of the ends; `sign`: 1 or -1, or 0 for the middle. `normal` is unit, in the body's frame. The point is the
+  /// gradient of `support`.
   End end(const Vector3& normal, int sign) const;
   /// How much of a vector is across the side.
   double part_across(const Vector3& normal) const;

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernel/fading.hpp"
+#include "kernel/side_contact.hpp"
+
 namespace granular {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;  // rad
-
-// Faces count in full if they overlap in this fraction of a square as wide as the narrower face. Bodies that overlap with their
-// edges only, in two directions, have less: there the nearest face may change.
-constexpr double kFullOverlap = 0.2;
 
 // The sine of the angle between edges that count as parallel: such corners have no weight, up to rounding, by which their
 // derivative would be divided. 0, a quarter and four times: all tests of faces hold.
@@ -24,22 +23,10 @@ auto& at(Array& array, int k) {
   return array[static_cast<std::size_t>(k)];
 }
 
-/// A function that is 0 up to 0 and 1 from 1 on, with its slope.
-struct Ramp {
-  double value, slope;
-
-  explicit Ramp(double x) {
-    const double t = std::clamp(x, 0.0, 1.0);
-    value = t * t * (3 - 2 * t);
-    slope = 6 * t * (1 - t);
-  }
-};
-
 /// A directed edge of one of the polygons, in the plane of face 2.
 struct Edge {
   Vector2 start;
-  Vector2 direction;  // unit
-  double angle;       // rad; of the direction
+  Vector2 direction;  // unit for face 1
   double rise;        // of the edge above face 2, by its length in the plane; 0 for edges of face 2
 };
 
@@ -69,20 +56,27 @@ class Region {
       const int next = (k + 1) % count;
       const Vector3 along = at(vertices, next) - at(vertices, k);
       const double length = along.head<2>().norm();
-      at(edges_, k) = {at(vertices, k).head<2>(), along.head<2>() / length, std::atan2(along.y(), along.x()), along.z() / length};
+      at(edges_, k) = {at(vertices, k).head<2>(), along.head<2>() / length, along.z() / length};
       at(corners_, k) = {at(vertices, k).head<2>(), (k + count - 1) % count, k};
     }
     count_ = count;
   }
 
   /// Cuts away what is not above face 2.
-  void clip(const Face& face2) {
-    for (int k = 0; k < face2.count && count_ > 0; ++k) {
-      const Vector2& start = at(face2.vertices, k);
-      const Vector2 along = at(face2.vertices, (k + 1) % face2.count) - start;
-      at(edges_, kFirstOfTwo + k) = {start, along.normalized(), std::atan2(along.y(), along.x()), 0};
+  void clip(const Patch& face2) {
+    const int count = static_cast<int>(face2.size());
+    for (int k = 0; k < count && count_ > 0; ++k) {
+      const Vector2& start = at(face2, k);
+      const Vector2 along = at(face2, (k + 1) % count) - start;
+      at(edges_, kFirstOfTwo + k) = {start, along, 0};
       clip(kFirstOfTwo + k);
     }
+  }
+
+  Eigen::AlignedBox2d box() const {
+    Eigen::AlignedBox2d box;
+    for (int k = 0; k < count_; ++k) box.extend(at(corners_, k).place);
+    return box;
   }
 
   double area() const {
@@ -101,7 +95,7 @@ class Region {
       const double depth = depth_at(corner.place);
       if (depth <= 0) continue;
       const double weight = turning_angle(corner) / kTurn;
-      at(contact.corners, contact.count++) = {lift(corner.place), frame_ * lateral(corner), depth, weight};
+      at(contact.corners, contact.count++) = {lift(corner.place), -frame_.col(2), frame_ * lateral(corner), depth, weight};
       contact.mean_square += weight * depth * depth;
       contact.mean += weight * depth;
       const Vector3 growth = (rotation_of(corner.out) - rotation_of(corner.in)) / kTurn;  // of the weight
@@ -148,8 +142,9 @@ class Region {
   }
 
   double turning_angle(const Corner& corner) const {
-    const double angle = at(edges_, corner.out).angle - at(edges_, corner.in).angle;
-    return angle < -0.25 * kTurn ? angle + kTurn : angle > 0.75 * kTurn ? angle - kTurn : angle;
+    const Vector2 &in = at(edges_, corner.in).direction, &out = at(edges_, corner.out).direction;
+    const double angle = std::atan2(cross(in, out), in.dot(out));
+    return angle < -0.25 * kTurn ? angle + kTurn : angle;
   }
 
   /// d(angle of an edge) by a rotation of body 1.
@@ -167,7 +162,7 @@ class Region {
     if (in_of_one != out_of_one) {
       // A crossing moves along the edge of face 2.
       const Vector2& edge1 = at(edges_, in_of_one ? corner.in : corner.out).direction;
-      const Vector2& edge2 = at(edges_, in_of_one ? corner.out : corner.in).direction;
+      const Vector2 edge2 = at(edges_, in_of_one ? corner.out : corner.in).direction.normalized();
       const Vector2 outwards(edge1.y(), -edge1.x());
       const double sine = edge2.dot(outwards);
       if (std::abs(sine) > kParallel) by_way += slope_.dot(edge2) / sine * outwards;
@@ -184,22 +179,6 @@ class Region {
   int count_ = 0;
 };
 
-/// How much two faces with these outward normals count, and its derivative by a rotation of body 1.
-struct Tilt {
-  double share = 0;
-  Vector3 by_turn = Vector3::Zero();
-
-  Tilt(const Vector3& normal1, const Vector3& normal2, double largest) {
-    const double cosine = -normal1.dot(normal2);
-    if (!(cosine > std::cos(2 * largest))) return;
-    const Vector3 axis = normal1.cross(normal2);
-    const double sine = axis.norm(), angle = std::atan2(sine, cosine);
-    const Ramp ramp(angle / largest - 1);
-    share = 1 - ramp.value;
-    if (ramp.slope > 0) by_turn = -ramp.slope / largest / sine * axis;
-  }
-};
-
 /// The face of a body whose outward normal is nearest to `direction`.
 std::optional<FacePose> find_face(const Body& body, const Vector3& direction) {
   const Vector3 own = body.pose.rotation.transpose() * direction;
@@ -212,70 +191,32 @@ std::optional<FacePose> find_face(const Body& body, const Vector3& direction) {
 
 /// The same contact with the bodies exchanged.
 void exchange(FaceContact& contact) {
-  contact.normal = -contact.normal;
   contact.turning = -contact.turning;
   contact.turning_of_mean = -contact.turning_of_mean;
   contact.share_by_way = -contact.share_by_way;
   contact.share_by_turn = -contact.share_by_turn;
   for (int k = 0; k < contact.count; ++k) {
-    Vector3& lateral = contact.corners[static_cast<std::size_t>(k)].lateral;
-    lateral = -lateral;
+    FaceCorner& corner = at(contact.corners, k);
+    corner.normal = -corner.normal;
+    corner.lateral = -corner.lateral;
   }
 }
 
-/// The same for a side. Faces and sides of a body count in full up to an eighth of a turn, and meet at a right angle: never both.
-std::optional<FaceContact> find_plane_side_contact(const Body& body, const Vector3& point, const Vector3& normal) {
-  const Vector3 own = body.pose.rotation.transpose() * normal;
-  const auto side = std::ranges::max_element(body.sides, {}, [&](const Side& one) { return one.part_across(own); });
-  if (side == body.sides.end()) return std::nullopt;
-  const double across = side->part_across(own), along = own[side->along];
-  if (!(across > 0)) return std::nullopt;
-  const Ramp ramp(std::atan2(std::abs(along), across) / side->tilt - 1);
-  if (ramp.value == 1) return std::nullopt;
-
-  FaceContact contact;
-  contact.normal = normal;
-  contact.origin = point;
-  const double room = normal.dot(point - body.pose.position);
-  for (const int sign : {1, -1}) {
-    const Side::End end = side->end(own, sign);
-    const double depth = end.support - room, weight = 0.5;
-    if (depth <= 0) continue;
-    at(contact.corners, contact.count++) = {body.pose.position + body.pose.rotation * end.point, Vector3::Zero(), depth, weight};
-    contact.mean_square += weight * depth * depth;
-    contact.mean += weight * depth;
-  }
-  contact.share = 1 - ramp.value;
-  // d(angle) by the normal in the body's frame.
-  Vector3 by_normal =
-      side->across == side->along ? Vector3(own / across) : Vector3(Vector3::Unit(side->across) * (own[side->across] > 0 ? 1 : -1));
-  by_normal *= -std::abs(along);
-  by_normal[side->along] = along > 0 ? across : -across;
-  by_normal /= across * across + along * along;
-  contact.share_by_turn = -ramp.slope / side->tilt * (body.pose.rotation * by_normal).cross(normal);
-  return contact;
-}
-
-}  // namespace
-
-std::optional<FaceContact> find_face_contact(const Body& body1, const Body& body2, const Vector3& normal) {
-  if (body1.faces.empty() || body2.faces.empty()) return std::nullopt;
-  std::optional<FacePose> face1 = find_face(body1, normal), face2 = find_face(body2, -normal);
-  if (!face1 || !face2) return std::nullopt;
+/// The contact of two faces.
+std::optional<FaceContact> find_contact(FacePose face1, FacePose face2) {
   // The smaller face is laid over the larger one.
-  const bool exchanged = face1->face->width > face2->face->width;
+  const bool exchanged = face1.face->width > face2.face->width;
   if (exchanged) std::swap(face1, face2);
-  const Tilt tilt(face1->frame.col(2), face2->frame.col(2), std::min(face1->face->tilt, face2->face->tilt));
+  const Tilt tilt(face1.frame.col(2), face2.frame.col(2), std::min(face1.face->tilt, face2.face->tilt));
   if (tilt.share == 0) return std::nullopt;
-  Region region(*face1, face2->frame, face2->centre);
-  region.clip(*face2->face);
-  const double full = kFullOverlap * face1->face->width * face1->face->width;
+  Region region(face1, face2.frame, face2.centre);
+  region.clip(face2.face->outline());
+  const double full = kFullOverlap * face1.face->width * face1.face->width;
   const Ramp overlap(region.area() / full);
   if (overlap.value == 0) return std::nullopt;
 
   FaceContact contact;
-  contact.normal = -face2->frame.col(2);
-  contact.origin = face2->centre;
+  contact.origin = face2.centre;
   region.add_corners(contact);
   contact.share = tilt.share * overlap.value;
   contact.share_by_turn = overlap.value * tilt.by_turn;
@@ -284,21 +225,73 @@ std::optional<FaceContact> find_face_contact(const Body& body1, const Body& body
   return contact;
 }
 
-std::optional<FaceContact> find_plane_face_contact(const Body& body, const Vector3& point, const Vector3& normal) {
-  const std::optional<FacePose> face = find_face(body, normal);
-  if (!face) return find_plane_side_contact(body, point, normal);
-  const Tilt tilt(face->frame.col(2), -normal, face->face->tilt);
+/// Multiplies the share by how far the patches are under all of a face. Returns whether it is above 0.
+bool find_cover(const Region& whole, std::span<const Patch> patches, FaceContact& contact) {
+  double covered = 0;
+  Vector3 by_way = Vector3::Zero(), by_turn = Vector3::Zero();
+  const Eigen::AlignedBox2d box = whole.box();
+  for (const Patch& patch : patches) {
+    Eigen::AlignedBox2d of_patch;
+    for (const Vector2& vertex : patch) of_patch.extend(vertex);
+    if (!box.intersects(of_patch)) continue;
+    Region part = whole;
+    part.clip(patch);
+    covered += part.area();
+    part.add_area_derivatives(1, by_way, by_turn);
+  }
+  const double area = whole.area();
+  const Ramp cover(1 - (1 - covered / area) / kFullOverlap);
+  if (cover.value == 0) return false;
+  whole.add_area_derivatives(-covered / area, by_way, by_turn);
+  const double factor = contact.share * cover.slope / (kFullOverlap * area);
+  contact.share_by_way = factor * by_way;
+  contact.share_by_turn = cover.value * contact.share_by_turn + factor * by_turn;
+  contact.share *= cover.value;
+  return true;
+}
+
+/// The contact of a side of a body with the face of another.
+std::optional<FaceContact> find_contact(const Body& body, const FacePose& face) {
+  const Patch patch = face.face->outline();
+  return find_side_contact(body, {face.frame, face.centre, {&patch, 1}, false, face.face->width, face.face->tilt});
+}
+
+}  // namespace
+
+// Faces and sides of a body count in full up to an eighth of a turn, and meet at a right angle: never both.
+std::optional<FaceContact> find_face_contact(const Body& body1, const Body& body2, const Vector3& normal) {
+  if (!body1.is_flat() || !body2.is_flat()) return std::nullopt;
+  const std::optional<FacePose> face1 = find_face(body1, normal), face2 = find_face(body2, -normal);
+  if (face1 && face2) return find_contact(*face1, *face2);
+  if (face2) return find_contact(body1, *face2);
+  if (!face1) return find_side_pair_contact(body1, body2, normal);
+  std::optional<FaceContact> contact = find_contact(body2, *face1);
+  if (contact) exchange(*contact);
+  return contact;
+}
+
+std::optional<FaceContact> find_ground_contact(const Body& body, const Ground& ground) {
+  const Vector3 out = ground.frame.col(2);
+  const std::optional<FacePose> face = find_face(body, -out);
+  if (!face) return find_side_contact(body, ground);
+  const Tilt tilt(face->frame.col(2), out, face->face->tilt);
   if (tilt.share == 0) return std::nullopt;
-  Matrix3 frame;
-  frame << normal.unitOrthogonal(), Vector3::Zero(), -normal;
-  frame.col(1) = frame.col(2).cross(frame.col(0));
+  const Region whole(*face, ground.frame, ground.origin);
   FaceContact contact;
-  contact.normal = normal;
-  contact.origin = point;
-  Region(*face, frame, point).add_corners(contact);
+  contact.origin = ground.origin;
   contact.share = tilt.share;
   contact.share_by_turn = tilt.by_turn;
+  if (ground.is_surface && !find_cover(whole, ground.patches, contact)) return std::nullopt;
+  whole.add_corners(contact);
   return contact;
+}
+
+Ground Ground::plane(const Vector3& point, const Vector3& normal) {
+  Ground ground;
+  ground.frame << normal.unitOrthogonal(), Vector3::Zero(), normal;
+  ground.frame.col(1) = normal.cross(ground.frame.col(0));
+  ground.origin = point;
+  return ground;
 }
 
 }  // namespace granular

@@ -6,6 +6,7 @@
 
 #include "kernel/body.hpp"
 #include "kernel/face.hpp"
+#include "kernel/ground.hpp"
 
 namespace granular {
 
@@ -13,6 +14,7 @@ namespace granular {
 /// d(depth) = (normal + lateral) . (displacement of body 1 at `point` - displacement of body 2).
 struct FaceCorner {
   Vector3 point;    ///< m
+  Vector3 normal;   ///< unit, from body 1 to body 2
   Vector3 lateral;  ///< along the faces: the point moves along a sloped edge
   double depth;     ///< m; > 0
   double weight;    ///< the turning angle of the region's outline here, as a fraction of a full turn
@@ -32,7 +34,6 @@ struct FaceContact {
 
   std::array<FaceCorner, kMostCorners> corners;
   int count = 0;                              ///< the first `count` are valid; the others of the region are not in contact
-  Vector3 normal;                             ///< unit, from body 1 to body 2
   double mean_square = 0;                     ///< m^2; the mean of the squared depths
   Vector3 turning = Vector3::Zero();          ///< m^2; d(mean_square) by a rotation of body 1, with depths and points fixed
   double mean = 0;                            ///< m; the mean of the depths, where corners that are not in contact have none
@@ -47,8 +48,8 @@ struct FaceContact {
 /// bodies has no such face, or if `share` is 0.
 std::optional<FaceContact> find_face_contact(const Body& body1, const Body& body2, const Vector3& normal);
 
-/// The contact of a body's face or side with the plane through a point (m). `normal` is unit, from the body to the plane. A side
-/// has two corners, the ends of its line, with half of the weight each.
-std::optional<FaceContact> find_plane_face_contact(const Body& body, const Vector3& point, const Vector3& normal);
+/// The contact of a body's face or side with the ground. A side has two corners, the ends of its line, with half of the weight
+/// each.
+std::optional<FaceContact> find_ground_contact(const Body& body, const Ground& ground);
 
 }  // namespace granular

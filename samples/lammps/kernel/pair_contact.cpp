@@ -52,7 +52,7 @@ PairContact contact_of(const supernormal::Proximity& found, const supernormal::C
     pair.force =
         face_contact_force(*faces, face_stiffness(material, width), elastic, material, body1, body2, step, pair.contact, history);
   } else {
-    if (step > 0 && !body1.faces.empty() && !body2.faces.empty()) history.release_twist();
+    if (step > 0 && body1.is_flat() && body2.is_flat()) history.release_twist();
     pair.force = contact_force(pair.contact, elastic, material, body1, body2, step, history);
   }
   if (step > 0) history.normal = found.normal;

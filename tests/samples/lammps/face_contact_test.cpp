@@ -4,13 +4,8 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <numbers>
-#include <random>
-#include <vector>
 
-#include "kernel/walls/plane_wall.hpp"
-#include "kernel/walls/wall_contacts.hpp"
-#include "samples/lammps/two_bodies.hpp"
+#include "samples/lammps/flat_bodies.hpp"
 #include "support/relative.hpp"
 
 using namespace granular;
@@ -18,27 +13,6 @@ using namespace granular::test;
 using supernormal::test::relative;
 
 namespace {
-
-const Vector3 kBrick(0.02, 0.015, 0.01);  // m
-
-struct Random {
-  std::mt19937 engine;
-  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
-  Vector3 vector(double size) { return {(*this)(-size, size), (*this)(-size, size), (*this)(-size, size)}; }
-  Eigen::Quaterniond attitude() {
-    return Eigen::Quaterniond((*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1)).normalized();
-  }
-};
-
-/// A rotation that brings an axis of the body to z.
-Eigen::Quaterniond face_up(int axis) { return Eigen::Quaterniond::FromTwoVectors(Vector3::Unit(axis), Vector3::UnitZ()); }
-
-/// A small rotation about a horizontal axis after any rotation about z.
-Eigen::Quaterniond tilted(double tilt, Random& random) {
-  const double direction = random(0, 2 * std::numbers::pi);
-  return Eigen::Quaterniond(Eigen::AngleAxisd(tilt, Vector3(std::cos(direction), std::sin(direction), 0))) *
-         Eigen::Quaterniond(Eigen::AngleAxisd(random(0, 2 * std::numbers::pi), Vector3::UnitZ()));
-}
 
 /// Two boxy bodies whose faces overlap in part, tilted by up to `tilt` (rad), in any orientation.
 TwoBodies facing(Random& random, double tilt, const ContactMaterial& material) {
@@ -59,25 +33,6 @@ TwoBodies facing(Random& random, double tilt, const ContactMaterial& material) {
   place();
   return pair;
 }
-
-struct Floor {
-  PlaneWall wall{Vector3::Zero(), Vector3::UnitZ()};
-  Body body;
-  WallHistory history;
-  std::vector<WallContact> contacts;
-
-  WallForce find(const Particle& particle, const ContactMaterial& material, double step) {
-    return find_wall_force(wall, body, *particle.shape, particle.body, material, step, history, contacts);
-  }
-  /// A step with gravity. `last` is the force before and after it.
-  void advance(Particle& particle, const ContactMaterial& material, double step, double gravity, WallForce& last) {
-    const Vector3 weight(0, 0, -particle.mass * gravity);
-    particle.kick(last.force + weight, last.torque, 0.5 * step);
-    particle.drift(step);
-    last = find(particle, material, step);
-    particle.kick(last.force + weight, last.torque, 0.5 * step);
-  }
-};
 
 double tilt_of(const Particle& particle) {
   return std::acos(std::min(1.0, particle.body.pose.rotation.col(2).cwiseAbs().maxCoeff()));
@@ -185,129 +140,12 @@ TEST_CASE("lammps: a level brick has the whole stiffness, and one on an edge hal
   CHECK(std::abs(edge.torque.y()) == relative(0.5 * (std::cos(tilt) * reach - std::sin(tilt) * kBrick.z())).epsilon(1e-3));
 }
 
-namespace {
-
-/// Compares the force of a floor on a body that sinks into it by 1e-4 m with the slopes of the energy.
-void check_slopes(Particle& body, const Eigen::Quaterniond& attitude, const ContactMaterial& material) {
-  const double scale = material.stiffness * 1e-4;  // N
-  Floor floor;
-  double height = 0.05;
-  const auto place = [&](double up, const Eigen::Quaterniond& turn) { body.place({0, 0, height + up}, turn * attitude); };
-  const auto still = Eigen::Quaterniond::Identity();
-  place(0, still);
-  while (floor.find(body, material, 0).energy == 0) {
-    height -= 5e-5;
-    place(0, still);
-  }
-  height -= 1e-4;
-  place(0, still);
-  const WallForce force = floor.find(body, material, 0);
-  const auto energy = [&](double up, const Eigen::Quaterniond& turn) {
-    place(up, turn);
-    return floor.find(body, material, 0).energy;
-  };
-  CHECK((energy(-1e-9, still) - energy(1e-9, still)) / 2e-9 - force.force.z() == doctest::Approx(0).scale(scale).epsilon(1e-3));
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto turn = [&](double angle) { return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3::Unit(axis))); };
-    const double slope = (energy(0, turn(1e-7)) - energy(0, turn(-1e-7))) / 2e-7;
-    CHECK(std::abs(slope + force.torque[axis]) < 1e-3 * scale * 0.02);
-  }
-}
-
-ContactMaterial sticky(int i) { return prepared({.stiffness = 1e5, .adhesion = i % 2 == 0 ? 0 : 3.0}); }
-
-}  // namespace
-
 TEST_CASE("lammps: forces of a face on a plane are the derivatives of the energy") {
   Random random{std::mt19937(6)};
   for (int i = 0; i < 100; ++i) {
     Particle brick(kBrick, random(6, 30), random(6, 30));
     check_slopes(brick, tilted(random(0, 0.15), random) * face_up(static_cast<int>(random(0, 2.999))), sticky(i));
   }
-}
-
-TEST_CASE("lammps: bodies have sides where they are flat along one axis") {
-  CHECK(ParticleShape(kBrick, 2, 2).sides.empty());
-  CHECK(ParticleShape(kBrick, 8, 8).sides.empty());
-  CHECK(ParticleShape(kBrick, 2, 20).sides.size() == 1);
-  CHECK(ParticleShape(kBrick, 20, 2).sides.size() == 2);
-  Random random{std::mt19937(8)};
-  for (const auto& [delta, epsilon] :
-       {std::pair(2.0, 20.0), std::pair(3.0, 8.0), std::pair(20.0, 2.0), std::pair(8.0, 3.0), std::pair(1.5, 60.0)}) {
-    const ParticleShape shape(kBrick, delta, epsilon);
-    REQUIRE(!shape.sides.empty());
-    for (const Side& side : shape.sides) {
-      CHECK(side.bulge > 0);
-      CHECK(side.bulge < 3e-3 * kBrick.minCoeff());
-      for (int i = 0; i < 1000; ++i) {
-        // A normal across the side, and tilted.
-        Vector3 normal = random.vector(1);
-        normal[side.along] = 0;
-        if (side.across != side.along) normal[side.across] = std::max(1e-3, std::abs(normal[side.across]));
-        const double tilt = random(-1, 1) * side.tilt;
-        normal[side.along] = std::tan(tilt) * side.part_across(normal);
-        normal.normalize();
-        const Side::End end = side.end(normal, tilt > 0 ? 1 : -1);
-        CHECK(end.point.dot(normal) == relative(end.support).epsilon(1e-12));
-        CHECK(end.point.norm() <= shape.bounding_radius * (1 + 1e-12));
-        CHECK(end.support <= shape.body.support(normal) + side.bulge * (1 + 1e-9));
-        CHECK(end.support >= shape.body.support(normal) * (1 - 1e-12));
-      }
-    }
-  }
-}
-
-TEST_CASE("lammps: forces of a side on a plane are the derivatives of the energy") {
-  Random random{std::mt19937(9)};
-  for (int i = 0; i < 200; ++i) {
-    const bool is_can = i % 4 < 2;
-    Particle body(kBrick, is_can ? random(1.5, 3.5) : random(8, 30), is_can ? random(8, 30) : random(1.5, 3.5));
-    const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
-    const Eigen::Quaterniond rolled(Eigen::AngleAxisd(random(-3, 3), Vector3::Unit(is_can ? 2 : 1)));
-    check_slopes(body, tilted(random(0, 0.3), random) * lies * rolled, sticky(i));
-  }
-}
-
-TEST_CASE("lammps: a body that drops on its side rests along a line, and rolls if nothing resists") {
-  for (const auto& exponents : {std::pair(2.0, 20.0), std::pair(2.0, 8.0), std::pair(3.0, 60.0)}) {
-    const double delta = exponents.first, epsilon = exponents.second;
-    for (const double rolling_length : {0.0, 1e-3}) {
-      Floor floor;
-      Particle can({0.01, 0.012, 0.02}, delta, epsilon);
-      const ContactMaterial material =
-          prepared({.stiffness = 2e4, .restitution = 0.3, .friction = 0.5, .rolling_length = rolling_length});
-      const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
-      can.place({0, 0, 0.012}, Eigen::Quaterniond(Eigen::AngleAxisd(0.03, Vector3(0.2, 1, 0.2).normalized())) * lies);
-      WallForce last;
-      for (int i = 0; i < 100000; ++i) floor.advance(can, material, 1e-5, 9.81, last);
-      CAPTURE(delta);
-      CAPTURE(epsilon);
-      const double tilt = std::abs(can.body.pose.rotation.col(2).z());
-      if (rolling_length > 0) {
-        CHECK(can.kinetic_energy() < 1e-18);
-        CHECK(last.force.z() == relative(can.mass * 9.81).epsilon(1e-9));
-        CHECK(tilt < 1e-4);  // resistance to rolling also holds a small tilt
-      } else {
-        CHECK(tilt < 1e-10);
-      }
-    }
-  }
-}
-
-TEST_CASE("lammps: a level can has the whole stiffness, and one on its rim half of it") {
-  Floor floor;
-  Particle can({0.01, 0.01, 0.02}, 2, 60);
-  const ContactMaterial material = prepared({.stiffness = 1e5});
-  const auto place = [&](double tilt, double depth) {
-    const double reach = can.shape->sides.at(0).reach;
-    can.place({0, 0, std::cos(tilt) * 0.01 + std::sin(tilt) * reach - depth},
-              Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2 + tilt, Vector3::UnitY())));
-  };
-  place(0, 1e-5);
-  CHECK(floor.find(can, material, 0).force.z() == relative(1).epsilon(1e-9));
-  CHECK(floor.find(can, material, 0).torque.norm() < 1e-12);
-  place(2e-3, 1e-5);
-  CHECK(floor.find(can, material, 0).force.z() == relative(0.5).epsilon(1e-6));
 }
 
 TEST_CASE("lammps: a brick that lands flat rebounds with the restitution") {

@@ -11,7 +11,7 @@
 #include "kernel/walls/mesh_wall.hpp"
 #include "kernel/walls/plane_wall.hpp"
 #include "kernel/walls/wall_contacts.hpp"
-#include "samples/lammps/two_bodies.hpp"
+#include "samples/lammps/flat_bodies.hpp"
 #include "support/relative.hpp"
 
 using namespace granular;
@@ -178,4 +178,130 @@ TEST_CASE("lammps: in a corner each wall has its own springs, in any order of th
     const ContactHistory& one = history.contacts.at(static_cast<std::size_t>(k));
     CHECK(one.sliding.norm() == relative(one.normal.z() < -0.5 ? 1.1e-5 : 1e-6).epsilon(1e-6));
   }
+}
+
+namespace {
+
+/// A brick, a can or a pillow on one of its faces or sides, tilted by up to `tilt` (rad).
+Particle flat_body(int kind, double tilt, Random& random) {
+  Particle body(kBrick, kind == 1 ? random(1.5, 3.5) : random(6, 30), kind == 2 ? random(1.5, 3.5) : random(6, 30));
+  const Eigen::Quaterniond rolled(Eigen::AngleAxisd(random(-3, 3), Vector3::Unit(kind == 1 ? 2 : 1)));
+  const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
+  const Eigen::Quaterniond up = kind == 0   ? face_up(static_cast<int>(random(0, 2.999)))
+                                : kind == 1 ? Eigen::Quaterniond(lies * rolled)
+                                            : rolled;
+  body.place(Vector3::Zero(), tilted(random(0, tilt), random) * up);
+  return body;
+}
+
+/// A plane of which there are two triangles that bear faces and sides.
+class PartOfPlane final : public Wall {
+ public:
+  void add_contacts(const ParticleShape& shape, const Pose& pose, std::vector<WallContact>& contacts) override {
+    plane_.add_contacts(shape, pose, contacts);
+    for (WallContact& contact : contacts) {
+      contact.ground->frame.setIdentity();
+      contact.ground->origin.setZero();
+      contact.ground->is_surface = true;
+      contact.ground->patches = patches_;
+    }
+  }
+
+ private:
+  static constexpr double kHalf = 0.05;
+  PlaneWall plane_{Vector3::Zero(), Vector3::UnitZ()};
+  std::array<Vector2, 3> below_{Vector2(-kHalf, -kHalf), Vector2(kHalf, -kHalf), Vector2(kHalf, kHalf)};
+  std::array<Vector2, 3> above_{Vector2(-kHalf, -kHalf), Vector2(kHalf, kHalf), Vector2(-kHalf, kHalf)};
+  std::array<Patch, 2> patches_{below_, above_};
+};
+
+}  // namespace
+
+TEST_CASE("lammps: a floor of triangles bears faces and sides as a plane does, also over a seam") {
+  Random random{std::mt19937(14)};
+  const ContactMaterial material = prepared({.stiffness = 1e5});
+  Floor mesh, plane;
+  mesh.wall = std::make_shared<MeshWall>(square(0.5));
+  int in_contact = 0;
+  for (int i = 0; i < 150; ++i) {
+    Particle body = flat_body(i % 3, 0.1, random);
+    const Vector3 aside = 0.01 * random.vector(1);
+    double height = 0.05;
+    const auto place = [&] { body.place({aside.x(), aside.y(), height}, body.attitude); };
+    place();
+    while (plane.find(body, material, 0).contacts == 0) {
+      height -= 1e-5;
+      place();
+    }
+    // From just above the floor, where only faces touch, into it.
+    for (const double depth : {-1e-5, -2e-6, 0.0, 1e-6, 1e-5, 1e-4}) {
+      body.place({aside.x(), aside.y(), height - depth}, body.attitude);
+      const WallForce on_mesh = mesh.find(body, material, 0), on_plane = plane.find(body, material, 0);
+      CHECK(on_mesh.contacts == on_plane.contacts);
+      CHECK((on_mesh.force - on_plane.force).norm() < 1e-9);
+      CHECK((on_mesh.torque - on_plane.torque).norm() < 1e-11);
+      in_contact += on_plane.contacts;
+    }
+  }
+  CHECK(in_contact > 500);
+}
+
+TEST_CASE("lammps: at the border of a surface, forces of faces and sides are the derivatives of the energy") {
+  Random random{std::mt19937(15)};
+  Floor floor;
+  floor.wall = std::make_shared<PartOfPlane>();
+  for (int i = 0; i < 200; ++i) {
+    Particle body = flat_body(i % 3, 0.1, random);
+    const double angle = random(0, 2 * std::numbers::pi);
+    check_slopes(body, body.attitude, sticky(i), floor, {0.042 * std::cos(angle), 0.042 * std::sin(angle), 0});
+  }
+}
+
+TEST_CASE("lammps: a brick slides over the border of a table without a jump") {
+  Floor table;
+  table.wall = std::make_shared<MeshWall>(square(0.05));
+  const ContactMaterial material = prepared({.stiffness = 1e5});
+  Particle brick(kBrick, 20, 20);
+  double last = 1;
+  for (double x = 0; x < 0.04; x += 1e-5) {
+    brick.place({x, 0.003, kBrick.z() - 1e-5}, Eigen::Quaterniond::Identity());
+    const double force = table.find(brick, material, 0).force.z();
+    CHECK(std::abs(force - last) < 0.02);
+    last = force;
+  }
+}
+
+TEST_CASE("lammps: forces of a can in a pipe are the derivatives of the energy") {
+  Random random{std::mt19937(16)};
+  Floor pipe;
+  pipe.wall = std::make_shared<CylinderWall>(Vector3(0, 0, 0.04), Vector3::UnitX(), 0.04);
+  const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
+  for (int i = 0; i < 100; ++i) {
+    Particle can({0.01, 0.012, 0.02}, random(1.5, 3), random(8, 30));
+    const Eigen::Quaterniond rolled(Eigen::AngleAxisd(random(-3, 3), Vector3::UnitZ()));
+    const Eigen::Quaterniond askew(Eigen::AngleAxisd(random(-0.1, 0.1), random.vector(1).normalized()));
+    check_slopes(can, askew * lies * rolled, sticky(i), pipe, {0, random(-0.01, 0.01), -0.01});
+  }
+}
+
+TEST_CASE(
+    "lammps: a level can in a pipe has the stiffness of one contact, and askew it goes over to both of its ends without a jump") {
+  Floor pipe;
+  pipe.wall = std::make_shared<CylinderWall>(Vector3(0, 0, 0.011), Vector3::UnitX(), 0.011);
+  const ContactMaterial material = prepared({.stiffness = 1e5});
+  Particle can({0.01, 0.01, 0.03}, 2, 20);
+  const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
+  can.place({0, 0, 0.01 - 1e-5}, lies);
+  const WallForce level = pipe.find(can, material, 0);
+  CHECK(level.contacts == 1);
+  CHECK(level.force.z() == relative(1).epsilon(1e-9));
+  CHECK(level.torque.norm() < 1e-12);
+  double last = 1;
+  for (double angle = 0; angle < can.shape->sides.at(0).tilt; angle += 1e-6) {
+    can.place({0, 0, 0.01 - 1e-5}, Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3::UnitZ())) * lies);
+    const WallForce askew = pipe.find(can, material, 0);
+    CHECK(std::abs(askew.force.z() - last) < 5e-3);
+    last = askew.force.z();
+  }
+  CHECK(pipe.find(can, material, 0).contacts == 2);
 }

@@ -6,14 +6,13 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "kernel/maximum_on_arc.hpp"
 #include "kernel/refuse.hpp"
 
 namespace granular {
 namespace {
 
 constexpr int kIntervals = 32;  // subdivision of the arc of normals along which the body can protrude
-constexpr int kMaxSteps = 100;
-constexpr double kSameAngle = 1e-14;  // rad
 
 /// The support function of a body for directions perpendicular to an axis through the origin.
 class Outline {
@@ -31,31 +30,12 @@ class Outline {
     return pose_.position + pose_.rotation * shape_.body.point(pose_.rotation.transpose() * u);
   }
 
-  struct Slope {
-    double first, second;  // derivatives of value()
-  };
-  Slope slope(double angle) const {
+  /// The derivatives of value().
+  ArcSlope slope(double angle) const {
     const Vector3 u = direction(angle), t = along(angle), t_body = pose_.rotation.transpose() * t;
     const supernormal::Jet jet = shape_.body.jet(pose_.rotation.transpose() * u);
     const Vector3 p = pose_.position + pose_.rotation * jet.r;
     return {t.dot(p), t_body.dot(jet.H * t_body) - u.dot(p)};
-  }
-
-  /// The angle of a maximum between two angles. The slope must be positive at the first and not positive at the second. Newton's
-  /// method, safeguarded by bisection: flat faces reverse the slope within a very small angle.
-  double find_maximum(double low, double high) const {
-    double angle = 0.5 * (low + high), last_step = high - low;
-    for (int i = 0; i < kMaxSteps && high - low > kSameAngle; ++i) {
-      const Slope here = slope(angle);
-      (here.first > 0 ? low : high) = angle;
-      const double step = -here.first / here.second;
-      const bool is_good = here.second < 0 && std::abs(step) < 0.5 * last_step && angle + step > low && angle + step < high;
-      const double next = is_good ? angle + step : 0.5 * (low + high);
-      last_step = std::abs(next - angle);
-      angle = next;
-      if (last_step <= kSameAngle) break;
-    }
-    return angle;
   }
 
  private:
@@ -78,6 +58,7 @@ void CylinderWall::add_contacts(const ParticleShape& shape, const supernormal::P
   const Vector3 offset = across1_.dot(from_axis.position) * across1_ + across2_.dot(from_axis.position) * across2_;
   if (offset.norm() + shape.bounding_radius <= radius_) return;
 
+  const Pipe pipe{point_, across1_.cross(across2_), radius_};
   const Outline outline(shape, from_axis, across1_, across2_);
   // Where the body protrudes, its bounding sphere does, too: on an arc around the sphere's direction.
   const double middle = std::atan2(across2_.dot(offset), across1_.dot(offset));
@@ -88,12 +69,14 @@ void CylinderWall::add_contacts(const ParticleShape& shape, const supernormal::P
   for (int k = 1; k <= kIntervals; ++k) {
     const double high = middle - half + k * spacing, high_value = outline.value(high);
     // The two tangents intersect no farther out than this between the two normals.
-    const bool may_stick_out = std::max(low_value, high_value) > radius_ * std::cos(0.5 * spacing);
+    const bool may_stick_out = std::max(low_value, high_value) > (radius_ - shape.bulge) * std::cos(0.5 * spacing);
     if (may_stick_out && outline.slope(low).first > 0 && outline.slope(high).first <= 0) {
-      const double angle = outline.find_maximum(low, high);
+      const double angle = find_maximum_on_arc([&](double here) { return outline.slope(here); }, low, high, radius_);
       const Vector3 u = outline.direction(angle), along = outline.along(angle);
       const double depth = outline.value(angle) - radius_;
-      if (depth > 0) contacts.push_back({u, outline.point(u) + point_, depth, -along * along.transpose() / radius_});
+      if (depth > -shape.bulge) {
+        contacts.push_back({u, outline.point(u) + point_, depth, -along * along.transpose() / radius_, std::nullopt, pipe});
+      }
     }
     low = high;
     low_value = high_value;

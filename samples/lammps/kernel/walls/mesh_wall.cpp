@@ -1,10 +1,14 @@
 #include "kernel/walls/mesh_wall.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
 
-#include "supernormal/contact/body_box.hpp"
+#include "kernel/face_contact.hpp"
+#include "supernormal/proximity/plane.hpp"
 
 namespace granular {
 namespace {
@@ -17,22 +21,50 @@ Box box_of(const supernormal::MeshTriangle& triangle) {
   return box;
 }
 
-/// Collects the triangles that touch the box of a body.
+/// Collects the triangles that touch a box, and with a body its own box.
 struct Collector {
   const std::vector<supernormal::MeshTriangle>& triangles;
-  const supernormal::BodyBox body_box;
-  const supernormal::Pose& pose;
   const Box box;
+  const supernormal::BodyBox* body_box;
+  const supernormal::Pose& pose;
   std::vector<supernormal::MeshTriangle>& found;
 
   // Eigen's tree requires these names.
   bool intersectVolume(const Box& volume) const { return volume.intersects(box); }  // NOLINT(readability-identifier-naming)
   bool intersectObject(int index) {                                                 // NOLINT(readability-identifier-naming)
     const supernormal::MeshTriangle& triangle = triangles[static_cast<std::size_t>(index)];
-    if (body_box.touches(pose, triangle.vertices)) found.push_back(triangle);
+    if (body_box == nullptr || body_box->touches(pose, triangle.vertices)) found.push_back(triangle);
     return false;  // continue the search
   }
 };
+
+// Triangles whose normals are within this angle (rad) are coplanar, up to rounding of their coordinates, as in lib/contact/mesh.
+constexpr double kLevel = 1e-5;
+
+// The distance of their vertices from one plane, relative to a side of a triangle, as there.
+constexpr double kCrack = 1e-6;
+
+/// Unit, out of the surface; zero without an area.
+Vector3 normal_of(const supernormal::MeshTriangle& triangle) {
+  const std::array<Vector3, 3>& v = triangle.vertices;
+  return (v[1] - v[0]).cross(v[2] - v[0]).normalized();
+}
+
+bool is_in_plane(const supernormal::MeshTriangle& triangle, const Vector3& point, const Vector3& normal) {
+  const std::array<Vector3, 3>& v = triangle.vertices;
+  const Vector3 first = v[1] - v[0], second = v[2] - v[0], area = first.cross(second);
+  const double upright = area.dot(normal), near = kCrack * kCrack * std::max(first.squaredNorm(), second.squaredNorm());
+  if (upright <= 0 || area.cross(normal).squaredNorm() > kLevel * kLevel * upright * upright) return false;
+  return std::ranges::all_of(v, [&](const Vector3& vertex) { return std::pow(normal.dot(vertex - point), 2) <= near; });
+}
+
+/// Whether the tilt of a face or a side leaves it a share on a plane. `normal` is in the body's frame.
+bool may_lie(const ParticleShape& shape, const Vector3& normal) {
+  return std::ranges::any_of(shape.faces, [&](const Face& one) { return std::abs(normal[one.axis]) > std::cos(2 * one.tilt); }) ||
+         std::ranges::any_of(shape.sides, [&](const Side& one) {
+           return std::abs(normal[one.along]) < std::tan(2 * one.tilt) * one.part_across(normal);
+         });
+}
 
 }  // namespace
 
@@ -46,17 +78,77 @@ MeshWall::MeshWall(std::vector<supernormal::MeshTriangle> triangles) : triangles
   tree_.init(indices.begin(), indices.end(), boxes.begin(), boxes.end());
 }
 
-void MeshWall::add_contacts(const ParticleShape& shape, const supernormal::Pose& pose, std::vector<WallContact>& contacts) {
-  near_.clear();
-  const Vector3 reach = Vector3::Constant(shape.bounding_radius);
-  Collector collector{triangles_, supernormal::BodyBox::of(shape.body), pose, Box(pose.position - reach, pose.position + reach),
-                      near_};
+void MeshWall::collect(const supernormal::Pose& pose, double half, const supernormal::BodyBox* body_box,
+                       std::vector<supernormal::MeshTriangle>& found) const {
+  found.clear();
+  const Vector3 reach = Vector3::Constant(half);
+  Collector collector{triangles_, Box(pose.position - reach, pose.position + reach), body_box, pose, found};
   Eigen::BVIntersect(tree_, collector);
+}
+
+void MeshWall::add_contacts(const ParticleShape& shape, const supernormal::Pose& pose, std::vector<WallContact>& contacts) {
+  const supernormal::BodyBox body_box = supernormal::BodyBox::of(shape.body);
+  collect(pose, shape.bounding_radius, &body_box, near_);
   if (near_.empty()) return;
+  const std::size_t first = contacts.size();
   for (const supernormal::MeshContact& contact : search_.find(shape.body, pose, near_)) {
     const supernormal::Proximity& found = contact.proximity;
     if (found.gap < 0) contacts.push_back({found.normal, found.contact, -found.gap});
   }
+  if (shape.bulge == 0) return;
+  find_floors(shape, pose);
+  for (const Floor& floor : floors_) {
+    if (floor.share == 0) continue;
+    const Vector3 normal = -floor.ground.frame.col(2);
+    const auto found =
+        std::max_element(contacts.begin() + static_cast<std::ptrdiff_t>(first), contacts.end(),
+                         [&](const WallContact& a, const WallContact& b) { return a.normal.dot(normal) < b.normal.dot(normal); });
+    if (found != contacts.end() && found->normal.dot(normal) > kSameNormal) {
+      found->ground = floor.ground;
+    } else if (floor.gap >= 0 && floor.gap < shape.bulge) {
+      // Faces and sides may meet the floor before the body does.
+      contacts.push_back({normal, pose.position + pose.rotation * shape.body.point(pose.rotation.transpose() * normal), -floor.gap,
+                          Matrix3::Zero(), floor.ground});
+    }
+  }
+}
+
+void MeshWall::find_floors(const ParticleShape& shape, const supernormal::Pose& pose) {
+  floors_.clear();
+  patches_.clear();
+  triangles_of_floors_.clear();
+  Body body;
+  body.pose = pose;
+  body.faces = shape.faces;
+  body.sides = shape.sides;
+  for (const supernormal::MeshTriangle& seed : near_) {
+    const Vector3 normal = normal_of(seed), point = seed.vertices[0];
+    const auto is_here = [&](const Floor& one) { return is_in_plane(seed, one.ground.origin, one.ground.frame.col(2)); };
+    if (normal.isZero() || !may_lie(shape, pose.rotation.transpose() * normal) || std::ranges::any_of(floors_, is_here)) continue;
+    const double gap = supernormal::find_plane_proximity(shape.body, pose, normal, normal.dot(point)).gap;
+    if (gap >= shape.bulge) continue;
+    if (floors_.empty()) {
+      // A tilted face is above triangles that the body does not touch: the plane may be as far from the centre as the sphere.
+      collect(pose, std::numbers::sqrt2 * shape.bounding_radius, nullptr, around_);
+      // The grounds refer to them.
+      patches_.reserve(around_.size() * (near_.size() + 1));
+      triangles_of_floors_.reserve(around_.size() * (near_.size() + 1));
+    }
+    Ground ground = Ground::plane(point, normal);
+    ground.is_surface = true;
+    const std::size_t first = patches_.size();
+    for (const supernormal::MeshTriangle& other : around_) {
+      if (!is_in_plane(other, point, normal)) continue;
+      std::array<Vector2, 3>& triangle = triangles_of_floors_.emplace_back();
+      for (std::size_t v = 0; v < 3; ++v) triangle[v] = ground.frame.leftCols<2>().transpose() * (other.vertices[v] - point);
+      patches_.emplace_back(triangle);
+    }
+    ground.patches = std::span(patches_).subspan(first);
+    const std::optional<FaceContact> contact = find_ground_contact(body, ground);
+    floors_.push_back({ground, gap, contact ? contact->share : 0});
+  }
+  // The last one of a contact counts.
+  std::ranges::sort(floors_, {}, [](const Floor& one) { return std::pair(one.share, -std::abs(one.gap)); });
 }
 
 }  // namespace granular

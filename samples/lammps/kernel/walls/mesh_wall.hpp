@@ -1,14 +1,18 @@
 // A wall of triangles.
 #pragma once
 
+#include <array>
 #include <unsupported/Eigen/BVH>
+#include <vector>
 
 #include "kernel/walls/wall.hpp"
+#include "supernormal/contact/body_box.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 
 namespace granular {
 
-/// The space behind a triangle is solid (see MeshContacts).
+/// The space behind a triangle is solid (see MeshContacts). Coplanar triangles bear faces and sides as their plane, if they are
+/// under all of the face or the side.
 class MeshWall final : public Wall {
  public:
   /// Triangles with their vertices anticlockwise from outside, m. Throws std::invalid_argument if there are none.
@@ -19,7 +23,21 @@ class MeshWall final : public Wall {
  private:
   std::vector<supernormal::MeshTriangle> triangles_;
   Eigen::KdBVH<double, 3, int> tree_;  // indices of triangles_
-  std::vector<supernormal::MeshTriangle> near_;
+  /// Coplanar triangles on which a face or a side may rest.
+  struct Floor {
+    Ground ground;
+    double gap;  ///< m; of the particle and the plane
+    double share;
+  };
+  /// Collects the triangles in a cube around the body, m, and in the box of the body, if any.
+  void collect(const supernormal::Pose& pose, double half, const supernormal::BodyBox* body_box,
+               std::vector<supernormal::MeshTriangle>& found) const;
+  void find_floors(const ParticleShape& shape, const supernormal::Pose& pose);
+
+  std::vector<supernormal::MeshTriangle> near_, around_;
+  std::vector<std::array<Vector2, 3>> triangles_of_floors_;  // m
+  std::vector<Patch> patches_;
+  std::vector<Floor> floors_;
   supernormal::MeshContacts search_;
 };
 

@@ -13,7 +13,8 @@ PlaneWall::PlaneWall(const Vector3& point, const Vector3& normal) : normal_(norm
 void PlaneWall::add_contacts(const ParticleShape& shape, const supernormal::Pose& pose, std::vector<WallContact>& contacts) {
   if (normal_.dot(pose.position) - offset_ >= shape.bounding_radius) return;
   const supernormal::Proximity found = supernormal::find_plane_proximity(shape.body, pose, normal_, offset_);
-  if (found.gap < shape.bulge) contacts.push_back({found.normal, found.contact, -found.gap, Matrix3::Zero(), found.point2});
+  if (found.gap < shape.bulge)
+    contacts.push_back({found.normal, found.contact, -found.gap, Matrix3::Zero(), Ground::plane(found.point2, normal_)});
 }
 
 }  // namespace granular

@@ -1,21 +1,28 @@
 // A rigid surface in contact with particles.
 #pragma once
 
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "kernel/ground.hpp"
 #include "kernel/particle_shape.hpp"
 #include "supernormal/proximity/pose.hpp"
 
 namespace granular {
 
+/// The cosine of the angle between normals up to which they belong to one contact, 22.5 degrees.
+inline const double kSameNormal = std::cos(std::numbers::pi / 8);
+
 /// An overlap of a particle and a wall, in the frame of the wall.
 struct WallContact {
   Vector3 normal;                       ///< unit, from the particle to the wall
   Vector3 point;                        ///< m; where the force acts
-  double depth = 0;                     ///< m; > 0, or > -bulge of the particle if there is a plane
+  double depth = 0;                     ///< m; > 0, or > -bulge of the particle if there is ground or a pipe
   Matrix3 curvature = Matrix3::Zero();  ///< 1/m; of the wall; negative where it is concave
-  std::optional<Vector3> plane{};       ///< m; a point of the wall's plane, on which faces rest
+  std::optional<Ground> ground{};       ///< on which faces and sides rest; until the next query
+  std::optional<Pipe> pipe{};           ///< along which sides lie
 };
 
 /// A wall at rest in its own frame.

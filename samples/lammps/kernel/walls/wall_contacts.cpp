@@ -1,16 +1,13 @@
 #include "kernel/walls/wall_contacts.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "kernel/side_contact.hpp"
 #include "supernormal/contact/contact_curvature.hpp"
 
 namespace granular {
 namespace {
-
-const double kSameNormal = std::cos(std::numbers::pi / 8);
 
 /// Removes from `old` the history whose normal is nearest to n, and returns it. Returns a new history if there is none.
 ContactHistory take_nearest(WallHistory& old, const Vector3& n) {
@@ -31,6 +28,24 @@ NormalForce elastic_force(const ContactMaterial& material, const ParticleShape& 
   return hertz_force(material, depth, supernormal::find_contact_curvature(sum, n), shape.width);
 }
 
+/// The faces or sides at one of the contacts.
+std::optional<FaceContact> find_faces(std::span<const WallContact> contacts, std::size_t which, const supernormal::Pose& wall,
+                                      const Body& particle) {
+  const WallContact& found = contacts[which];
+  if (found.ground) {
+    Ground ground = *found.ground;
+    ground.frame = wall.rotation * ground.frame;
+    ground.origin = wall.position + wall.rotation * ground.origin;
+    return find_ground_contact(particle, ground);
+  }
+  if (!found.pipe || which >= WallHistory::kMost) return std::nullopt;
+  std::array<Vector3, WallHistory::kMost> normals;
+  const std::size_t count = std::min(contacts.size(), normals.size());
+  for (std::size_t k = 0; k < count; ++k) normals.at(k) = wall.rotation * contacts[k].normal;
+  const Pipe pipe{wall.position + wall.rotation * found.pipe->point, wall.rotation * found.pipe->axis, found.pipe->radius};
+  return find_pipe_contact(particle, pipe, std::span(normals).first(count), which);
+}
+
 }  // namespace
 
 WallForce find_wall_force(Wall& wall, const Body& wall_body, const ParticleShape& shape, const Body& particle,
@@ -46,19 +61,18 @@ WallForce find_wall_force(Wall& wall, const Body& wall_body, const ParticleShape
     return sum;
   }
   WallHistory old = history, kept;
-  for (const WallContact& found : contacts) {
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const WallContact& found = contacts[k];
     const Vector3 arm2 = rotation * found.point;
     const Vector3 arm1 = wall_body.pose.position + arm2 - particle.pose.position;
     Contact contact{rotation * found.normal, arm1, arm2, std::max(0.0, found.depth)};
-    const std::optional<FaceContact> faces =
-        found.plane ? find_plane_face_contact(particle, wall_body.pose.position + rotation * *found.plane, contact.normal)
-                    : std::nullopt;
+    const std::optional<FaceContact> faces = find_faces(contacts, k, wall_body.pose, particle);
     const bool do_faces_touch = faces && faces->count > 0;
     if (found.depth <= 0 && !do_faces_touch) continue;
     const NormalForce elastic =
         elastic_force(material, shape, particle, contact.normal, found.depth, rotation * found.curvature * rotation.transpose());
     ContactHistory one = take_nearest(old, contact.normal);
-    if (!faces && !(particle.faces.empty() && particle.sides.empty())) one.release_twist();
+    if (!faces && particle.is_flat()) one.release_twist();
     const ContactForce force = faces ? face_contact_force(*faces, face_stiffness(material, shape.width), elastic, material,
                                                           particle, wall_body, step, contact, one)
                                      : contact_force(contact, elastic, material, particle, wall_body, step, one);

@@ -7,6 +7,13 @@
 
 using namespace falling_particles;
 
+TEST_CASE("a column without its unit is the column with it") {
+  const std::vector<std::string> columns = {"qx", "x_m", "vx_m_per_s"};
+  CHECK(nearest_word("x", columns) == "x_m");
+  CHECK(nearest_word("vx", columns) == "vx_m_per_s");
+  CHECK(nearest_word("", std::vector<std::string>{"_m"}).empty());
+}
+
 TEST_CASE("the nearest word is found by edits, and nothing is better than a far one") {
   const std::vector<std::string> words = {"width", "height", "depth"};
   CHECK(nearest_word("widht", words) == "width");

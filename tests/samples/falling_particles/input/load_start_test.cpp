@@ -150,7 +150,7 @@ TEST_CASE("start: mistakes in a CSV file are refused with line and column") {
       {"0.02,", "1e4,", {"state:2: x_m is \"1e4\"; allowed: a number in [-1000, 1000] m"}},
       {" 5, 0", " inf, 0", {"state:2: wy_rad_per_s is \"inf\"; allowed: a number in [-1e+06, 1e+06] rad/s"}},
       {"0.01, 0.7071", "0.01, 0.8", {"state:2: qw, qx, qy, qz are a quaternion of norm 1.07; allowed: 1"}},
-      {"-0.2, 0", "-0.2", {"state:2: the line has 13 fields; allowed: 14, as line 1 has columns"}},
+      {"-0.2, 0", "-0.2", {"state:2: the line has 13 fields; allowed: 14, as line 1 has columns, separated by commas"}},
       {"qw,", "q0,", {"state:1: unknown column \"q0\"", "allowed: time_s, body, grain, scale, x_m"}},
       {"grain,x_m,", "grain,y_m,", {"state:1: column \"y_m\" occurs twice"}},
       {"vz_m_per_s,", "scale,", {"state:1: column vz_m_per_s is missing"}},
@@ -164,6 +164,11 @@ TEST_CASE("start: mistakes in a CSV file are refused with line and column") {
   check_says(Loaded(head + "4,pea,0.02,0.02,0.02,1,0,0,0\n").text, {"state:3: body is 4, which another line has"});
   check_says(Loaded("grain,x_m,y_m,z_m,qw,qx,qy,qz\n").text, {"state:1: the file has no grains and no bonds"});
   check_says(Loaded("").text, {"state:1: the file has no grains and no bonds"});
+  check_says(Loaded("grain,x,y,z\npea,0,0,0\n").text, {"state:1: unknown column \"x\"; did you mean \"x_m\"?"});
+  check_says(Loaded("grain;x_m;y_m\npea;0,1;0,2\n").text,
+             {"state:1: the line with the names of the columns is \"grain;x_m;y_m\", without a comma",
+              "allowed: columns separated by commas"});
+  check_says(Loaded("grain,x_m,y_m\npea;0;0\n").text, {"state:2: the line has 1 field; allowed: 3", "separated by commas"});
 }
 
 TEST_CASE("start: mistakes in a dump are refused") {

@@ -1,5 +1,6 @@
 """supernormal.scenes beside the program: the same bytes, and what a program of Python may do to a world."""
 
+import dataclasses
 import multiprocessing
 import os
 import pathlib
@@ -253,10 +254,67 @@ def test_a_change_that_bonds_are_too_stiff_for_is_refused():
         assert world.energy().kinetic < 1
 
 
-def test_a_refusal_names_where_the_text_of_a_scene_would_be():
-    text = (SCENES / "plate.toml").read_text().replace("position = [0.04, 0.04, 0.2]", "position = [0.04, 0.04, 0.02]")
-    with pytest.raises(ValueError, match=r"^\S*/scene\.toml: "):
-        scenes.Scene.from_text(text, folder=SCENES).start()
+def test_a_refusal_of_a_text_names_the_text_and_its_line():
+    text = (SCENES / "plate.toml").read_text()
+    with pytest.raises(ValueError, match=r"^the text: "):
+        scenes.Scene.from_text(text.replace("position = [0.04, 0.04, 0.2]", "position = [0.04, 0.04, 0.02]"), folder=SCENES).start()
+    line = text[: text.index("seed = ")].count("\n") + 1
+    with pytest.raises(ValueError, match=rf"^the text, line {line}: seed is "):
+        scenes.Scene.from_text(text.replace("seed = ", "seed = -"), folder=SCENES)
+    with pytest.raises(ValueError, match="^the text, line 1: unknown key"):
+        scenes.Scene.from_dict({"seeds": 1})
+
+
+def test_a_run_goes_on_from_the_state_of_another():
+    scene = scenes.Scene(SCENES / "short.toml", NO_PICTURES)
+    with scene.start("first") as world:
+        world.step(100)
+        wanted = world.grains()
+    summary = world.results.summary
+    assert tomllib.loads(summary)["run"]["interrupted"] is True and "Ctrl-C" not in summary
+    assert "interrupted                     = true        # whether the run ended before time.duration" in summary
+    state = (world.results.folder / "final_state.csv").resolve()
+    with scenes.Scene(SCENES / "short.toml", {**NO_PICTURES, "start.file": state, "start.overlap": 1}).start() as world:
+        np.testing.assert_array_equal(world.grains().position, wanted.position)
+
+
+def test_bonds_that_are_made_anew_are_doubted_and_have_their_share_of_the_rows():
+    scene = scenes.Scene(SCENES / "beam.toml", {**NO_PICTURES, "time.duration": 0.02})
+    results = scene.run("first")
+    summary = tomllib.loads(results.summary)
+    bonds, cost = summary["bonds"], summary["cost"]
+    assert cost["bonds"]["rows"] == 6 * bonds["at_start"] * summary["run"]["steps"] and summary["collision"]["contacts"] == 0
+    shares = {key: value for key, value in cost.items() if key.startswith("share_")}
+    assert "share_bonds" in shares and sum(shares.values()) == pytest.approx(1, abs=1e-4)
+    rest = cost["real"] * (shares["share_solver"] + shares["share_bonds"])
+    assert cost["bonds"]["seconds"] == pytest.approx(rest, rel=1e-3) and cost["effect"]["rigid_contact"]["seconds"] == 0
+    state = {"start.file": (results.folder / "final_state.csv").resolve()}
+    anew = scenes.Scene(SCENES / "beam.toml", {**NO_PICTURES, **state})
+    assert sum("final_bonds.csv" in doubt for doubt in anew.doubts()) == 2 and "final_bonds.csv" in anew.check()
+    files = {f"bond[{name}].file": (results.folder / "final_bonds.csv").resolve() for name in ("clamped", "beam")}
+    assert scenes.Scene(SCENES / "beam.toml", {**NO_PICTURES, **state, **files}).doubts() == scene.doubts()
+
+
+def test_walls_have_the_normals_of_their_planes():
+    with scenes.Scene(SCENES / "short.toml").start() as world:
+        walls = world.walls()
+    planes = {"floor": [0, 0, 1], "x_low": [1, 0, 0], "x_high": [-1, 0, 0], "y_low": [0, 1, 0], "y_high": [0, -1, 0]}
+    assert {name: normal.tolist() for name, normal in zip(walls.name, walls.normal)} == planes
+    # A plane of a part looks along z of its frame, a servo's too; a box has no normal.
+    with scenes.Scene(SCENES / "triaxial.toml").start() as world:
+        walls = world.walls()
+    for quaternion, normal in zip(walls.quaternion, walls.normal):
+        w, x, y, z = quaternion
+        np.testing.assert_allclose(normal, [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)], atol=1e-15)
+    with scenes.Scene(SCENES / "piston.toml").start() as world:
+        walls = world.walls()
+    assert np.isnan(walls.normal[walls.name.index("piston")]).all()
+
+
+def test_docstrings_say_what_each_field_is():
+    for record in (scenes.Kind, scenes.Grains, scenes.Contacts, scenes.Walls, scenes.Energy, scenes.Results):
+        for field in dataclasses.fields(record):
+            assert re.search(rf"^ +{field.name}: \S", record.__doc__, re.MULTILINE), (record, field.name)
 
 
 def test_a_change_is_written_into_the_results():
@@ -355,8 +413,12 @@ def test_bad_input_names_parameter_value_and_range():
         (lambda: scenes.Scene(SCENES / "short.toml", {"time.step": 7}), ValueError, r"values: time.step=7: .*7; allowed: .*\(0, 0.5\]"),
         (lambda: scenes.Scene(SCENES / "short.toml", {"a=b": 7}), TypeError, "a=b"),
         (lambda: scenes.Scene(SCENES / "short.toml", {"seed": object()}), TypeError, "allowed: bool"),
+        (lambda: scenes.Scene(SCENES / "short.toml", {"friction.coefficient": None}), TypeError, r"values\['friction.coefficient'\] is None"),
+        (lambda: scenes.Scene(SCENES / "short.toml", {"a": {"b": [1, None]}}), TypeError, r"values\['a'\]\['b'\]\[1\] is None; allowed"),
+        (lambda: scenes.Scene(SCENES / "short.toml", {"a": {1: 2}}), TypeError, r"values\['a'\] has the key 1; allowed: str"),
+        (lambda: scenes.Scene.from_dict({"time": {"step": None}}), TypeError, r"tables\['time'\]\['step'\] is None"),
         (lambda: scenes.Scene(SCENES / "short.toml", [1]), TypeError, "allowed: a mapping"),
-        (lambda: scenes.Scene.from_text("seed = ", folder=SCENES, name="x"), ValueError, "x.toml:1"),
+        (lambda: scenes.Scene.from_text("seed = ", folder=SCENES, name="x"), ValueError, "^the text, line 1: "),
         (lambda: scenes.Scene.from_text("", name="a/b"), ValueError, "name is 'a/b'"),
         (lambda: scenes.Scene.from_text(3), TypeError, "text is 3"),
         (lambda: scenes.Scene.from_dict({"seed": 1, "grains": 2}), ValueError, "unknown key"),

@@ -235,7 +235,7 @@ TEST_CASE("free walls: a start within another wall is refused, and one that touc
   const auto said = [](double height, double overlap = 0) -> std::string {
     Scene scene =
         flight_scene({{"floor", PlaneShape{}}, free_wall(mesh_of_box({-0.05, -0.05, 0}, {0.1, 0.1, 0.01}), 1, {0, 0, height})}, {});
-    scene.path = "scene.toml";
+    scene.called = "scene.toml";
     if (overlap > 0) {
       scene.start.emplace();
       scene.start->overlap = overlap;
