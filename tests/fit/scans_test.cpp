@@ -174,6 +174,16 @@ TEST_CASE("between the points of a cloud a body does not extend beyond them, but
   }
 }
 
+TEST_CASE("the surface of a coin and of a needle is measured, too") {
+  for (const Vector3& half_axes : {Vector3(1, 1, 1e-4), Vector3(1, 1e-4, 1e-4)}) {
+    const std::vector<Body> body = {{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), half_axes}};
+    const FitError error =
+        find_distances(body, {{{Vector3(1, 0, 0), Vector3(-1, 0, 0), Vector3(0, half_axes.y(), 0)}, {}}, {}, ""});
+    CHECK(error.rms < 1e-9);
+    CHECK(error.radius > 0.9);
+  }
+}
+
 TEST_CASE("winding numbers distinguish inside and outside of a concave body, also of points without normals") {
   const std::vector<Body> balls = banana();
   const std::vector<DistanceFunction> functions(balls.begin(), balls.end());

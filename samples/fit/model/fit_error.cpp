@@ -215,7 +215,6 @@ VolumeIntegral integrate_union(std::span<const Body> bodies) {
 
 namespace {
 
-/// The distances of the bodies' surface from the data.
 /// The distance from discs around the points of a cloud: its surface runs between them, in their tangent planes.
 class DiscDistance {
  public:
@@ -244,6 +243,7 @@ class DiscDistance {
   PointTree points_, with_normals_;
 };
 
+/// The distances of the bodies' surface from the data.
 void measure_surface(std::span<const DistanceFunction> functions, const Data& data, double spacings, FitError& error) {
   const DataDistance to_data(data);
   const Cloud cloud = data.triangles.empty() ? data.vertices : sample_triangles(data.vertices.points, data.triangles, kSamples, 2);

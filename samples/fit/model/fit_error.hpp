@@ -20,17 +20,16 @@ struct Solid {
 };
 
 struct FitError {
-  double rms = 0;           ///< distances of the data points from the surface of the body
-  double to_body = 0;       ///< largest distance of a data point from the surface of the body
-  double mean = 0;          ///< mean signed distance of the data from the surface; positive: the data are outside
-  double to_data = 0;       ///< largest distance of a point of the body's surface from the data
-  double reach = 0;         ///< how far the body extends beyond the data and the surface that closes their holes; of a
-                            ///< cloud, beyond the tangent planes around its points
-  double radius = 0;        ///< of the data, about their centre
-  double openness = 0;      ///< of the surface of the data (Surface::openness)
-  Solid body;               ///< union of the bodies: overlaps count once
-  double body_error = 0;    ///< standard error of a Monte Carlo volume; 0: closed form
-  double volume_error = 0;  ///< standard error of the volume of `body`, see add_uncertainty()
+  double rms = 0;                           ///< distances of the data points from the surface of the body
+  double to_body = 0;                       ///< largest distance of a data point from the surface of the body
+  double mean = 0;                          ///< mean signed distance of the data from the surface; positive: the data are outside
+  double to_data = 0;                       ///< largest distance of a point of the body's surface from the data
+  double reach = 0;                         ///< how far the body extends beyond the data and the surface that closes their holes
+  double radius = 0;                        ///< of the data, about their centre
+  double openness = 0;                      ///< of the surface of the data (Surface::openness)
+  Solid body;                               ///< union of the bodies: overlaps count once
+  double body_error = 0;                    ///< standard error of a Monte Carlo volume; 0: closed form
+  double volume_error = 0;                  ///< standard error of the volume of `body`, see add_uncertainty()
   Vector3 moment_errors = Vector3::Zero();  ///< and of its principal moments of inertia, in ascending order
   Solid data;                               ///< mesh if closed, else convex hull
   bool is_hull = false;                     ///< whether `data` is the convex hull
@@ -70,7 +69,8 @@ void add_uncertainty(FitError& error, std::span<const FittedBody> fitted);
 /// surface of the bodies. They are lower bounds: the true distances are larger by at most the spacing of the points.
 FitError find_error(std::span<const Body> bodies, const Data& data);
 
-/// Only the distances of find_error(), without the solids. `spacings`: of a cloud, the radius of the discs around its points.
+/// Only the distances of find_error(), without the solids. `spacings`: a cloud has discs of this radius, in spacings, around its
+/// points, in their tangent planes. Its reach is measured from them.
 FitError find_distances(std::span<const Body> bodies, const Data& data, double spacings = kSpacings);
 
 }  // namespace fit
