@@ -157,6 +157,33 @@ TEST_CASE("the openness of a surface is the missing fraction of a sphere, and wh
   CHECK(is_outside(make_surface(cap), outside));
 }
 
+TEST_CASE("between the points of a cloud a body does not extend beyond them, but one that is larger does") {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> gauss;
+  for (const std::size_t count : {500U, 1500U, 5000U}) {
+    Cloud cloud;
+    for (std::size_t i = 0; i < count; ++i)
+      cloud.points.push_back(Vector3(gauss(random), gauss(random), gauss(random)).normalized());
+    for (const double radius : {1.0, 1.1, 1.2}) {
+      CAPTURE(count);
+      CAPTURE(radius);
+      const Body ball{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Constant(radius)};
+      const FitError error = find_distances(std::vector{ball}, {cloud, {}, ""});
+      CHECK(std::abs(error.reach - (radius - 1)) < 0.04);
+    }
+  }
+}
+
+TEST_CASE("the surface of a coin and of a needle is measured, too") {
+  for (const Vector3& half_axes : {Vector3(1, 1, 1e-4), Vector3(1, 1e-4, 1e-4)}) {
+    const std::vector<Body> body = {{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), half_axes}};
+    const FitError error =
+        find_distances(body, {{{Vector3(1, 0, 0), Vector3(-1, 0, 0), Vector3(0, half_axes.y(), 0)}, {}}, {}, ""});
+    CHECK(error.rms < 1e-9);
+    CHECK(error.radius > 0.9);
+  }
+}
+
 TEST_CASE("winding numbers distinguish inside and outside of a concave body, also of points without normals") {
   const std::vector<Body> balls = banana();
   const std::vector<DistanceFunction> functions(balls.begin(), balls.end());

@@ -39,7 +39,9 @@ Cloud sample_triangles(std::span<const Eigen::Vector3d> points, std::span<const 
 }
 
 Cloud sample_boundary(const supernormal::Shape& shape, std::size_t count, std::uint64_t seed) {
-  const auto mesh = supernormal::tessellate(shape, 2e-3 * shape.half_extents().minCoeff());
+  const Eigen::Vector3d extents = shape.half_extents();
+  // A needle or a coin would need millions of triangles, or a smaller chord error than tessellate() takes.
+  const auto mesh = supernormal::tessellate(shape, std::max(2e-3 * extents.minCoeff(), 1e-5 * extents.maxCoeff()));
   Cloud cloud = sample_triangles(mesh.points, mesh.triangles, count, seed);
   const supernormal::Sphere point(0);
   supernormal::Settings settings;

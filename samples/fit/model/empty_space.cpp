@@ -191,9 +191,8 @@ EmptySpace find_empty_space(const Cloud& data) {
     value = value < 0 ? closed.distance(x) : -closed.distance(x);
   });
   const double area = std::accumulate(surface.areas.begin(), surface.areas.end(), 0.0);
-  // The vertices and edges of a body lie between the points, by up to twice their mean spacing.
   const double spacing = std::sqrt(area / static_cast<double>(data.points.size()));
-  const double margin = 2 * (noise_of(data.points, tree) + spacing);
+  const double margin = 2 * noise_of(data.points, tree) + kSpacings * spacing;
   return {.grid = std::move(grid), .margin = margin};
 }
 

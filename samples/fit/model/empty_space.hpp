@@ -22,6 +22,10 @@ struct Surface {
 /// point to the side from which more directions lead out of the data (Takayama et al. 2014).
 Surface make_surface(const Cloud& cloud);
 
+/// The surface of a cloud extends from each point by this many of their spacings. Vertices and edges of a body lie there, between
+/// the points.
+constexpr double kSpacings = 2;
+
 /// 1 inside the surface, 0 outside, in between if the surface is open (Jacobson, Kavan and Sorkine-Hornung 2013; for points Barill
 /// et al. 2018).
 double winding_number(const Surface& surface, const Vector3& x);

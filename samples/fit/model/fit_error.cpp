@@ -215,8 +215,36 @@ VolumeIntegral integrate_union(std::span<const Body> bodies) {
 
 namespace {
 
+/// The distance from discs around the points of a cloud: its surface runs between them, in their tangent planes.
+class DiscDistance {
+ public:
+  /// `spacings`: the radius of the discs. `surface`: of the cloud; a part of the points has its normals.
+  DiscDistance(const std::vector<Vector3>& points, const Surface& surface, double spacings)
+      : surface_(surface),
+        spacings_(spacings * std::sqrt(static_cast<double>(surface.points.size()) / static_cast<double>(points.size()))),
+        points_(points),
+        with_normals_(surface.points) {}
+
+  double operator()(const Vector3& x) const {
+    constexpr std::size_t kNeighbours = 16;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t i : points_.nearest(x, kNeighbours)) {
+      const Vector3 way = x - points_.points()[i];
+      const std::uint32_t k = with_normals_.nearest(points_.points()[i], 1).front();
+      const double height = surface_.normals[k].dot(way), aside = (way - height * surface_.normals[k]).norm();
+      nearest = std::min(nearest, std::hypot(height, std::max(0.0, aside - spacings_ * std::sqrt(surface_.areas[k]))));
+    }
+    return nearest;
+  }
+
+ private:
+  const Surface& surface_;
+  double spacings_;
+  PointTree points_, with_normals_;
+};
+
 /// The distances of the bodies' surface from the data.
-void measure_surface(std::span<const DistanceFunction> functions, const Data& data, FitError& error) {
+void measure_surface(std::span<const DistanceFunction> functions, const Data& data, double spacings, FitError& error) {
   const DataDistance to_data(data);
   const Cloud cloud = data.triangles.empty() ? data.vertices : sample_triangles(data.vertices.points, data.triangles, kSamples, 2);
   const Surface surface = make_surface(cloud);
@@ -225,11 +253,14 @@ void measure_surface(std::span<const DistanceFunction> functions, const Data& da
   std::vector<Vector3> closing = closing_points(normalized(cloud, extent));
   for (Vector3& x : closing) x = extent.centre + extent.size * x;
   const PointTree holes(std::move(closing));
+  const DiscDistance to_discs(cloud.points, surface, spacings);
   for (const Vector3& x : free_surface(functions, kSamples)) {
     const double distance = to_data(x);
     error.to_data = std::max(error.to_data, distance);
-    const double beyond = holes.points().empty() ? distance : std::min(distance, holes.distance(x));
-    if (beyond > error.reach && is_outside(surface, x)) error.reach = beyond;
+    double beyond = holes.points().empty() ? distance : std::min(distance, holes.distance(x));
+    if (beyond <= error.reach || !is_outside(surface, x)) continue;
+    if (data.triangles.empty()) beyond = std::min(beyond, to_discs(x));
+    error.reach = std::max(error.reach, beyond);
   }
 }
 
@@ -275,7 +306,7 @@ void add_uncertainty(FitError& error, std::span<const FittedBody> fitted) {
   error.moment_errors = square.tail<3>().cwiseSqrt();
 }
 
-FitError find_distances(std::span<const Body> bodies, const Data& data) {
+FitError find_distances(std::span<const Body> bodies, const Data& data, double spacings) {
   FitError error;
   const std::vector<DistanceFunction> functions(bodies.begin(), bodies.end());
   std::vector<Vector3> points = data.vertices.points;
@@ -294,7 +325,7 @@ FitError find_distances(std::span<const Body> bodies, const Data& data) {
   error.rms = std::sqrt(square / static_cast<double>(points.size()));
   error.mean = sum / static_cast<double>(points.size() - uniform);
   error.radius = radius_of(points);
-  measure_surface(functions, data, error);
+  measure_surface(functions, data, spacings, error);
   return error;
 }
 

@@ -376,10 +376,16 @@ std::vector<FittedBody> finish(std::vector<Body> bodies, const Cloud& cloud, Fit
   return fitted;
 }
 
-/// How far a union is from the limits of a good fit: at most 1 is within. The data do not show a reach smaller than the margin.
-double excess_of(const FitError& error, double most_reach) {
-  return std::max(error.rms / (kMostDistance * error.radius), error.reach / most_reach);
-}
+/// How far a union is from the limits of a good fit, for the root mean square and the reach. The data do not show a reach smaller
+/// than the margin.
+struct Excess {
+  double rms, reach;  // over the limits
+
+  Excess(const FitError& error, double most_reach)
+      : rms(error.rms / (kMostDistance * error.radius)), reach(error.reach / most_reach) {}
+  bool is_within() const { return rms <= 1 && reach <= 1; }
+  double length() const { return std::hypot(rms, reach); }
+};
 
 std::vector<Body> bodies_of(const std::vector<FittedBody>& fitted) {
   std::vector<Body> bodies(fitted.size());
@@ -406,16 +412,17 @@ std::vector<FittedBody> bounded(std::vector<FittedBody> fitted, const Cloud& clo
   const auto error_of = [&](const std::vector<FittedBody>& each) {
     std::vector<std::size_t> outliers;
     for (const FittedBody& body : each) outliers.insert(outliers.end(), body.outliers.begin(), body.outliers.end());
-    return find_distances(bodies_of(each), {settings.surface.points.empty() ? without(cloud, outliers) : settings.surface, {}, ""});
+    return settings.surface.points.empty() ? find_distances(bodies_of(each), {without(cloud, outliers), {}, ""})
+                                           : find_distances(bodies_of(each), {settings.surface, {}, ""}, 0);
   };
   FitError error = error_of(fitted);
   const double most = std::max(kMostReach * error.radius, settings.empty.margin * size);
-  double least = excess_of(error, most);
+  Excess least(error, most);
   std::vector<Body> bodies = bodies_of(fitted);
   double bound = most;
   settings.empty.is_fine = true;
   settings.empty.weight = kBoundWeight;
-  for (int round = 0; round < kMostRounds && least > 1; ++round) {
+  for (int round = 0; round < kMostRounds && !least.is_within(); ++round) {
     if (settings.progress && round == 0) settings.progress("descending with a bound on the reach beyond the data");
     bound -= std::max(0.0, error.reach - most);
     if (!(bound > 0)) break;
@@ -423,12 +430,10 @@ std::vector<FittedBody> bounded(std::vector<FittedBody> fitted, const Cloud& clo
     const std::vector<FittedBody> next = finish(bodies, cloud, settings);
     bodies = bodies_of(next);
     error = error_of(next);
-    const double excess = excess_of(error, most);
-    if (excess < least) {
+    const Excess excess(error, most);
+    if (excess.length() < least.length()) {
       least = excess;
       fitted = next;
-    } else if (error.reach <= most) {
-      break;  // the bound stays, and the distances fall no more
     }
   }
   return fitted;
