@@ -23,8 +23,8 @@
 namespace supernormal::ode {
 namespace {
 
-// Relative margin of the body's region, so that rounding loses no triangle that touches it. Far from the middle of the field rounding
-// exceeds it; a triangle lost there is touched by no more than this rounding.
+// Relative margin of the body's region, so that rounding loses no triangle that touches it. Far from the middle of the field
+// rounding exceeds it; a triangle lost there is touched by no more than this rounding.
 constexpr double kMargin = 1e-12;
 
 // A heightfield that is not placeable has no pose: its frame is the world frame.

@@ -517,9 +517,9 @@ TEST_CASE("doubts: what a part presses with is compared with the iterations and 
   };
   const auto pressed = [&](double pressure, const std::vector<std::string>& overrides = {}, int peas = 5) {
     const std::string servo = lid("gain = 1e-6, largest_speed = 0.1, area = 0.003, stress = " + shortest(pressure));
-    const std::string text = replaced(kSceneText, "count = 5", "count = " + std::to_string(peas));
+    std::string text = replaced(kSceneText, "count = 5", "count = " + std::to_string(peas));
     std::vector<std::string> found;
-    for (const std::string& doubt : doubts_about(scene_of(text + "[[part]]\nname = \"p\"\n" + servo, overrides))) {
+    for (const std::string& doubt : doubts_about(scene_of(text.append("[[part]]\nname = \"p\"\n").append(servo), overrides))) {
       if (doubt.find("presses with") != std::string::npos) found.push_back(doubt);
     }
     return found;
