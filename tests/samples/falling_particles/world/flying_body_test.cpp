@@ -76,7 +76,7 @@ TEST_CASE("free walls: a wall falls by the sum of the speeds of its steps, whate
 
 TEST_CASE("free walls: a plate that tumbles keeps its angular momentum, and its energy in the mean") {
   // 0.05 rad in a step, about no principal axis.
-  const Wall plate = free_wall(BoxShape{{0.2, 0.14, 0.02}}, 0.3, {0, 0, 0}, {{}, {70, 60, 40}});
+  const Wall plate = free_wall(BoxShape{{0.2, 0.14, 0.02}}, 0.3, {0, 0, 0}, {{0, 0, 0}, {70, 60, 40}});
   const Scene scene = flight_scene({plate}, {});
   const World world(scene, kFarGrain);
   Stepper stepper(world, scene);
