@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <utility>
+
+#include "output/format.hpp"
 
 namespace fit {
 namespace {
@@ -16,15 +16,6 @@ using Json = nlohmann::ordered_json;
 constexpr double kBound = 3;
 constexpr double kLargestRatio = 1000;  // of the bounds of `size` in a scene (scene_files.md)
 constexpr double kOneSize = 1 + 1e-9;   // the geometric deviation of scans that differ by rounding
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vector<char> text(512);
-  std::vsnprintf(text.data(), text.size(), pattern, arguments);
-  va_end(arguments);
-  return text.data();
-}
 
 bool is_too_wide(const GrainKind& kind) { return std::pow(kind.geometric_deviation, 2 * kBound) > kLargestRatio; }
 

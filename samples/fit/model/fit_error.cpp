@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <supernormal/shapes/polytope.hpp>
@@ -253,13 +254,14 @@ void measure_surface(std::span<const DistanceFunction> functions, const Data& da
   std::vector<Vector3> closing = closing_points(normalized(cloud, extent));
   for (Vector3& x : closing) x = extent.centre + extent.size * x;
   const PointTree holes(std::move(closing));
-  const DiscDistance to_discs(cloud.points, surface, spacings);
+  std::optional<DiscDistance> to_discs;
+  if (data.triangles.empty()) to_discs.emplace(cloud.points, surface, spacings);
   for (const Vector3& x : free_surface(functions, kSamples)) {
     const double distance = to_data(x);
     error.to_data = std::max(error.to_data, distance);
     double beyond = holes.points().empty() ? distance : std::min(distance, holes.distance(x));
     if (beyond <= error.reach || !is_outside(surface, x)) continue;
-    if (data.triangles.empty()) beyond = std::min(beyond, to_discs(x));
+    if (to_discs) beyond = std::min(beyond, (*to_discs)(x));
     error.reach = std::max(error.reach, beyond);
   }
 }

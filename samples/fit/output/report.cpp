@@ -3,27 +3,17 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "format.hpp"
 #include "model/distance.hpp"
 #include "paste.hpp"
 
 namespace fit {
 namespace {
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vector<char> text(512);
-  std::vsnprintf(text.data(), text.size(), pattern, arguments);
-  va_end(arguments);
-  return text.data();
-}
 
 std::string row(const char* name, double value, const FittedBody& fitted, int parameter) {
   const Uncertainty& uncertainty = fitted.uncertainty;
