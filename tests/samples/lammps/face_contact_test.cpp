@@ -19,18 +19,10 @@ TwoBodies facing(Random& random, double tilt, const ContactMaterial& material) {
   TwoBodies pair{{kBrick, random(6, 30), random(6, 30)}, {{0.012, 0.018, 0.012}, random(6, 60), random(6, 60)}, prepared(material)};
   const int axis1 = static_cast<int>(random(0, 2.999)), axis2 = static_cast<int>(random(0, 2.999));
   const Eigen::Quaterniond world = random.attitude();
-  const Eigen::Quaterniond attitude2 = tilted(random(0, tilt), random) * face_up(axis2);
+  pair.second.attitude = tilted(random(0, tilt), random) * face_up(axis2);
   const Vector3 aside(random(-0.01, 0.01), random(-0.01, 0.01), 0);
-  pair.first.place(Vector3::Zero(), world * tilted(0, random) * face_up(axis1));
-  double height = 0.05;
-  const auto place = [&] { pair.second.place(world * Vector3(aside + height * Vector3::UnitZ()), world * attitude2); };
-  place();
-  while (pair.find(0).state != PairState::Touching) {
-    height -= 1e-4;
-    place();
-  }
-  height -= random(0, 2e-4);
-  place();
+  pair.first.attitude = tilted(0, random) * face_up(axis1);
+  lower(pair, world, aside, random);
   return pair;
 }
 

@@ -36,6 +36,21 @@ inline Eigen::Quaterniond tilted(double tilt, Random& random) {
          Eigen::Quaterniond(Eigen::AngleAxisd(random(0, 2 * std::numbers::pi), Vector3::UnitZ()));
 }
 
+/// Lowers the second body on the first one until they touch, and by up to 2e-4 m more. `world` rotates both.
+inline void lower(TwoBodies& pair, const Eigen::Quaterniond& world, const Vector3& aside, Random& random) {
+  const Eigen::Quaterniond attitude1 = pair.first.attitude, attitude2 = pair.second.attitude;
+  pair.first.place(Vector3::Zero(), world * attitude1);
+  double height = 0.06;
+  const auto place = [&] { pair.second.place(world * Vector3(aside + height * Vector3::UnitZ()), world * attitude2); };
+  place();
+  while (pair.find(0).state != PairState::Touching) {
+    height -= 1e-4;
+    place();
+  }
+  height -= random(0, 2e-4);
+  place();
+}
+
 struct Floor {
   std::shared_ptr<Wall> wall = std::make_shared<PlaneWall>(Vector3::Zero(), Vector3::UnitZ());
   Body body;

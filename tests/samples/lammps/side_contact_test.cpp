@@ -107,21 +107,6 @@ Particle with_side(bool is_can, Random& random) {
   return {{0.01, 0.012, 0.02}, is_can ? random(1.5, 3.5) : random(8, 30), is_can ? random(8, 30) : random(1.5, 3.5)};
 }
 
-/// Lowers the second body on the first one until they touch, and by up to 2e-4 m more. Rotates both into any orientation.
-void lower(TwoBodies& pair, const Vector3& aside, Random& random) {
-  const Eigen::Quaterniond world = random.attitude(), attitude1 = pair.first.attitude, attitude2 = pair.second.attitude;
-  pair.first.place(Vector3::Zero(), world * attitude1);
-  double height = 0.06;
-  const auto place = [&] { pair.second.place(world * Vector3(aside + height * Vector3::UnitZ()), world * attitude2); };
-  place();
-  while (pair.find(0).state != PairState::Touching) {
-    height -= 1e-4;
-    place();
-  }
-  height -= random(0, 2e-4);
-  place();
-}
-
 /// A body on its side, on a brick, tilted by up to `tilt` (rad). Its line may hang over. Either may be the first body.
 TwoBodies side_on_face(Random& random, double tilt, const ContactMaterial& material) {
   const bool is_can = random(0, 1) < 0.5;
@@ -129,7 +114,7 @@ TwoBodies side_on_face(Random& random, double tilt, const ContactMaterial& mater
   const Eigen::Quaterniond lies = is_can ? Eigen::Quaterniond(kLies * rolled) : rolled;
   TwoBodies pair{{kBrick, random(6, 30), random(6, 30)}, with_side(is_can, random), prepared(material)};
   pair.second.place(Vector3::Zero(), tilted(random(0, tilt), random) * lies);
-  lower(pair, {random(-0.018, 0.018), random(-0.014, 0.014), 0}, random);
+  lower(pair, random.attitude(), {random(-0.018, 0.018), random(-0.014, 0.014), 0}, random);
   return random(0, 1) < 0.5 ? pair : TwoBodies{pair.second, pair.first, pair.material};
 }
 
@@ -141,7 +126,7 @@ TwoBodies side_on_side(Random& random, double tilt, const ContactMaterial& mater
   const Eigen::Quaterniond little(Eigen::AngleAxisd(random(0, tilt), random.vector(1).normalized()));
   pair.first.place(Vector3::Zero(), kLies * roll());
   pair.second.place(Vector3::Zero(), little * kLies * flip * roll());
-  lower(pair, {random(-0.03, 0.03), random(-0.004, 0.004), 0}, random);
+  lower(pair, random.attitude(), {random(-0.03, 0.03), random(-0.004, 0.004), 0}, random);
   return pair;
 }
 
