@@ -109,8 +109,8 @@ MeshShape read_mesh(const TomlTable& table, const std::string& scene_path) {
                            " m");
   }
   if (const std::size_t count = count_two_sided(mesh); count > 0) {
-    table.fail("file", table.full_name("file") + ": \"" + name + "\" has " + std::to_string(count) +
-                           " triangles with their corners in both orders, between which grains would sink; allowed: each triangle "
+    table.fail("file", table.full_name("file") + ": \"" + name + "\" has " + counted(count, "triangle") +
+                           " with corners in both orders, between which grains would sink; allowed: each triangle "
                            "once, solid behind, or " +
                            table.full_name("two_sided") + " = true, which holds grains on both sides");
   }
