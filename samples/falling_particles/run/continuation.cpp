@@ -16,7 +16,7 @@
 #include "base/interval.hpp"
 #include "doubts.hpp"
 #include "input/state_table.hpp"
-#include "wall_doubts.hpp"
+#include "model/wall_doubts.hpp"
 
 namespace falling_particles {
 namespace {

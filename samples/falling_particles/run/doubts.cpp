@@ -16,9 +16,9 @@
 #include "input/state_table.hpp"
 #include "model/grain_shape.hpp"
 #include "model/lattice.hpp"
+#include "model/wall_doubts.hpp"
 #include "observe/facing_walls.hpp"
 #include "output/wall_mesh.hpp"
-#include "wall_doubts.hpp"
 #include "world/world.hpp"
 
 namespace falling_particles {

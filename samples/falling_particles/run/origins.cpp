@@ -13,8 +13,8 @@
 
 #include "base/interval.hpp"
 #include "doubts.hpp"
+#include "model/wall_doubts.hpp"
 #include "sight.hpp"
-#include "wall_doubts.hpp"
 #include "world/free_places.hpp"
 #include "world/placement.hpp"
 #include "world/world.hpp"

@@ -282,6 +282,6 @@ TEST_CASE("a part with a coefficient that an effect of the scene excludes is ref
   const std::string soft = replaced(kSceneText, "[max_correcting_velocity]\nvelocity = 0.05\n", "[compliance]\nstiffness = 1e4\n");
   check_says(complaint(soft + part + "restitution = 0.5\n"),
              {"scene.toml:36: part.restitution besides an effect of the scene: compliance must be without restitution",
-              "allowed: a part without it"});
+              "allowed: a wall without it"});
   CHECK(complaint(soft + part + "friction = 0.5\n").empty());
 }

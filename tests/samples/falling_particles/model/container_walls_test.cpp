@@ -272,6 +272,11 @@ TEST_CASE("a cell that has no room for its grains is named by its height, and a 
   check_says(complaint(scene_in(replaced(cell, "height = 0.013", "height = 0.1") +
                                 "x_low.drive = { stress = 1e3, gain = 1e-4, largest_speed = 0.2, between = [\"x_low\"] }")),
              {"container.x_low.drive.between has 1 wall; allowed: 2 pairs"});
+  check_says(complaint(replaced(scene_in(replaced(kCell, "y_high.friction", "y_high.restitution")),
+                                "[max_correcting_velocity]\nvelocity = 0.05\n", "[compliance]\nstiffness = 1e4\n")),
+             {"container.y_high.restitution besides an effect of the scene", "allowed: a wall without it"});
+  check_says(complaint(scene_in(kCell) + "[[part]]\nname = \"x_low\"\nshape = \"plane\"\n"),
+             {"part.name is \"x_low\", which a wall of the container has"});
 }
 
 TEST_CASE("two servos of a cell press a grain between them with their stress times the area between the other sides") {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/wall.hpp"
+#include "wall.hpp"
 
 namespace falling_particles {
 
