@@ -13,6 +13,7 @@
 
 #include "base/input_error.hpp"
 #include "base/interval.hpp"
+#include "input/load_drive.hpp"
 #include "input/state_table.hpp"
 #include "model/grain_shape.hpp"
 #include "model/lattice.hpp"
@@ -63,9 +64,15 @@ double normal_speed(const WallMotion& motion, const SurfacePoint& point, bool tu
 std::string slower(const Wall& wall, double factor) {
   const Drive& drive = *wall.drive;
   const std::string key = wall.key() + ".drive.";
+  if (!drive.servo && drive.mass * factor > kHeaviest) return "a smaller force would do";
   if (drive.servo) return key + "largest_speed up to " + rounded(drive.servo->largest_speed / factor) + " m/s would do";
   return drive.turns() ? key + "moment from " + rounded(drive.mass * factor) + " kg m^2 on would do"
                        : key + "mass from " + rounded(drive.mass * factor) + " kg on would do";
+}
+
+/// A remedy in a list of them; none above the most iterations that a scene may have.
+std::string more_iterations(double fewest) {
+  return fewest > Solver::kMostIterations ? "" : ", solver.iterations from " + std::to_string(std::lround(fewest)) + " on";
 }
 
 std::string in_half_axes(double way, const Scene& scene) {
@@ -205,10 +212,10 @@ using LoadInStep = std::function<Load(double)>;
 /// How a load sinks into the lightest grains, and what would prevent it.
 struct Sinking {
   std::string in_words;
-  double excess;    // of the quotient of the remainder
-  double step;      // s, the longest
-  long iterations;  // the fewest
-  double mass;      // kg, the largest with the same acceleration
+  double excess;      // of the quotient of the remainder
+  double step;        // s, the longest
+  double iterations;  // the fewest
+  double mass;        // kg, the largest with the same acceleration
 };
 
 constexpr double kBearers = 4;  // light grains that bear a heavy one; a bed below them spreads the load
@@ -262,7 +269,7 @@ std::optional<Sinking> sinking_of(const LoadInStep& load_in, const Extremes& gra
   return Sinking{"with solver.iterations = " + std::to_string(scene.solver.iterations) + " it sinks into such grains " +
                      (actual > fastest ? "until more than " + std::to_string(std::lround(load.bearers)) + " bear it"
                                        : "by about " + rounded(unit * actual / size) + " of their smallest half-axis"),
-                 actual / allowed, step / shorter, static_cast<long>(std::ceil(std::log1p(1 / allowed) / std::log1p(1 / part))),
+                 actual / allowed, step / shorter, std::ceil(std::log1p(1 / allowed) / std::log1p(1 / part)),
                  load.bearers * grains.least / std::expm1(std::log1p(1 / allowed) / scene.solver.iterations)};
 }
 
@@ -311,8 +318,8 @@ double area_at_start(const Servo& servo, const Scene& scene) {
 std::string in_words(const Sinking& sinking, const LoadInStep& load, const std::string& remedy, const Extremes& grains,
                      const Scene& scene) {
   return " has " + rounded(load(scene.time.step).mass / grains.least) + " times the mass of the lightest (\"" +
-         grains.light->kind.name + "\"): " + sinking.in_words + "; time.step up to " + rounded(sinking.step) +
-         " s, solver.iterations from " + std::to_string(sinking.iterations) + " on, or " + remedy + " would do (grains.md)";
+         grains.light->kind.name + "\"): " + sinking.in_words + "; time.step up to " + rounded(sinking.step) + " s" +
+         more_iterations(sinking.iterations) + ", or " + remedy + " would do (grains.md)";
 }
 
 void add_servo_load(const Wall& part, const Extremes& grains, const Scene& scene, WallDoubts& doubts) {
@@ -437,7 +444,7 @@ std::optional<Pressing> pressing_of(const Wall& part, const Scene& scene) {
 /// Adds doubts about parts that press springs far together. A contact of the lightest grains bears pressure x diameter^2.
 void add_pressed_springs(const Scene& scene, const Extremes& grains, std::vector<std::string>& doubts) {
   constexpr double kDeep =
-      0.1;  // of the smallest half-axis, in the mean; of the deepest 0.42 then; for half of it 0.30, for twice 0.67
+      0.1;  // of the smallest half-axis, in the mean; the deepest overlap is 0.42, for half 0.30, for twice 0.67
   const double diameter = std::cbrt(6 / std::numbers::pi * grains.least / grains.light->kind.density);
   const double size = grains.light->smallest_scale() * grains.light->kind.smallest_half_axis();
   for (const supernormal::effects::Effect& effect : scene.effects) {
@@ -501,9 +508,9 @@ void add_pressing(const Scene& scene, std::vector<std::string>& doubts) {
                      " of grains: a free grain would move by " + rounded(way) + " m in a step, " + in_half_axes(way, scene) +
                      ", and solver.iterations = " + std::to_string(scene.solver.iterations) + " hold " + rounded(held / size) +
                      ": they may overlap, and be pressed through walls; time.step up to " +
-                     rounded(scene.time.step / std::sqrt(excess)) + " s, solver.iterations from " +
-                     std::to_string(std::lround(std::ceil(scene.solver.iterations * excess))) + " on, or up to " +
-                     rounded(pressure / excess) + " Pa would do (parts.md)");
+                     rounded(scene.time.step / std::sqrt(excess)) + " s" +
+                     more_iterations(std::ceil(scene.solver.iterations * excess)) + ", or up to " + rounded(pressure / excess) +
+                     " Pa would do (parts.md)");
   }
   of_walls.tell(doubts);
 }

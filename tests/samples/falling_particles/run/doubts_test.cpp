@@ -151,6 +151,12 @@ TEST_CASE("doubts: a driven part that jumps over a half-axis in its first step i
   check_one_doubt(with_part(lid + "mass = 1e-6\n"),
                   {"part \"p\" is driven 2.5 m in a step", "part.drive.mass from 0.000833 kg on"});
   CHECK(doubts_about(with_part(replaced(lid, "force = 10", "force = 0.05") + "mass = 0.01\n")).empty());
+  std::string all;
+  for (const std::string& doubt :
+       doubts_about(with_part(replaced(lid, "force = 10", "pressure = 1e9\narea = 100") + "mass = 0.01\n"))) {
+    all += doubt;
+  }
+  check_says(all, {"part \"p\" is driven 2.5e+06 m in a step", "a smaller force would do"});
   check_says(complaint(std::string(kSceneText) + "[[part]]\nname = \"p\"\n" + lid + "mass = 1e-160\n"),
              {"part.drive.mass is 1e-160; allowed: a number in [1e-12, 1e+06] kg"});
 }
@@ -546,6 +552,9 @@ TEST_CASE("doubts: what a part presses with is compared with the iterations and 
        "solver.iterations = 20 hold 1", "time.step up to 0.00025 s", "solver.iterations from 80 on", "would do (parts.md)"});
   CHECK(pressed(3.99 * most, {"time.step=2.5e-4"}).empty());
   CHECK(pressed(3.99 * most, {"solver.iterations=80"}).empty());
+  // No remedy is out of the range of its key.
+  REQUIRE(pressed(2e4 * most).size() == 1);
+  check_says(pressed(2e4 * most)[0], {"time.step up to 3.54e-06 s, or up to"});
   // A bed of peas and two dice of 3.5 layers bears a twelfth.
   const double die = mass_of(scene_of(std::string(kSceneText)).kinds[1].kind) / 1190;  // m^3
   const double layers = (400 * 4 * std::numbers::pi / 3 * 27e-9 + 2 * die) / (0.6 * 0.003 * 6e-3);
