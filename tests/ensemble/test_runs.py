@@ -90,6 +90,16 @@ class Results(RunTest):
             means, "a,runs,steps_mean,steps_standard_deviation,steps_confidence_95\n1,4,2.5,1.29099,2.05426\n2,4,2.5,1.29099,2.05426\n"
         )
 
+    def test_a_folder_with_the_results_of_another_sweep_is_refused(self):
+        self.ensemble("point", 0)
+        first, self.sweep = self.sweep, self.sweep.with_name("other.toml")
+        shutil.copy(first, self.sweep)
+        for command in (("run",), ("point", 0), ("collect",)):
+            done = self.ensemble(*command)
+            self.assertEqual((done.returncode, done.stderr.count(f"has the results of {first}")), (2, 1))
+        first.unlink()
+        self.assertEqual(self.ensemble("point", 0).returncode, 0)
+
     def test_a_doubt_of_runs_is_told_once_with_their_number(self):
         (self.folder / "doubt").touch()
         self.assertEqual(self.ensemble("point", *range(8)).returncode, 0)

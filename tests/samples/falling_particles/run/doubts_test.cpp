@@ -729,7 +729,7 @@ TEST_CASE("doubts: sides of a cell that meet by their motions are named with the
   const auto moved = [](const std::string& rest) {
     return in_cell("x_low.motion = [{ kind = \"velocity\", velocity = [1, 0, 0]" + rest + " }]\n");
   };
-  check_one_doubt(moved(""), {"walls \"x_low\" and \"x_high\" meet after 0.05 s by their motions"});
+  check_one_doubt(moved(""), {R"(walls "x_low" and "x_high" meet after 0.05 s by their motions)"});
   CHECK(doubts_about(moved(", until = 0.04")).empty());
   const auto refusal = [&](const std::string& keys) {
     try {
@@ -742,7 +742,7 @@ TEST_CASE("doubts: sides of a cell that meet by their motions are named with the
   const std::string servo = "z_high.drive = { stress = 100, gain = 1e-4, largest_speed = 0.2";
   const std::string motion = "x_low.motion = [{ kind = \"velocity\", velocity = [1, 0, 0] }]\n";
   check_says(refusal(motion + servo + " }\n"),
-             {"the servo of wall \"z_high\" acts between \"x_low\" and \"x_high\"", "after 0.05 s", "container.z_high.drive.area"});
+             {R"(the servo of wall "z_high" acts between "x_low" and "x_high")", "after 0.05 s", "container.z_high.drive.area"});
   CHECK(refusal(motion + servo + ", area = 0.003 }\n").empty());
   const std::string turn = "x_low.motion = [{ kind = \"rotation\", axis = [0, 0, 1], point = [0, 0, 0], rpm = 6 }]\n";
   check_says(refusal(turn + servo + " }\n"), {"do not face each other", "after 0.0005 s"});
