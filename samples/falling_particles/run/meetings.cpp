@@ -23,7 +23,7 @@ std::optional<double> meeting_of(const FacingWalls& pair, const Scene& scene) {
   const Wall& second = wall_named(pair[1], scene);
   if (first.drive || second.drive || (first.motions.empty() && second.motions.empty())) return std::nullopt;
   const double interval = std::max(scene.time.step, scene.time.duration / kMost);
-  for (int i = 0; i * interval <= scene.time.duration; ++i) {
+  for (int i = 0; i * interval < scene.time.duration; ++i) {
     const double time = i * interval;
     const auto faces = facing_faces(first.shape, pose_at(first.start, first.motions, time), second.shape,
                                     pose_at(second.start, second.motions, time));
