@@ -20,7 +20,7 @@ TwoBodies facing(Random& random, double tilt, const ContactMaterial& material) {
   const int axis1 = static_cast<int>(random(0, 2.999)), axis2 = static_cast<int>(random(0, 2.999));
   const Eigen::Quaterniond world = random.attitude();
   pair.second.attitude = tilted(random(0, tilt), random) * face_up(axis2);
-  const Vector3 aside(random(-0.01, 0.01), random(-0.01, 0.01), 0);
+  const Vector3 aside{random(-0.01, 0.01), random(-0.01, 0.01), 0};
   pair.first.attitude = tilted(0, random) * face_up(axis1);
   lower(pair, world, aside, random);
   return pair;
@@ -135,8 +135,9 @@ TEST_CASE("lammps: a level brick has the whole stiffness, and one on an edge hal
 TEST_CASE("lammps: forces of a face on a plane are the derivatives of the energy") {
   Random random{std::mt19937(6)};
   for (int i = 0; i < 100; ++i) {
-    Particle brick(kBrick, random(6, 30), random(6, 30));
-    check_slopes(brick, tilted(random(0, 0.15), random) * face_up(static_cast<int>(random(0, 2.999))), sticky(i));
+    Particle brick{kBrick, random(6, 30), random(6, 30)};
+    const Eigen::Quaterniond up = face_up(static_cast<int>(random(0, 2.999)));
+    check_slopes(brick, tilted(random(0, 0.15), random) * up, sticky(i));
   }
 }
 

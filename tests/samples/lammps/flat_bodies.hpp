@@ -17,12 +17,13 @@ namespace granular::test {
 
 inline const Vector3 kBrick(0.02, 0.015, 0.01);  // m
 
+/// Draws in braces are in their order, which for the arguments of a call each compiler chooses.
 struct Random {
   std::mt19937 engine;
   double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
   Vector3 vector(double size) { return {(*this)(-size, size), (*this)(-size, size), (*this)(-size, size)}; }
   Eigen::Quaterniond attitude() {
-    return Eigen::Quaterniond((*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1)).normalized();
+    return Eigen::Quaterniond{(*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1)}.normalized();
   }
 };
 
