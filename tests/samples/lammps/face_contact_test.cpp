@@ -80,8 +80,8 @@ TEST_CASE("lammps: forces and torques of faces are the derivatives of the energy
     for (int axis = 0; axis < 3; ++axis) {
       const double scale = contact.force.normal + pair.material.adhesion;
       const TwoBodies::EnergySlopes slopes = pair.energy_slopes(axis, 1e-9, 1e-7);
-      CHECK(std::abs(slopes.along - contact.force.force[axis]) < 2e-3 * scale);
-      CHECK(std::abs(slopes.about + contact.torque2()[axis]) < 2e-3 * scale * 0.02);
+      CHECK(slopes.along.miss(contact.force.force[axis]) < 1e-4 * scale);
+      CHECK(slopes.about.miss(-contact.torque2()[axis]) < 1e-4 * scale * 0.02);
     }
   }
   CHECK(meeting > 100);
@@ -89,15 +89,16 @@ TEST_CASE("lammps: forces and torques of faces are the derivatives of the energy
 }
 
 TEST_CASE("lammps: face contacts change neither momentum nor angular momentum") {
+  constexpr double kStiffness = 1e5;  // N/m
   Random random{std::mt19937(4)};
   for (int i = 0; i < 100; ++i) {
-    TwoBodies pair = facing(random, 0.05, {.stiffness = 1e5, .restitution = 0.5, .friction = 0.4, .rolling_length = 1e-3});
+    TwoBodies pair = facing(random, 0.05, {.stiffness = kStiffness, .restitution = 0.5, .friction = 0.4, .rolling_length = 1e-3});
     pair.first.set_velocity(random.vector(1), random.vector(20));
     for (int step = 0; step < 3; ++step) {
       const PairContact contact = pair.find(1e-5);
       const Vector3 change = contact.torque1() + contact.torque2() +
                              (pair.first.body.pose.position - pair.second.body.pose.position).cross(contact.force.force);
-      CHECK(change.norm() <= 1e-14 * contact.force.force.norm());
+      CHECK(change.norm() <= 1e-15 * kStiffness * 2e-4);  // damping may leave little of the elastic force
     }
   }
 }
