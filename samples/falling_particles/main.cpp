@@ -121,7 +121,9 @@ ExitCode run_program(int argc, char** argv) {
   CLI::Option* const checked =
       app.add_option("--check", options.check_path,
                      "scene file: say what its run would do and take, and end. Takes a second or two, and writes nothing");
-  checked->excludes(scene);
+  checked->excludes(scene)->check([](const std::string& path) {
+    return path.starts_with("--") ? "it takes the scene file itself, and the other options after it" : "";
+  });
   CLI::Option* const tabled = app.add_option("--tables", options.tables_path,
                                              "scene file: print the tables that its run would write, with columns, as TOML")
                                   ->excludes(scene)
