@@ -263,8 +263,8 @@ TEST_CASE("lammps: a brick slides over the border of a table without a jump") {
   const ContactMaterial material = prepared({.stiffness = 1e5});
   Particle brick(kBrick, 20, 20);
   double last = 1;
-  for (double x = 0; x < 0.04; x += 1e-5) {
-    brick.place({x, 0.003, kBrick.z() - 1e-5}, Eigen::Quaterniond::Identity());
+  for (int k = 0; k < 4000; ++k) {
+    brick.place({1e-5 * k, 0.003, kBrick.z() - 1e-5}, Eigen::Quaterniond::Identity());
     const double force = table.find(brick, material, 0).force.z();
     CHECK(std::abs(force - last) < 0.02);
     last = force;
@@ -297,8 +297,8 @@ TEST_CASE(
   CHECK(level.force.z() == relative(1).epsilon(1e-9));
   CHECK(level.torque.norm() < 1e-12);
   double last = 1;
-  for (double angle = 0; angle < can.shape->sides.at(0).tilt; angle += 1e-6) {
-    can.place({0, 0, 0.01 - 1e-5}, Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3::UnitZ())) * lies);
+  for (int k = 0; 1e-6 * k < can.shape->sides.at(0).tilt; ++k) {
+    can.place({0, 0, 0.01 - 1e-5}, Eigen::Quaterniond(Eigen::AngleAxisd(1e-6 * k, Vector3::UnitZ())) * lies);
     const WallForce askew = pipe.find(can, material, 0);
     CHECK(std::abs(askew.force.z() - last) < 5e-3);
     last = askew.force.z();
