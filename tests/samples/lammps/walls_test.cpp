@@ -184,7 +184,7 @@ namespace {
 
 /// A brick, a can or a pillow on one of its faces or sides, tilted by up to `tilt` (rad).
 Particle flat_body(int kind, double tilt, Random& random) {
-  Particle body(kBrick, kind == 1 ? random(1.5, 3.5) : random(6, 30), kind == 2 ? random(1.5, 3.5) : random(6, 30));
+  Particle body{kBrick, kind == 1 ? random(1.5, 3.5) : random(6, 30), kind == 2 ? random(1.5, 3.5) : random(6, 30)};
   const Eigen::Quaterniond rolled(Eigen::AngleAxisd(random(-3, 3), Vector3::Unit(kind == 1 ? 2 : 1)));
   const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
   const Eigen::Quaterniond up = kind == 0   ? face_up(static_cast<int>(random(0, 2.999)))
@@ -277,7 +277,7 @@ TEST_CASE("lammps: forces of a can in a pipe are the derivatives of the energy")
   pipe.wall = std::make_shared<CylinderWall>(Vector3(0, 0, 0.04), Vector3::UnitX(), 0.04);
   const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
   for (int i = 0; i < 100; ++i) {
-    Particle can({0.01, 0.012, 0.02}, random(1.5, 3), random(8, 30));
+    Particle can{{0.01, 0.012, 0.02}, random(1.5, 3), random(8, 30)};
     const Eigen::Quaterniond rolled(Eigen::AngleAxisd(random(-3, 3), Vector3::UnitZ()));
     const Eigen::Quaterniond askew(Eigen::AngleAxisd(random(-0.1, 0.1), random.vector(1).normalized()));
     check_slopes(can, askew * lies * rolled, sticky(i), pipe, {0, random(-0.01, 0.01), -0.01});
