@@ -7,25 +7,21 @@
 
 namespace granular {
 
-// A slope that is rounding, relative to the size of a body.
-constexpr double kLevelSlope = 1e-15;
-
 /// The derivatives of a function of an angle.
 struct ArcSlope {
   double first, second;
 };
 
 /// The angle (rad) of a maximum between two angles. The slope must be positive at the first and not positive at the second.
-/// Newton's method, safeguarded by bisection: flat faces reverse the slope within a very small angle. `size` is the length that
-/// slopes are compared with.
+/// Newton's method, safeguarded by bisection: flat faces reverse the slope within a very small angle.
 template <typename Slope>
-double find_maximum_on_arc(const Slope& slope, double low, double high, double size) {
+double find_maximum_on_arc(const Slope& slope, double low, double high) {
   constexpr int kMaxSteps = 100;
   constexpr double kSameAngle = 1e-14;  // rad
   double angle = 0.5 * (low + high), last_step = high - low;
   for (int i = 0; i < kMaxSteps && high - low > kSameAngle; ++i) {
     const ArcSlope here = slope(angle);
-    if (std::abs(here.first) <= kLevelSlope * size) break;
+    if (here.first == 0) break;
     (here.first > 0 ? low : high) = angle;
     const double step = -here.first / here.second;
     const bool is_good = here.second < 0 && std::abs(step) < 0.5 * last_step && angle + step > low && angle + step < high;
@@ -39,17 +35,17 @@ double find_maximum_on_arc(const Slope& slope, double low, double high, double s
 
 /// The maximum uphill from 0, at most half a turn away.
 template <typename Slope>
-double find_maximum_uphill(const Slope& slope, double size) {
+double find_maximum_uphill(const Slope& slope) {
   constexpr double kFirstStep = 0.01;  // rad; without a step of Newton's method
   const ArcSlope here = slope(0);
-  if (std::abs(here.first) <= kLevelSlope * size) return 0;
+  if (here.first == 0) return 0;
   const double uphill = here.first > 0 ? 1 : -1, newton = std::abs(here.first / here.second);
   double last = 0, next = here.second < 0 && newton > 0 ? std::min(2 * newton, 1.0) : kFirstStep;
   while (next < std::numbers::pi && uphill * slope(uphill * next).first > 0) {
     last = next;
-    next *= 4;
+    next = std::min(4 * next, std::numbers::pi);
   }
-  return find_maximum_on_arc(slope, uphill > 0 ? last : -next, uphill > 0 ? next : -last, size);
+  return find_maximum_on_arc(slope, uphill > 0 ? last : -next, uphill > 0 ? next : -last);
 }
 
 }  // namespace granular

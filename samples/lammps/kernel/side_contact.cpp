@@ -11,12 +11,10 @@
 namespace granular {
 namespace {
 
-// The part of a normal across a side. Lines end in a pole of the body there, so they have no share, up to rounding, by which the
-// derivative of their tilt would be divided.
+// The part of a normal across a side. Lines end in a pole of the body there, so they have no share, by which the derivative of
+// their tilt would be divided: a body that stands upright on a brick has the force NaN with 0. The share falls with the fourth
+// power of this part. Here it is below 1e-14 for profiles with exponents up to 3.9; 1e-10 with ten times, 1e-18 with a tenth.
 constexpr double kPole = 1e-6;
-
-// The part of a strip that rounding leaves bare between triangles.
-constexpr double kBare = 1e-9;
 
 /// A number with its derivatives by a displacement of body 1 and by a rotation about its centre.
 using Wrench = Eigen::Matrix<double, 6, 1>;
@@ -163,8 +161,7 @@ Varying find_whole_cover(const std::array<Place<Varying>, 2>& line, double width
   for (const double beside : strips) {
     bare += area_beside<double>(start, end, beside, {}) - area_beside<double>(start, end, beside, patches);
   }
-  // The share grows with the square of what is bare.
-  if (bare <= kBare * kFullOverlap * width * length_of(Place<double>(end - start))) return constant(1);
+  if (bare <= 0) return constant(1);
   Varying covered = constant(0), all = constant(0);
   for (const double beside : strips) {
     covered += area_beside<Varying>(line[0], line[1], beside, patches);
@@ -284,7 +281,7 @@ class SidePair {
     const Vector3 centre1 = place1.value() * axis1_, centre2 = place2.value() * axis2_;
     const Vector3 across = mean_.cross(guess_);
     const auto at = [&](double angle) { return deepest(std::cos(angle) * guess_ + std::sin(angle) * across, centre1, centre2); };
-    const double angle = find_maximum_uphill([&](double here) { return at(here).slope; }, side1_.half_axes.maxCoeff());
+    const double angle = find_maximum_uphill([&](double here) { return at(here).slope; });
     const Candidate found = at(angle);
     const Vector3& n = found.normal;
     // The normal is the best one across the mean axis. So the depth changes with the axis, but not with the normal.
@@ -355,7 +352,7 @@ PipeEnd find_pipe_end(const Body& body, const Side& side, int sign, const Pipe& 
     const Vector3 point = centre + rotation * end.point;
     return {along.dot(point), bend_along(end, rotation, along) - normal.dot(point)};
   };
-  const double angle = find_maximum_uphill(slope, pipe.radius);
+  const double angle = find_maximum_uphill(slope);
   const Vector3 normal = normal_at(angle), arm = rotation * side.end(rotation.transpose() * normal, sign).point;
   return {varying(normal.dot(centre + arm) - pipe.radius, normal, arm.cross(normal)), body.pose.position + arm, normal};
 }

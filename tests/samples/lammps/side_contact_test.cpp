@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -249,4 +251,45 @@ TEST_CASE("lammps: cans that cross touch in a point, and the line fades in betwe
   }
   CHECK(last_share == 0);
   CHECK(last_force == relative(1).epsilon(1e-3));
+}
+
+TEST_CASE("lammps: a body that stands on the pole of its round sides touches in a point") {
+  const ContactMaterial material = prepared({.stiffness = 1e5});
+  for (const double epsilon : {1.5, 2.0, 3.9}) {
+    Particle pillow(kBrick, 20, epsilon);
+    for (const double tilt : {0.0, 1e-160, 1e-12}) {
+      Floor floor;
+      pillow.place({0, 0, kBrick.z() - 1e-5}, Eigen::Quaterniond(Eigen::AngleAxisd(tilt, Vector3::UnitX())));
+      const WallForce force = floor.find(pillow, material, 0);
+      CHECK(force.force.z() == relative(1).epsilon(1e-6));
+      CHECK(force.torque.norm() < 1e-5);
+      TwoBodies pair{{{0.05, 0.05, 0.01}, 60, 60}, pillow, material};
+      pair.second.place({0, 0, 0.01 + kBrick.z() - 1e-5}, pillow.attitude);
+      CHECK(pair.find(0).force.force.z() == relative(-1).epsilon(1e-6));
+    }
+  }
+}
+
+TEST_CASE("lammps: rolling over a flat spot of its outline, a can beside a border gets a torque without a spike") {
+  for (const double delta : {2.5, 3.0, 3.9}) {
+    const Particle can({0.01, 0.012, 0.02}, delta, 20);
+    const std::array<Vector2, 4> half_plane{Vector2(-1, -1), Vector2(0, -1), Vector2(0, 1), Vector2(-1, 1)};
+    const Patch patch(half_plane);
+    Ground ground = Ground::plane(Vector3::Zero(), Vector3::UnitZ());
+    ground.frame.setIdentity();
+    ground.patches = {&patch, 1};
+    double largest = 0;  // 1/rad
+    for (int k = -1000; k <= 1000; ++k) {
+      Particle rolled = can;
+      rolled.place({0, 0, 0.0119}, Eigen::Quaterniond(Eigen::AngleAxisd(2e-4 * k, Vector3::UnitY())) *
+                                       Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitX())));
+      const auto line = find_side_contact(rolled.body, ground);
+      if (!line) continue;
+      CHECK(line->share_by_turn.allFinite());
+      largest = std::max(largest, std::abs(line->share_by_turn.y()));
+    }
+    CAPTURE(delta);
+    CHECK(largest > 10);
+    CHECK(largest < 1000);
+  }
 }

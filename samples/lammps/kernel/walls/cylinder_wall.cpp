@@ -71,7 +71,7 @@ void CylinderWall::add_contacts(const ParticleShape& shape, const supernormal::P
     // The two tangents intersect no farther out than this between the two normals.
     const bool may_stick_out = std::max(low_value, high_value) > (radius_ - shape.bulge) * std::cos(0.5 * spacing);
     if (may_stick_out && outline.slope(low).first > 0 && outline.slope(high).first <= 0) {
-      const double angle = find_maximum_on_arc([&](double here) { return outline.slope(here); }, low, high, radius_);
+      const double angle = find_maximum_on_arc([&](double here) { return outline.slope(here); }, low, high);
       const Vector3 u = outline.direction(angle), along = outline.along(angle);
       const double depth = outline.value(angle) - radius_;
       if (depth > -shape.bulge) {
