@@ -92,16 +92,18 @@ struct Options {
   std::string to_lammps;
 };
 
+void warn(const std::vector<std::string>& doubts) {
+  for (const std::string& doubt : doubts) std::fprintf(stderr, "falling_particles: warning: %s\n", doubt.c_str());
+}
+
 ExitCode simulate(const Options& options) {
   falling_particles::Scene scene = falling_particles::load_scene(options.scene_path, options.overrides);
   if (!options.to_lammps.empty()) {
-    falling_particles::write_lammps_input(scene, options.to_lammps);
+    warn(falling_particles::write_lammps_input(scene, options.to_lammps));
     return Done;
   }
   falling_particles::refuse_overlapping_start(scene);
-  for (const std::string& doubt : falling_particles::doubts_about(scene)) {
-    std::fprintf(stderr, "falling_particles: warning: %s\n", doubt.c_str());
-  }
+  warn(falling_particles::doubts_about(scene));
   if (options.no_pictures) scene.pictures.clear();
   falling_particles::catch_interrupts();
   const falling_particles::RunEnd end = falling_particles::run(scene, options.run);
@@ -119,7 +121,9 @@ ExitCode run_program(int argc, char** argv) {
   CLI::Option* const checked =
       app.add_option("--check", options.check_path,
                      "scene file: say what its run would do and take, and end. Takes a second or two, and writes nothing");
-  checked->excludes(scene);
+  checked->excludes(scene)->check([](const std::string& path) {
+    return path.starts_with("--") ? "it takes the scene file itself, and the other options after it" : "";
+  });
   CLI::Option* const tabled = app.add_option("--tables", options.tables_path,
                                              "scene file: print the tables that its run would write, with columns, as TOML")
                                   ->excludes(scene)

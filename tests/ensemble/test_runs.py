@@ -30,6 +30,7 @@ while (scene.parent / f"wait-{{seed}}").exists(): time.sleep(0.01)
 interrupted = (scene.parent / f"interrupt-{{seed}}").exists()
 text = f"[run]\\nsteps = {{seed}}\\ninterrupted = {{str(interrupted).lower()}}\\n"
 (out / "summary.toml").write_text(text)
+if (scene.parent / "doubt").exists(): print(f'falling_particles: warning: "{{seed}}" is {{seed}} m, too far', file=sys.stderr)
 if interrupted: sys.exit(130)
 if (scene.parent / f"leak-{{seed}}").exists(): sys.exit(3)
 """
@@ -88,6 +89,23 @@ class Results(RunTest):
         self.assertEqual(
             means, "a,runs,steps_mean,steps_standard_deviation,steps_confidence_95\n1,4,2.5,1.29099,2.05426\n2,4,2.5,1.29099,2.05426\n"
         )
+
+    def test_a_folder_with_the_results_of_another_sweep_is_refused(self):
+        self.ensemble("point", 0)
+        first, self.sweep = self.sweep, self.sweep.with_name("other.toml")
+        shutil.copy(first, self.sweep)
+        for command in (("run",), ("point", 0), ("collect",)):
+            done = self.ensemble(*command)
+            self.assertEqual((done.returncode, done.stderr.count(f"has the results of {first}")), (2, 1))
+        first.unlink()
+        self.assertEqual(self.ensemble("point", 0).returncode, 0)
+
+    def test_a_doubt_of_runs_is_told_once_with_their_number(self):
+        (self.folder / "doubt").touch()
+        self.assertEqual(self.ensemble("point", *range(8)).returncode, 0)
+        done = self.ensemble("collect")
+        warning = 'ensemble: warning in 8 of 8 runs, here point 0 (a=1 seed=1): "1" is 1 m, too far\n'
+        self.assertEqual((done.returncode, done.stderr), (0, warning))
 
     def test_what_has_a_result_is_not_run_again(self):
         self.ensemble("point", 0, 3)

@@ -93,6 +93,8 @@ scenes_are_checked() {
     grep -q "^$line" "$work/log" || fail "--check does not say $line: $(cat "$work/log")"
   done
   sed 's/^step = .*/step = -1/' "$samples/scenes/short.toml" >"$work/scenes/bad.toml"
+  expect 2 "$program" --check --scene "$samples/scenes/short.toml"
+  grep -q -e '--check: it takes the scene file itself' "$work/log" || fail "unclear message: $(cat "$work/log")"
   expect 2 "$program" --check "$work/scenes/bad.toml"
   grep -q 'bad.toml:[0-9]*: time.step is -1; allowed: ' "$work/log" || fail "unclear message: $(cat "$work/log")"
   expect 0 "$program" --list

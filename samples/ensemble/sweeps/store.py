@@ -6,6 +6,7 @@ runs/RUN/          what falling_particles writes, and exit_code, until the resul
 logs/RUN.log       what it said in the last attempt
 locks/RUN          held by who works at it
 program.txt        the version of falling_particles that has run the last point
+sweep.txt          the sweep file whose points.csv and means.csv these are
 """
 
 import contextlib
@@ -17,6 +18,8 @@ import pathlib
 import shutil
 import tomllib
 
+from .errors import InputError
+
 
 class Store:
     """Of a sweep. `program`: what falling_particles says of its version; None: as it was when the last point was run."""
@@ -24,6 +27,7 @@ class Store:
     def __init__(self, folder, sweep, program=None):
         self.folder = pathlib.Path(folder)
         self.sweep = sweep
+        self._claim()
         scenes = {sweep.scene, sweep.start.scene if sweep.start else sweep.scene}
         self._texts = {scene: _texts_of(_parsed(scene.read_bytes())) for scene in scenes}
         self._digests = {}
@@ -61,6 +65,15 @@ class Store:
             except (OSError, ValueError):  # falling_particles complains
                 self._digests[path] = None
         return self._digests[path]
+
+    def _claim(self):
+        """Raises InputError if the tables of the folder belong to another sweep file, which is still there."""
+        own, path = str(self.sweep.path.resolve()), self.folder / "sweep.txt"
+        owner = (_read(path) or "").strip()
+        if owner not in ("", own) and pathlib.Path(owner).exists():
+            raise InputError(f"{self.folder} has the results of {owner}; allowed for {self.sweep.path}: a folder of its own")
+        if owner != own:
+            _replace(path, own + "\n")
 
     def _last_program(self):
         return (_read(self.folder / "program.txt") or "").strip()

@@ -42,4 +42,8 @@ std::string rounded_up(double value) {
   return rounded(value + unit / 2, kDigits);
 }
 
+std::string counted(std::size_t number, const std::string& noun) {
+  return std::to_string(number) + ' ' + noun + (number == 1 ? "" : "s");
+}
+
 }  // namespace falling_particles

@@ -1,6 +1,7 @@
 // Ranges of numbers for input checks.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <string>
 
@@ -36,5 +37,8 @@ std::string rounded(double value, int digits = 3);
 
 /// The least number of six significant digits that is not below `value`: a computed bound, which an input may have as it is read.
 std::string rounded_up(double value);
+
+/// "1 grain", "2 grains".
+std::string counted(std::size_t number, const std::string& noun);
 
 }  // namespace falling_particles

@@ -199,8 +199,15 @@ void check_ceiling(const TomlTable& table, const Scene& scene) {
       for (int i = 0; i < entry.count; ++i, ++room) lattice.next(entry.scale(static_cast<std::size_t>(i)) * radius);
     }
   } catch (const NoRoom&) {
-    table.fail("kind", "the scene has " + std::to_string(scene.grains_at_start()) + " grains; allowed: up to " +
-                           std::to_string(room) + ", which find room in the container at the start");
+    std::string key = "height";
+    if (std::holds_alternative<Drum>(scene.container)) key = "diameter";
+    if (std::holds_alternative<ShearCell>(scene.container)) key = "lid";
+    const auto* const open = std::get_if<Open>(&scene.container);
+    const double value = open != nullptr ? open->start.size[2] : table.number(key.c_str(), Interval::finite(""));
+    table.fail(open != nullptr ? "start" : key.c_str(),
+               "container." + (open != nullptr ? "start.size[2]" : key) + " is " + shortest(value) + " m, with room for " +
+                   std::to_string(room) + " of the scene's " + counted(static_cast<std::size_t>(scene.grains_at_start()), "grain") +
+                   " at the start; allowed: a larger container, or fewer grains");
   }
 }
 

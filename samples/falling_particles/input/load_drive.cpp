@@ -9,6 +9,7 @@
 
 #include "base/nearest_word.hpp"
 #include "load_motion.hpp"
+#include "load_sections.hpp"
 #include "observe/facing_walls.hpp"
 
 namespace falling_particles {
@@ -145,17 +146,10 @@ std::optional<Drive> read_drive(const TomlTable& part, const Wall& wall, const s
 }
 
 void load_servos(const TomlTable& root, Scene& scene) {
-  const auto read = [&](const TomlTable& owner, Wall& wall) {
-    if (!wall.drive || !wall.drive->servo || wall.drive->servo->area > 0 || !wall.drive->servo->between.empty()) return;
-    wall.drive->servo->between = read_facing_walls(owner.table("drive"), "between", 2, scene.walls, wall.drive->axis);
-  };
-  const std::vector<TomlTable> parts = root.has("part") ? root.tables("part") : std::vector<TomlTable>();
-  const std::size_t of_container = scene.walls.size() - parts.size();
-  for (std::size_t i = 0; i < parts.size(); ++i) read(parts[i], scene.walls[of_container + i]);
-  if (!std::holds_alternative<Cell>(scene.container)) return;
-  const TomlTable container = root.table("container");
-  for (std::size_t i = 0; i < of_container; ++i) {
-    if (container.has(scene.walls[i].name)) read(container.table(scene.walls[i].name), scene.walls[i]);
+  for (const auto& [table, index] : tables_of_walls(root, scene)) {
+    Wall& wall = scene.walls[index];
+    if (!wall.drive || !wall.drive->servo || wall.drive->servo->area > 0 || !wall.drive->servo->between.empty()) continue;
+    wall.drive->servo->between = read_facing_walls(table.table("drive"), "between", 2, scene.walls, wall.drive->axis);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "load_sections.hpp"
 #include "model/material.hpp"
 
 namespace falling_particles {
@@ -174,10 +175,10 @@ void load_wall_effects(const TomlTable& root, Scene& scene) {
   try {
     const fx::Effects compiled(scene.effects, scene.time.step);
   } catch (const fx::BadEffect& error) {
-    for (const TomlTable& part : root.tables("part")) {
-      if (!part.has("restitution")) continue;
-      part.fail("restitution", part.full_name("restitution") + " besides an effect of the scene: " + error.reason() +
-                                   "; allowed: a part without it");
+    for (const auto& [table, index] : tables_of_walls(root, scene)) {
+      if (!table.has("restitution")) continue;
+      table.fail("restitution", table.full_name("restitution") + " besides an effect of the scene: " + error.reason() +
+                                    "; allowed: a wall without it");
     }
     throw;
   }

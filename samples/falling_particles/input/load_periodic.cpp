@@ -83,7 +83,7 @@ void load_periodic(const TomlTable& root, Scene& scene) {
       const std::optional<std::string> end = find_end(wall, axis, *scene.periodic[axis], reach);
       if (!end) continue;
       table->fail(kAxes[axis],
-                  "part \"" + wall.name + "\" is not the same all along " + kAxes[axis] + ", on which the scene repeats: " + *end +
+                  wall.called() + " is not the same all along " + kAxes[axis] + ", on which the scene repeats: " + *end +
                       "; allowed: planes, boxes, cylinders and prisms through the whole cell that move in the same way "
                       "everywhere along it");
     }

@@ -90,7 +90,8 @@ std::vector<int> read_counts(const std::vector<TomlTable>& entries, const TomlTa
 
 void refuse_too_many(const TomlTable& root, std::int64_t grains) {
   if (grains <= kMostBodies) return;
-  root.fail("grain", "the scene has " + std::to_string(grains) + " grains; allowed: up to " + std::to_string(kMostBodies));
+  root.fail("grain", "the scene has " + counted(static_cast<std::size_t>(grains), "grain") + "; allowed: up to " +
+                         std::to_string(kMostBodies));
 }
 
 /// The kinds of a scene, none of which has grains yet.
@@ -163,9 +164,9 @@ void check_memory(const TomlTable& root, int grains) {
   const double available = memory_of_machine();
   if (needed <= available) return;
   const auto in_gigabytes = [](double bytes) { return shortest(std::round(bytes / kGigabyte * 10) / 10) + " GB"; };
-  root.fail("grain", "the scene has " + std::to_string(grains) + " grains, a bed of which takes " + in_gigabytes(needed) +
-                         " of memory; allowed with " + in_gigabytes(available) + ": up to " +
-                         std::to_string(most_grains(available)) + " grains");
+  root.fail("grain", "the scene has " + counted(static_cast<std::size_t>(grains), "grain") + ", a bed of which takes " +
+                         in_gigabytes(needed) + " of memory; allowed with " + in_gigabytes(available) + ": up to " +
+                         counted(static_cast<std::size_t>(most_grains(available)), "grain"));
 }
 
 Time read_time(const TomlTable& table) {

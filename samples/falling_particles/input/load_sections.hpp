@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/toml_input.hpp"
@@ -19,6 +20,9 @@ void check_fit(const TomlTable& root, const Scene& scene);
 /// The walls of the container, then the walls of the [[part]] sections. Mesh files are relative to the scene's folder. Throws
 /// InputError.
 std::vector<Wall> load_walls(const TomlTable& root, const Scene& scene, const std::string& scene_path);
+
+/// The tables of all walls that have one, with indices into Scene::walls.
+std::vector<std::pair<TomlTable, std::size_t>> tables_of_walls(const TomlTable& root, const Scene& scene);
 
 /// Reads `size` of a [[grain]], if it has one. Throws InputError. The result is the distribution of the factor on all lengths of
 /// the grain. `sieve_size` (m) is its sieve size in the catalogue.

@@ -109,8 +109,8 @@ MeshShape read_mesh(const TomlTable& table, const std::string& scene_path) {
                            " m");
   }
   if (const std::size_t count = count_two_sided(mesh); count > 0) {
-    table.fail("file", table.full_name("file") + ": \"" + name + "\" has " + std::to_string(count) +
-                           " triangles with their corners in both orders, between which grains would sink; allowed: each triangle "
+    table.fail("file", table.full_name("file") + ": \"" + name + "\" has " + counted(count, "triangle") +
+                           " with corners in both orders, between which grains would sink; allowed: each triangle "
                            "once, solid behind, or " +
                            table.full_name("two_sided") + " = true, which holds grains on both sides");
   }
@@ -147,7 +147,7 @@ std::string read_name(const TomlTable& table, const std::vector<Wall>& walls) {
     table.fail("name", table.full_name("name") + " is \"" + name + "\"; allowed: letters, digits, _, - and .");
   }
   if (const auto other = std::ranges::find(walls, name, &Wall::name); other != walls.end()) {
-    const char* const owner = other->is_part() ? "another part" : "a wall of the container";
+    const char* const owner = other->is_of_container ? "a wall of the container" : "another part";
     table.fail("name", table.full_name("name") + " is \"" + name + "\", which " + owner + " has; allowed: a name of its own");
   }
   return name;
@@ -183,6 +183,19 @@ void read_sides(const TomlTable& table, const Cell& cell, const Time& time, std:
 }
 
 }  // namespace
+
+std::vector<std::pair<TomlTable, std::size_t>> tables_of_walls(const TomlTable& root, const Scene& scene) {
+  std::vector<std::pair<TomlTable, std::size_t>> tables;
+  const std::vector<TomlTable> parts = root.has("part") ? root.tables("part") : std::vector<TomlTable>();
+  const std::size_t of_container = scene.walls.size() - parts.size();
+  for (std::size_t i = 0; i < parts.size(); ++i) tables.emplace_back(parts[i], of_container + i);
+  if (!std::holds_alternative<Cell>(scene.container)) return tables;
+  const TomlTable container = root.table("container");
+  for (std::size_t i = 0; i < of_container; ++i) {
+    if (container.has(scene.walls[i].name)) tables.emplace_back(container.table(scene.walls[i].name), i);
+  }
+  return tables;
+}
 
 std::vector<Wall> load_walls(const TomlTable& root, const Scene& scene, const std::string& scene_path) {
   std::vector<Wall> walls = walls_in(scene.container);

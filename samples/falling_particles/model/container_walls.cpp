@@ -167,7 +167,9 @@ std::vector<Wall> walls_in(const Container& container) {
     if constexpr (requires { walls_of(kind); }) return walls_of(kind);
     return {};
   };
-  return std::visit(walls, container);
+  std::vector<Wall> found = std::visit(walls, container);
+  for (Wall& wall : found) wall.is_of_container = true;
+  return found;
 }
 
 }  // namespace falling_particles

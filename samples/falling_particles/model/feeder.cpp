@@ -19,7 +19,7 @@ double smallest_mass(const GrainCount& entry) { return std::pow(entry.smallest_s
 
 }  // namespace
 
-std::string Quantity::in_words() const { return shortest(number) + (of == Of::Mass ? " kg" : " grains"); }
+std::string Quantity::in_words() const { return shortest(number) + (of == Of::Mass ? " kg" : number == 1 ? " grain" : " grains"); }
 
 double lightest_grain(const Feeder& feeder, const Scene& scene) {
   double lightest = INFINITY;

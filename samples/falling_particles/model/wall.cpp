@@ -76,6 +76,10 @@ std::vector<Face> faces_of(const WallShape& shape, const WallPose& pose) {
 
 }  // namespace
 
+std::string Wall::called() const { return (is_of_container ? "wall \"" : "part \"") + name + '"'; }
+
+std::string Wall::key() const { return is_of_container ? "container." + name : "part"; }
+
 double bounding_radius(const WallShape& shape) {
   return std::visit([](const auto& kind) { return radius_of(kind); }, shape);
 }

@@ -74,7 +74,10 @@ struct Wall {
   std::optional<double> friction = {};     ///< coefficient of grains on it; as on other walls if empty
   std::optional<double> restitution = {};  ///< of grains on it; as on other walls if empty
   WallRole role = WallRole::Part;
+  bool is_of_container = false;
 
+  std::string called() const;  ///< in messages: part "p", wall "x_low"
+  std::string key() const;     ///< of its table in a scene: part, container.x_low
   bool is_part() const { return role == WallRole::Part; }
   bool moves() const { return !motions.empty() || drive || flight; }
 };

@@ -29,9 +29,9 @@ std::vector<FacingWalls> read_facing_walls(const TomlTable& table, const char* k
   const std::vector<std::string> names = table.choices(key, all);
   const std::string allowed = "; allowed: " + std::to_string(count) +
                               " pairs of planes or boxes that face each other at right angles to the other pairs" +
-                              (across.isZero() ? "" : " and to part.drive.axis");
+                              (across.isZero() ? "" : " and to the axis of the drive");
   if (names.size() != 2 * count) {
-    table.fail(key, table.full_name(key) + " has " + std::to_string(names.size()) + " walls" + allowed);
+    table.fail(key, table.full_name(key) + " has " + counted(names.size(), "wall") + allowed);
   }
   std::vector<FacingWalls> pairs;
   std::vector<Vector3> directions = {across};

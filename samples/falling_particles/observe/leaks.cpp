@@ -132,7 +132,7 @@ std::vector<std::string> free_walls_outside(const World& world) {
     dGeomGetAABB(geom, box);
     const Point middle = {(box[0] + box[1]) / 2, (box[2] + box[3]) / 2, (box[4] + box[5]) / 2};
     if (inside.contains(middle, inside.reach_of(geom))) continue;
-    sentences.push_back("part \"" + wall.name + "\" has left the container: its middle is at " + in_brackets(middle) + " m");
+    sentences.push_back(wall.called() + " has left the container: its middle is at " + in_brackets(middle) + " m");
   }
   return sentences;
 }

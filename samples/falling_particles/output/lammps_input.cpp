@@ -10,10 +10,13 @@
 #include <vector>
 
 #include "base/input_error.hpp"
+#include "base/interval.hpp"
 #include "base/random.hpp"
 #include "base/write_file.hpp"
 #include "model/container_walls.hpp"
 #include "model/grain_shape.hpp"
+#include "model/material.hpp"
+#include "model/wall_doubts.hpp"
 #include "world/placement.hpp"
 
 namespace falling_particles {
@@ -41,37 +44,50 @@ struct Law {
 /// Reads the effects one after the other. Effects that only serve ODE's solver are left out.
 struct LawReader {
   const Scene& scene;
-  Law law = {};
+  Law law = {};            // of grains
+  std::vector<Law> walls;  // of Scene::walls
+
+  explicit LawReader(const Scene& of) : scene(of), walls(of.walls.size()) {}
 
   void require_all(const fx::MaterialSelector& on, const char* name) const {
     if (!on.is_all()) refuse(scene, std::string("[") + name + "] of a material");
   }
+  /// All laws between the materials of an effect.
+  std::vector<Law*> laws_on(const fx::MaterialSelector& on, const char* name) {
+    std::vector<Law*> found;
+    if (on.is_all()) found.push_back(&law);
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+      const auto of_wall = fx::MaterialSelector::between(kGrainMaterial, material_of_wall(scene.walls, i));
+      if (on.is_all() || on == of_wall) found.push_back(&walls[i]);
+    }
+    if (found.empty() && !(on == kGrainOnWall)) require_all(on, name);
+    return found;
+  }
   void operator()(const fx::Friction& friction) {
-    require_all(friction.on, "friction");
-    law.friction = friction.coefficient;
+    for (Law* one : laws_on(friction.on, "friction")) one->friction = friction.coefficient;
   }
   void operator()(const fx::RollingResistance& resistance) {
-    require_all(resistance.on, "rolling_resistance");
-    law.rolling = resistance.rolling;
-    law.spinning = resistance.spinning;
+    for (Law* one : laws_on(resistance.on, "rolling_resistance")) {
+      one->rolling = resistance.rolling;
+      one->spinning = resistance.spinning;
+    }
   }
   void operator()(const fx::Restitution& restitution) {
-    require_all(restitution.on, "restitution");
-    law.restitution = std::max(restitution.coefficient, kLeastRestitution);
+    for (Law* one : laws_on(restitution.on, "restitution")) one->restitution = std::max(restitution.coefficient, kLeastRestitution);
   }
   void operator()(const fx::Hertz& hertz) {
     require_all(hertz.on, "hertz");
     law.hertz = &hertz;
-    law.restitution = std::max(hertz.restitution, kLeastRestitution);
+    for (Law* one : laws_on(hertz.on, "hertz")) one->restitution = std::max(hertz.restitution, kLeastRestitution);
   }
   void operator()(const fx::Compliance& compliance) {
     require_all(compliance.on, "compliance");
     law.compliance = &compliance;
-    if (compliance.damping == 0) law.restitution = 1;
+    for (Law* one : laws_on(compliance.on, "compliance")) one->restitution = compliance.damping == 0 ? 1 : one->restitution;
   }
   void operator()(const fx::Adhesion& adhesion) {
     require_all(adhesion.on, "adhesion");
-    law.adhesion = adhesion.pull_off;
+    for (Law* one : laws_on(adhesion.on, "adhesion")) one->adhesion = adhesion.pull_off;
   }
   void operator()(const fx::Gravity& /*gravity*/) {}
   void operator()(const fx::AutoDisable& /*solver*/) {}
@@ -110,10 +126,11 @@ Extremes find_extremes(const Scene& scene, const std::vector<Placement>& grains)
   return found;
 }
 
-/// The words of a contact law, and the step that it needs.
+/// The words of springs, and the step that they need.
 struct Contacts {
-  std::string words;
-  double step;  // s
+  std::string springs;
+  double step;       // s
+  double stiffness;  // N/m; 0 of hertz
 };
 
 Contacts find_contacts(const Scene& scene, const Law& law, const Extremes& extremes) {
@@ -121,7 +138,7 @@ Contacts find_contacts(const Scene& scene, const Law& law, const Extremes& extre
   const double speed = std::sqrt(2 * fall * (scene.gravity() != nullptr ? scene.gravity()->acceleration.norm() : 0));
   std::ostringstream words;
   words.precision(9);
-  double impact = 0;  // s, of the lightest pair
+  double impact = 0, stiffness = 0;  // s, of the lightest pair; N/m
   if (law.hertz != nullptr) {
     words << "hertz " << law.hertz->youngs_modulus << ' ' << law.hertz->poisson_ratio;
     const double modulus = law.hertz->youngs_modulus / (2 * (1 - law.hertz->poisson_ratio * law.hertz->poisson_ratio));
@@ -130,17 +147,47 @@ Contacts find_contacts(const Scene& scene, const Law& law, const Extremes& extre
     impact = kHertzImpact * std::pow(1.25 * lightest / 2 * fastest * fastest / k, 0.4) / fastest;
   } else {
     const double depth = kOverlap * smallest;
-    const double stiffness = law.compliance != nullptr ? law.compliance->stiffness : heaviest * speed * speed / (depth * depth);
+    stiffness = law.compliance != nullptr ? law.compliance->stiffness : heaviest * speed * speed / (depth * depth);
     if (!(stiffness > 0)) refuse(scene, "a scene without gravity, and with neither [hertz] nor [compliance],");
     words << "hooke " << stiffness;
     impact = std::numbers::pi * std::sqrt(lightest / 2 / stiffness);
   }
-  words << " restitution " << law.restitution;
+  return {words.str(), impact / kStepsPerImpact, stiffness};
+}
+
+std::string words_of(const std::string& springs, const Law& law) {
+  std::ostringstream words;
+  words.precision(9);
+  words << springs << " restitution " << law.restitution;
   if (law.friction > 0) words << " friction " << law.friction;
   if (law.rolling > 0) words << " rolling " << law.rolling;
   if (law.spinning > 0) words << " spinning " << law.spinning;
   if (law.adhesion > 0) words << " adhesion " << law.adhesion;
-  return {words.str(), impact / kStepsPerImpact};
+  return words.str();
+}
+
+/// Warnings about servos that rattle. In LAMMPS they take the force of the step before, so N contacts of the stiffness k and the
+/// damper c are stable below area / (N (c + k step / 2)). Contacts of hertz have no stiffness that is known before.
+std::vector<std::string> find_rattling(const Scene& scene, const LawReader& laws, const Contacts& contacts,
+                                       const Extremes& extremes) {
+  std::vector<std::string> warnings;
+  if (contacts.stiffness == 0) return warnings;
+  WallDoubts of_walls;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    const Wall& wall = scene.walls[i];
+    if (!wall.drive || !wall.drive->servo) continue;
+    const double loss = -std::log(laws.walls[i].restitution);
+    const double damper = 2 * loss / std::hypot(std::numbers::pi, loss) * std::sqrt(contacts.stiffness * extremes.heaviest);
+    const double most = 4 * extremes.smallest * extremes.smallest / (damper + contacts.stiffness * contacts.step / 2);
+    const double gain = wall.drive->servo->gain;
+    if (gain <= most) continue;
+    of_walls.add("gain", wall, gain / most,
+                 " may rattle in LAMMPS, with a contact on each square of the smallest diameter: " + wall.key() +
+                     ".drive.gain is " + shortest(gain) + " m/(s Pa), and up to " + rounded(most) +
+                     " would do (samples/lammps/README.md)");
+  }
+  of_walls.tell(warnings);
+  return warnings;
 }
 
 /// Velocities and angular momenta.
@@ -206,12 +253,17 @@ void refuse_what_has_no_counterpart(const Scene& scene) {
 
 LammpsInput lammps_input(const Scene& scene) {
   refuse_what_has_no_counterpart(scene);
-  LawReader reader{scene};
+  LawReader reader(scene);
   for (const fx::Effect& effect : scene.effects) std::visit(reader, effect);
   Random random(scene.seed);
   const std::vector<Placement> grains = place(scene, random);
   const Extremes extremes = find_extremes(scene, grains);
   const Contacts contacts = find_contacts(scene, reader.law, extremes);
+
+  std::vector<std::string> laws;
+  laws.reserve(reader.walls.size());
+  for (const Law& law : reader.walls) laws.push_back(words_of(contacts.springs, law));
+  LammpsWalls walls = lammps_walls(scene, laws);
 
   std::ostringstream out;
   out.precision(9);
@@ -221,8 +273,9 @@ LammpsInput lammps_input(const Scene& scene) {
       << "# restitution have " << kRigidRestitution << ", and none has less than " << kLeastRestitution
       << "; it holds at every velocity; sides\n# of cans, and faces on meshes and in drums, rest on one point; grains are not "
          "rounded; nothing sleeps.\n"
-      << "units si\natom_style ellipsoid\ncomm_modify vel yes\nboundary f f m\nread_data " << scene.name << ".data\n"
-      << "pair_style supernormal\npair_coeff * * " << contacts.words << '\n';
+      << "units si\natom_style ellipsoid\ncomm_modify vel yes\nboundary " << walls.boundary << "\nread_data " << scene.name
+      << ".data\n"
+      << "pair_style supernormal\npair_coeff * * " << words_of(contacts.springs, reader.law) << '\n';
   for (std::size_t k = 0; k < scene.kinds.size(); ++k) {
     const GrainKind& kind = scene.kinds[k].kind;
     out << "pair_coeff " << k + 1 << ' ' << k + 1 << " exponents " << kind.delta << ' ' << kind.epsilon << "  # " << kind.name
@@ -232,9 +285,8 @@ LammpsInput lammps_input(const Scene& scene) {
       << "\nfix move all nve/supernormal\n";
   if (const fx::Gravity* gravity = scene.gravity()) {
     const supernormal::Vector3& g = gravity->acceleration;
-    out << "fix fall all gravity " << g.norm() << " vector " << g.x() << ' ' << g.y() << ' ' << g.z() << '\n';
+    out << "fix " << kGravityFix << " all gravity " << g.norm() << " vector " << g.x() << ' ' << g.y() << ' ' << g.z() << '\n';
   }
-  LammpsWalls walls = lammps_walls(scene, contacts.words);
   out << walls.commands;
   const auto steps = [&](double seconds) { return std::max(0LL, std::llround(seconds / contacts.step)); };
   const long long frame = std::max(1LL, steps(scene.time.frame));
@@ -248,15 +300,16 @@ LammpsInput lammps_input(const Scene& scene) {
   const long long before = changes ? steps(walls.change->time) : 0;
   if (changes) out << "run " << before << '\n' << walls.change->commands;
   out << "run " << all - before << '\n';
-  return {out.str(), write_data(scene, grains, walls), std::move(walls.files)};
+  return {out.str(), write_data(scene, grains, walls), std::move(walls.files), find_rattling(scene, reader, contacts, extremes)};
 }
 
-void write_lammps_input(const Scene& scene, const std::filesystem::path& folder) {
+std::vector<std::string> write_lammps_input(const Scene& scene, const std::filesystem::path& folder) {
   const LammpsInput input = lammps_input(scene);
   create_folder(folder);
   replace_file(folder / (scene.name + ".data"), input.data);
   for (const LammpsFile& file : input.files) replace_file(folder / file.name, file.text);
   replace_file(folder / (scene.name + ".in"), input.commands);
+  return input.warnings;
 }
 
 }  // namespace falling_particles

@@ -257,12 +257,18 @@ void add_costs(Lines& lines, const Summary& s) {
   lines.add_time("seconds_per_pair", c.pairs_tested == 0 ? 0 : narrow / static_cast<double>(c.pairs_tested), "s, of narrow phase");
 }
 
-/// Adds the cost of the bonds, and of each effect that the scene names, rigid contact first. The seconds are the time of its own
-/// passes and, by rows, its share of the solver's time.
+/// Adds the cost of the joints of driven walls, of the bonds, and of each effect that the scene names, rigid contact first. The
+/// seconds are the time of its own passes and, by rows, its share of the solver's time.
 void add_costs_by_rows(Lines& lines, const Summary& s) {
   constexpr const char* kSeconds = "s, in its passes and its rows' share of the solver";
-  unsigned long long rows = s.bonds == nullptr ? 0 : s.bonds->rows();
+  const StepCosts& c = s.costs;
+  unsigned long long rows = c.rows_of_walls + (s.bonds == nullptr ? 0 : s.bonds->rows());
   for (const supernormal::effects::Cost& cost : s.effects) rows += cost.rows;
+  if (c.rows_of_walls > 0) {
+    lines.add_time("walls.seconds", ratio(c.rows_of_walls, rows) * c.solver.seconds(), "s, their joints' share of the solver");
+    lines.add("walls.rows", c.rows_of_walls, "constraint rows added by joints of driven walls");
+  }
+  if (c.contacts_of_walls > 0) lines.add("walls.contacts", c.contacts_of_walls, "between walls, in rigid_contact too");
   if (s.bonds != nullptr) {
     const double seconds = s.costs.bonds.seconds() + ratio(s.bonds->rows(), rows) * s.costs.solver.seconds();
     lines.add_time("bonds.seconds", seconds, kSeconds);

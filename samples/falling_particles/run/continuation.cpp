@@ -1,6 +1,7 @@
 // Doubts about a start from the state of another run, which holds grains alone: about the bonds and the parts of that run.
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -15,7 +16,7 @@
 #include "base/interval.hpp"
 #include "doubts.hpp"
 #include "input/state_table.hpp"
-#include "model/container_walls.hpp"
+#include "model/wall_doubts.hpp"
 
 namespace falling_particles {
 namespace {
@@ -42,8 +43,6 @@ std::map<std::string, std::size_t> bonds_in(const Scene& scene, const char* name
   return numbers;
 }
 
-std::string in_words(std::size_t number) { return std::to_string(number) + (number == 1 ? " bond" : " bonds"); }
-
 /// The path that a scene names a file beside the state by, relative to the scene.
 std::string in_scene(const Scene& scene, const char* name) {
   const std::filesystem::path folder = std::filesystem::path(scene.path).parent_path();
@@ -63,15 +62,15 @@ void add_new_bonds(const Scene& scene, std::vector<std::string>& doubts) {
     const std::string anew = "bond \"" + rule.name + "\" bonds the grains of start.file anew, without strain, by bond." +
                              (rule.touching ? "touching" : "chain") + ": ";
     if (number > 0) {
-      doubts.push_back(anew + file + " has " + in_words(number) + " of this name with unstrained poses; bond[" + rule.name +
+      doubts.push_back(anew + file + " has " + counted(number, "bond") + " of this name with unstrained poses; bond[" + rule.name +
                        "].file = \"" + in_scene(scene, kLeft) + "\" would do (bonds.md)");
     } else if (const auto all = broken.find(rule.name); all != broken.end()) {
-      doubts.push_back(anew + "all " + std::to_string(all->second) +
-                       " bonds of this name broke in the run before; the scene without this section would do (bonds.md)");
+      doubts.push_back(anew + "all bonds of this name broke in the run before (" + std::to_string(all->second) +
+                       "); the scene without this section would do (bonds.md)");
     }
   }
   for (const auto& [name, number] : left) {
-    std::string loose = file + " has " + in_words(number) + " of the name \"";
+    std::string loose = file + " has " + counted(number, "bond") + " of the name \"";
     loose.append(name).append(
         "\", and the scene has no section [[bond]] of this name: their grains start loose; the section of the ");
     loose.append("run before, with bond[").append(name).append("].file = \"").append(in_scene(scene, kLeft));
@@ -91,18 +90,38 @@ double way_from(const WallPose& left, const Wall& wall, const Scene& scene) {
   return (left.position - wall.start.position).norm() + (turn > 0 ? bounding_radius(wall.shape) * turn : 0);
 }
 
-/// The keys that put a part where it was left. Seven digits: a part of a metre has the place of its grains to 0.1 um.
+constexpr int kDigits = 7;  // a part of a metre has the place of its grains to 0.1 um
+
+std::string list(const Vector3& v) {
+  return '[' + rounded(v.x(), kDigits) + ", " + rounded(v.y(), kDigits) + ", " + rounded(v.z(), kDigits) + ']';
+}
+
+/// The keys that put a part where it was left.
 std::string keys_of(const WallPose& left, const Wall& part) {
-  constexpr int kDigits = 7;
-  const auto list = [](const Vector3& v) {
-    return '[' + rounded(v.x(), kDigits) + ", " + rounded(v.y(), kDigits) + ", " + rounded(v.z(), kDigits) + ']';
-  };
   const std::string position = "part.position = " + list(left.position);
   constexpr double kRounding = 1e-7;  // rad
   if (left.rotation.angularDistance(part.start.rotation) < kRounding) return position;
   const Eigen::AngleAxisd turn(left.rotation);
   return position + ", part.axis = " + list(turn.axis()) +
          " and part.angle = " + rounded(turn.angle() * 180 / std::numbers::pi, kDigits);
+}
+
+/// The keys of a cell whose sides stay upright, from where the run has left them.
+std::string keys_of(const std::map<std::string, WallPose>& poses, const Cell& cell) {
+  const auto& [corner, size] = cell.start;
+  std::array<double, 3> low = corner, length = size;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto place = [&](const char* end, double otherwise) {
+      const auto found = poses.find(std::string(1, "xyz"[axis]) + end);
+      return found == poses.end() ? otherwise : found->second.position[static_cast<Eigen::Index>(axis)];
+    };
+    low[axis] = place("_low", corner[axis]);
+    length[axis] = place("_high", corner[axis] + size[axis]) - low[axis];
+  }
+  std::string keys = "container.corner = " + list({low[0], low[1], low[2]}) + ", container.width = [" +
+                     rounded(length[0], kDigits) + ", " + rounded(length[1], kDigits) + ']';
+  if (cell.has_lid()) keys += ", container.height = " + rounded(length[2], kDigits);
+  return keys;
 }
 
 /// Adds doubts about walls that do not start where the run has left them.
@@ -118,21 +137,27 @@ void add_left_walls(const Scene& scene, std::vector<std::string>& doubts) {
         const Eigen::Quaterniond rotation(number("qw"), number("qx"), number("qy"), number("qz"));
         poses[std::string(table.word(row, "part"))] = {{number("x_m"), number("y_m"), number("z_m")}, rotation.normalized()};
       });
-  const std::size_t of_container = walls_in(scene.container).size();
-  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
-    const Wall& wall = scene.walls[i];
+  const auto* const cell = std::get_if<Cell>(&scene.container);
+  WallDoubts of_walls;
+  for (const Wall& wall : scene.walls) {
     const auto left = poses.find(wall.name);
     if (left == poses.end()) continue;
     const double way = way_from(left->second, wall, scene);
     if (way <= kTyped * scene.smallest_half_axis()) continue;
-    const std::string starts = '"' + wall.name + "\" starts " + rounded(way) + " m from where " +
+    const std::string starts = " starts " + rounded(way) + " m from where " +
                                (scene.start->file.parent_path() / "parts.csv").string() +
                                " leaves it, since start.file has grains alone; ";
-    doubts.push_back(i < of_container ? "wall " + starts +
-                                            "keys of [container] that put it there, or a run before that ends after whole "
-                                            "revolutions and periods would do (start.md)"
-                                      : "part " + starts + keys_of(left->second, wall) + " would do (start.md)");
+    const bool is_upright = left->second.rotation.angularDistance(wall.start.rotation) == 0;
+    std::string keys = keys_of(left->second, wall);
+    if (wall.is_of_container) {
+      keys = cell != nullptr && is_upright ? keys_of(poses, *cell)
+                                           : "keys of [container] that put it there, or a run before that ends after whole "
+                                             "revolutions and periods";
+    }
+    // The sides of a cell share their keys.
+    of_walls.add(cell != nullptr && wall.is_of_container ? "cell" : wall.name, wall, way, starts + keys + " would do (start.md)");
   }
+  of_walls.tell(doubts);
 }
 
 }  // namespace

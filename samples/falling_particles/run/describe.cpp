@@ -66,8 +66,8 @@ std::string describe(const Feeder& feeder) {
 }
 
 std::string describe(const BondRule& rule, std::uint64_t count, const Scene& scene) {
-  std::string text = rule.name + ": " + std::to_string(count) + (rule.kind == BondKind::Beam ? " beams of " : " balls of ") +
-                     rounded(rule.modulus) + " Pa";
+  std::string text =
+      rule.name + ": " + counted(count, rule.kind == BondKind::Beam ? "beam" : "ball") + " of " + rounded(rule.modulus) + " Pa";
   if (rule.wall) text += ", to part \"" + scene.walls[*rule.wall].name + '"';
   return text;
 }
@@ -112,7 +112,7 @@ std::string where(const supernormal::effects::Effect& effect, const std::vector<
   if (on == kGrainOnWall) return " on walls";
   for (std::size_t i = 0; i < walls.size(); ++i) {
     if (on && on == supernormal::effects::MaterialSelector::between(kGrainMaterial, material_of_wall(walls, i))) {
-      return " on part \"" + walls[i].name + '"';
+      return " on " + walls[i].called();
     }
   }
   return "";
@@ -125,7 +125,7 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   }
   lines.add("scene", scene.name + ", in a " + place);
   lines.add("steps", std::to_string(forecast.steps) + " of " + shortest(scene.time.step) + " s, " +
-                         std::to_string(forecast.frames) + " frames");
+                         counted(static_cast<std::size_t>(forecast.frames), "frame"));
   if (const std::optional<double> longest = step_for_look_ahead(scene)) {
     lines.add("steps", "up to " + rounded(*longest) + " s each leave overlaps of about 1e-3 of a half-axis in a bed at rest");
   }
@@ -151,12 +151,12 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   for (const Wall& wall : scene.parts()) lines.add("parts", describe(wall));
   for (const supernormal::effects::Effect& effect : scene.effects) {
     const supernormal::effects::Description& description = supernormal::effects::descriptions()[effect.index()];
-    lines.add("effects", std::string(description.name) + where(effect, scene.walls) + ": " + std::to_string(description.rows) +
-                             " rows a contact; " + description.passes);
+    lines.add("effects", std::string(description.name) + where(effect, scene.walls) + ": " +
+                             counted(static_cast<std::size_t>(description.rows), "row") + " a contact; " + description.passes);
   }
   for (std::size_t i = 0; i < scene.measurements.size(); ++i) {
-    lines.add("measurements", scene.measurements[i].name + ": " + scene.measurements[i].kind + ", " +
-                                  std::to_string(forecast.samples[i]) + " samples");
+    lines.add("measurements",
+              scene.measurements[i].name + ": " + scene.measurements[i].kind + ", " + counted(forecast.samples[i], "sample"));
   }
   for (const std::string& format : scene.pictures) lines.add("pictures", format);
 }

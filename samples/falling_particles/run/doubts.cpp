@@ -13,9 +13,11 @@
 
 #include "base/input_error.hpp"
 #include "base/interval.hpp"
+#include "input/load_drive.hpp"
 #include "input/state_table.hpp"
 #include "model/grain_shape.hpp"
 #include "model/lattice.hpp"
+#include "model/wall_doubts.hpp"
 #include "observe/facing_walls.hpp"
 #include "output/wall_mesh.hpp"
 #include "world/world.hpp"
@@ -59,10 +61,18 @@ double normal_speed(const WallMotion& motion, const SurfacePoint& point, bool tu
 }
 
 /// What would make the first displacement of a driven wall smaller, by `factor`.
-std::string slower(const Drive& drive, double factor) {
-  if (drive.servo) return "part.drive.largest_speed up to " + rounded(drive.servo->largest_speed / factor) + " m/s would do";
-  return drive.turns() ? "part.drive.moment from " + rounded(drive.mass * factor) + " kg m^2 on would do"
-                       : "part.drive.mass from " + rounded(drive.mass * factor) + " kg on would do";
+std::string slower(const Wall& wall, double factor) {
+  const Drive& drive = *wall.drive;
+  const std::string key = wall.key() + ".drive.";
+  if (!drive.servo && drive.mass * factor > kHeaviest) return "a smaller force would do";
+  if (drive.servo) return key + "largest_speed up to " + rounded(drive.servo->largest_speed / factor) + " m/s would do";
+  return drive.turns() ? key + "moment from " + rounded(drive.mass * factor) + " kg m^2 on would do"
+                       : key + "mass from " + rounded(drive.mass * factor) + " kg on would do";
+}
+
+/// A remedy in a list of them; none above the most iterations that a scene may have.
+std::string more_iterations(double fewest) {
+  return fewest > Solver::kMostIterations ? "" : ", solver.iterations from " + std::to_string(std::lround(fewest)) + " on";
 }
 
 std::string in_half_axes(double way, const Scene& scene) {
@@ -76,7 +86,7 @@ void add_rounded_times(const Time& time, std::vector<std::string>& doubts) {
   const auto add = [&](const char* key, double value, int steps) {
     if (std::abs(value - steps * time.step) <= kRounding * time.step) return;
     doubts.push_back(std::string(key) + " is " + shortest(value) + " s, no multiple of time.step: it is rounded to " +
-                     std::to_string(steps) + " steps; a multiple of " + shortest(time.step) + " s would do");
+                     counted(static_cast<std::size_t>(steps), "step") + "; a multiple of " + shortest(time.step) + " s would do");
   };
   add("time.duration", time.duration, time.steps());
   add("time.frame", time.frame, time.steps_per_frame());
@@ -202,9 +212,10 @@ using LoadInStep = std::function<Load(double)>;
 /// How a load sinks into the lightest grains, and what would prevent it.
 struct Sinking {
   std::string in_words;
-  double step;      // s, the longest
-  long iterations;  // the fewest
-  double mass;      // kg, the largest with the same acceleration
+  double excess;      // of the quotient of the remainder
+  double step;        // s, the longest
+  double iterations;  // the fewest
+  double mass;        // kg, the largest with the same acceleration
 };
 
 constexpr double kBearers = 4;  // light grains that bear a heavy one; a bed below them spreads the load
@@ -258,7 +269,7 @@ std::optional<Sinking> sinking_of(const LoadInStep& load_in, const Extremes& gra
   return Sinking{"with solver.iterations = " + std::to_string(scene.solver.iterations) + " it sinks into such grains " +
                      (actual > fastest ? "until more than " + std::to_string(std::lround(load.bearers)) + " bear it"
                                        : "by about " + rounded(unit * actual / size) + " of their smallest half-axis"),
-                 step / shorter, static_cast<long>(std::ceil(std::log1p(1 / allowed) / std::log1p(1 / part))),
+                 actual / allowed, step / shorter, std::ceil(std::log1p(1 / allowed) / std::log1p(1 / part)),
                  load.bearers * grains.least / std::expm1(std::log1p(1 / allowed) / scene.solver.iterations)};
 }
 
@@ -290,7 +301,9 @@ Load load_of(const Wall& part, const Extremes& grains, const Scene& scene) {
   }
   Load load{part.flight ? part.flight->mass : part.drive->mass, acceleration.norm(), kBearers};
   if (std::holds_alternative<SmoothShape>(part.shape) || !(load.acceleration > 0)) return load;
-  load.bearers = bearers_on(shown_area(part, acceleration / load.acceleration, scene), grains, scene);
+  const double area = shown_area(part, acceleration / load.acceleration, scene);
+  if (area == 0) load.acceleration = 0;  // a plane that is drawn off the grains
+  load.bearers = bearers_on(area, grains, scene);
   return load;
 }
 
@@ -301,31 +314,30 @@ double area_at_start(const Servo& servo, const Scene& scene) {
   return area;
 }
 
-/// Adds a doubt if quickstep cannot hold a load on the lightest grains. `remedy`: besides the step and the iterations.
-void add_load(const std::string& who, const LoadInStep& load, const std::function<std::string(const Sinking&)>& remedy,
-              const Extremes& grains, const Scene& scene, std::vector<std::string>& doubts) {
-  const std::optional<Sinking> sinking = sinking_of(load, grains, scene);
-  if (!sinking) return;
-  doubts.push_back(who + " has " + rounded(load(scene.time.step).mass / grains.least) + " times the mass of the lightest (\"" +
-                   grains.light->kind.name + "\"): " + sinking->in_words + "; time.step up to " + rounded(sinking->step) +
-                   " s, solver.iterations from " + std::to_string(sinking->iterations) + " on, or " + remedy(*sinking) +
-                   " would do (grains.md)");
+/// What a doubt says of a load. `remedy`: besides the step and the iterations.
+std::string in_words(const Sinking& sinking, const LoadInStep& load, const std::string& remedy, const Extremes& grains,
+                     const Scene& scene) {
+  return " has " + rounded(load(scene.time.step).mass / grains.least) + " times the mass of the lightest (\"" +
+         grains.light->kind.name + "\"): " + sinking.in_words + "; time.step up to " + rounded(sinking.step) + " s" +
+         more_iterations(sinking.iterations) + ", or " + remedy + " would do (grains.md)";
 }
 
-void add_servo_load(const Wall& part, const Extremes& grains, const Scene& scene, std::vector<std::string>& doubts) {
+void add_servo_load(const Wall& part, const Extremes& grains, const Scene& scene, WallDoubts& doubts) {
   const Servo& servo = *part.drive->servo;
   const double area = area_at_start(servo, scene);
   const double bearers = std::holds_alternative<SmoothShape>(part.shape) ? kBearers : bearers_on(area, grains, scene);
   const auto load = [&](double step, double gain) { return Load{step * area / gain, gain * servo.stress / step, bearers}; };
-  const auto remedy = [&](const Sinking&) {
-    const double step = scene.time.step;
-    const double larger = least_factor(
-        [&](double factor) { return remainder_of(load(step, factor * servo.gain), step, grains, scene).is_allowed(); });
-    return "part.drive.gain from " + rounded(larger * servo.gain) + " m/(s Pa) on";
-  };
-  add_load(
-      "part \"" + part.name + "\" on grains, as a servo of the mass time.step x area / part.drive.gain,",
-      [&](double step) { return load(step, servo.gain); }, remedy, grains, scene, doubts);
+  const LoadInStep load_in = [&](double step) { return load(step, servo.gain); };
+  const std::optional<Sinking> sinking = sinking_of(load_in, grains, scene);
+  if (!sinking) return;
+  const double step = scene.time.step;
+  const double larger =
+      least_factor([&](double factor) { return remainder_of(load(step, factor * servo.gain), step, grains, scene).is_allowed(); });
+  const std::string gain = part.key() + ".drive.gain";
+  const std::string remedy = gain + " from " + rounded(larger * servo.gain) + " m/(s Pa) on";
+  doubts.add(
+      "load of servo", part, sinking->excess,
+      " on grains, as a servo of the mass time.step x area / " + gain + ',' + in_words(*sinking, load_in, remedy, grains, scene));
 }
 
 /// Adds a doubt if quickstep cannot hold the heaviest grain, or what a part presses, on the lightest grains.
@@ -334,22 +346,27 @@ void add_mass_ratio(const Scene& scene, std::vector<std::string>& doubts) {
   const Extremes grains = extremes_of(scene);
   if (grains.heavy == nullptr || has_soft_contacts(scene) || scene.compression || scene.solver.erp == 0) return;
   const Load heaviest{grains.most, gravity == nullptr ? 0 : gravity->acceleration.norm(), kBearers};
-  const auto denser = [&](const Sinking& sinking) {
-    return "densities with masses up to 1 : " + rounded(sinking.mass / grains.least);
-  };
-  add_load(
-      "the heaviest grain (\"" + grains.heavy->kind.name + "\")", [&](double) { return heaviest; }, denser, grains, scene, doubts);
+  const LoadInStep of_heaviest = [&](double) { return heaviest; };
+  if (const std::optional<Sinking> sinking = sinking_of(of_heaviest, grains, scene)) {
+    doubts.push_back(
+        "the heaviest grain (\"" + grains.heavy->kind.name + "\")" +
+        in_words(*sinking, of_heaviest, "densities with masses up to 1 : " + rounded(sinking->mass / grains.least), grains, scene));
+  }
+  WallDoubts of_walls;
   for (const Wall& part : scene.parts()) {
-    if (part.drive && part.drive->servo) add_servo_load(part, grains, scene, doubts);
+    if (part.drive && part.drive->servo) add_servo_load(part, grains, scene, of_walls);
     const bool is_pressed = part.drive && !part.drive->servo && !part.drive->turns();
     if (!part.flight && !is_pressed) continue;
     const Load load = load_of(part, grains, scene);
-    const auto lighter = [&](const Sinking& sinking) {
-      return part.flight ? "part.free.mass up to " + rounded(sinking.mass) + " kg" : "a smaller force on it";
-    };
-    add_load(
-        "part \"" + part.name + "\" on grains", [&](double) { return load; }, lighter, grains, scene, doubts);
+    const LoadInStep load_in = [&](double) { return load; };
+    const std::optional<Sinking> sinking = sinking_of(load_in, grains, scene);
+    if (!sinking) continue;
+    const std::string lighter =
+        part.flight ? part.key() + ".free.mass up to " + rounded(sinking->mass) + " kg" : "a smaller force on it";
+    of_walls.add(part.flight ? "load of free" : "load of driven", part, sinking->excess,
+                 " on grains" + in_words(*sinking, load_in, lighter, grains, scene));
   }
+  of_walls.tell(doubts);
 }
 
 void add_layer(const Scene& scene, std::vector<std::string>& doubts) {
@@ -424,6 +441,39 @@ std::optional<Pressing> pressing_of(const Wall& part, const Scene& scene) {
   return area > 0 ? std::optional(Pressing{size / area, area, force / size}) : std::nullopt;
 }
 
+/// Adds doubts about parts that press springs far together. A contact of the lightest grains bears pressure x diameter^2.
+void add_pressed_springs(const Scene& scene, const Extremes& grains, std::vector<std::string>& doubts) {
+  constexpr double kDeep =
+      0.1;  // of the smallest half-axis, in the mean; the deepest overlap is 0.42, for half 0.30, for twice 0.67
+  const double diameter = std::cbrt(6 / std::numbers::pi * grains.least / grains.light->kind.density);
+  const double size = grains.light->smallest_scale() * grains.light->kind.smallest_half_axis();
+  for (const supernormal::effects::Effect& effect : scene.effects) {
+    const auto* const linear = std::get_if<supernormal::effects::Compliance>(&effect);
+    const auto* const hertz = std::get_if<supernormal::effects::Hertz>(&effect);
+    if (linear == nullptr && hertz == nullptr) continue;
+    const double exponent = linear != nullptr ? 1 : 1.5;  // of the force as a power of the depth
+    const double factor = linear != nullptr ? linear->stiffness
+                                            : 2.0 / 3 * hertz->youngs_modulus / (1 - hertz->poisson_ratio * hertz->poisson_ratio) *
+                                                  std::sqrt(size / 2);
+    WallDoubts of_walls;
+    for (const Wall& part : scene.parts()) {
+      const std::optional<Pressing> pressing = pressing_of(part, scene);
+      const double depth = pressing ? std::pow(pressing->pressure * diameter * diameter / factor, 1 / exponent) : 0;
+      if (!(depth > kDeep * size)) continue;
+      const double excess = std::pow(depth / (kDeep * size), exponent);
+      const std::string stiffer = linear != nullptr
+                                      ? "compliance.stiffness from " + rounded(linear->stiffness * excess) + " N/m"
+                                      : "hertz.youngs_modulus from " + rounded(hertz->youngs_modulus * excess) + " Pa";
+      of_walls.add("springs", part, excess,
+                   " presses with " + rounded(pressing->pressure) + " Pa: the springs of a contact overlap by about " +
+                       in_half_axes(depth, scene) + ", and by more in chains of forces; " + stiffer + " on, or up to " +
+                       rounded(pressing->pressure / excess) + " Pa would do (parts.md)");
+    }
+    of_walls.tell(doubts);
+    return;
+  }
+}
+
 /// Adds doubts about parts that press harder than quickstep can carry. A step starts without forces, and an iteration carries them
 /// from layer to layer. The force pressure x diameter^2 would move a free grain by force x step^2 / mass. Beds hold it if this is
 /// below kHeld half-axes x iterations / layers^2. parts.md, "How hard a part may press", has the measurement.
@@ -431,7 +481,8 @@ void add_pressing(const Scene& scene, std::vector<std::string>& doubts) {
   constexpr double kHeld = 0.05;   // beds give way from 0.15 on; twice as much is silent about 0.08 half-axes, 4 layers deep
   constexpr double kPacked = 0.6;  // volume fraction of a bed
   const Extremes grains = extremes_of(scene);
-  if (grains.light == nullptr || has_soft_contacts(scene) || scene.compression) return;
+  if (grains.light == nullptr || scene.compression) return;
+  if (has_soft_contacts(scene)) return add_pressed_springs(scene, grains, doubts);
   double volume = 0;  // m^3, of all grains
   for (const GrainCount& entry : scene.kinds) {
     for (int i = 0; i < entry.count; ++i) {
@@ -440,6 +491,7 @@ void add_pressing(const Scene& scene, std::vector<std::string>& doubts) {
   }
   const double diameter = std::cbrt(6 / std::numbers::pi * grains.least / grains.light->kind.density);
   const double size = grains.light->smallest_scale() * grains.light->kind.smallest_half_axis();
+  WallDoubts of_walls;
   for (const Wall& part : scene.parts()) {
     const std::optional<Pressing> pressing = pressing_of(part, scene);
     if (!pressing) continue;
@@ -451,15 +503,16 @@ void add_pressing(const Scene& scene, std::vector<std::string>& doubts) {
     const double held = kHeld * size * scene.solver.iterations / (layers * layers);
     if (!(way > held)) continue;
     const double excess = way / held;
-    doubts.push_back("part \"" + part.name + "\" presses with " + rounded(pressure) + " Pa on about " + rounded(layers) +
-                     (layers == 1 ? " layer" : " layers") + " of grains: a free grain would move by " + rounded(way) +
-                     " m in a step, " + in_half_axes(way, scene) +
+    of_walls.add("pressing", part, excess,
+                 " presses with " + rounded(pressure) + " Pa on about " + rounded(layers) + (layers == 1 ? " layer" : " layers") +
+                     " of grains: a free grain would move by " + rounded(way) + " m in a step, " + in_half_axes(way, scene) +
                      ", and solver.iterations = " + std::to_string(scene.solver.iterations) + " hold " + rounded(held / size) +
                      ": they may overlap, and be pressed through walls; time.step up to " +
-                     rounded(scene.time.step / std::sqrt(excess)) + " s, solver.iterations from " +
-                     std::to_string(std::lround(std::ceil(scene.solver.iterations * excess))) + " on, or up to " +
-                     rounded(pressure / excess) + " Pa would do (parts.md)");
+                     rounded(scene.time.step / std::sqrt(excess)) + " s" +
+                     more_iterations(std::ceil(scene.solver.iterations * excess)) + ", or up to " + rounded(pressure / excess) +
+                     " Pa would do (parts.md)");
   }
+  of_walls.tell(doubts);
 }
 
 /// m, the displacement of a free wall in the first step of its flight; of its farthest point if it turns.
@@ -468,12 +521,12 @@ double first_way_of(const Wall& wall, const Flight& flight, double step) {
 }
 
 /// Adds a doubt about each motion, drive or flight that starts at the end of the run or later.
-void add_late(const Scene& scene, const Wall& wall, std::vector<std::string>& doubts) {
+void add_late(const Scene& scene, const Wall& wall, WallDoubts& doubts) {
   const auto add = [&](const std::string& key, double from) {
     if (from < scene.time.duration) return;
-    doubts.push_back("part \"" + wall.name + "\" has " + key + ".from = " + shortest(from) + " s, and the run ends after " +
-                     shortest(scene.time.duration) + " s: it never starts; a smaller " + key +
-                     ".from, or a longer time.duration would do");
+    doubts.add("late " + key, wall, from,
+               " has " + key + ".from = " + shortest(from) + " s, and the run ends after " + shortest(scene.time.duration) +
+                   " s: it never starts; a smaller " + key + ".from, or a longer time.duration would do");
   };
   for (std::size_t i = 0; i < wall.motions.size(); ++i) add("motion[" + std::to_string(i) + ']', wall.motions[i].from);
   if (wall.drive) add("drive", wall.drive->from);
@@ -482,16 +535,17 @@ void add_late(const Scene& scene, const Wall& wall, std::vector<std::string>& do
 
 /// Adds a doubt about a servo on springs. A spring is explicit: it is stable while stiffness x step^2 is below four masses. A servo
 /// has the mass step x area / gain, and a contact for each smallest grain that fits on its area.
-void add_gain(const Scene& scene, const Wall& wall, std::vector<std::string>& doubts) {
+void add_gain(const Scene& scene, const Wall& wall, WallDoubts& doubts) {
   for (const supernormal::effects::Effect& effect : scene.effects) {
     const auto* const spring = std::get_if<supernormal::effects::Compliance>(&effect);
     if (spring == nullptr) continue;
     const double diameter = 2 * scene.smallest_half_axis();
     const double most = 4 * diameter * diameter / (spring->stiffness * scene.time.step);
     if (wall.drive->servo->gain <= most) continue;
-    doubts.push_back("part \"" + wall.name + "\" is a servo with a gain of " + rounded(wall.drive->servo->gain) +
-                     " m/(s Pa), with which it may be unstable on the springs of compliance: part.drive.gain up to " +
-                     rounded(most) + " m/(s Pa), or a smaller time.step would do");
+    doubts.add("gain", wall, wall.drive->servo->gain,
+               " is a servo with a gain of " + rounded(wall.drive->servo->gain) +
+                   " m/(s Pa), with which it may be unstable on the springs of compliance: " + wall.key() + ".drive.gain up to " +
+                   rounded(most) + " m/(s Pa), or a smaller time.step would do");
     return;
   }
 }
@@ -499,31 +553,33 @@ void add_gain(const Scene& scene, const Wall& wall, std::vector<std::string>& do
 void add_walls(const Scene& scene, std::vector<std::string>& doubts) {
   constexpr double kThin = 1e-6;  // of the smallest half-axis: thinner than the overlap of a contact at rest
   const double size = scene.smallest_half_axis();
+  WallDoubts of_walls;
+  // A displacement in a step, and what would make it smaller.
+  const auto add_way = [&](const std::string& kind, const Wall& wall, const char* does, double way, const std::string& remedy) {
+    if (way > size) of_walls.add(kind, wall, way, moves_too_far(does, way, scene) + remedy);
+  };
+  const auto shorter = [&](double way) { return "time.step up to " + rounded(scene.time.step * size / way) + " s would do"; };
   for (const Wall& wall : scene.parts()) {
-    add_late(scene, wall, doubts);
+    add_late(scene, wall, of_walls);
     if (const double least = thinnest(wall.shape); least < kThin * size) {
-      doubts.push_back("part \"" + wall.name + "\" is " + rounded(least) + " m thin, " + in_half_axes(least, scene) +
-                       ": is it in another unit?");
+      of_walls.add("thin", wall, size / least,
+                   " is " + rounded(least) + " m thin, " + in_half_axes(least, scene) + ": is it in another unit?");
     }
     const double way = normal_way_of(wall, scene);
-    if (way > size) {
-      doubts.push_back(moves_too_far("part \"" + wall.name + "\" moves", way, scene) + "time.step up to " +
-                       rounded(scene.time.step * size / way) + " s would do");
-    }
+    add_way("moves", wall, " moves", way, shorter(way));
     if (wall.flight) {
       const double first = first_way_of(wall, *wall.flight, scene.time.step);
-      if (first > size) {
-        doubts.push_back(moves_too_far("part \"" + wall.name + "\" flies", first, scene) + "time.step up to " +
-                         rounded(scene.time.step * size / first) + " s would do");
-      }
+      add_way("flies", wall, " flies", first, shorter(first));
     }
     if (!wall.drive) continue;
-    if (wall.drive->servo) add_gain(scene, wall, doubts);
+    if (wall.drive->servo) add_gain(scene, wall, of_walls);
     const double first = first_way_of(wall, scene.time.step);
-    if (first > size) {
-      doubts.push_back(moves_too_far("part \"" + wall.name + "\" is driven", first, scene) + slower(*wall.drive, first / size));
-    }
+    add_way(wall.drive->servo     ? "servo"
+            : wall.drive->turns() ? "turns"
+                                  : "slides",
+            wall, " is driven", first, slower(wall, first / size));
   }
+  of_walls.tell(doubts);
 }
 
 void add_feeders(const Scene& scene, std::vector<std::string>& doubts) {
@@ -561,7 +617,7 @@ void refuse_start_in_parts(const World& world) {
     const auto [x, y, z] = grain.position();
     throw InputError(scene.called + ": grain " + std::to_string(world.index_of(grain)) + " (" + grain.kind->name + ") starts at [" +
                      rounded(x, 6) + ", " + rounded(y, 6) + ", " + rounded(z, 6) + "] m, " + rounded(-proximity.gap) +
-                     " m deep in part \"" + part->name + "\"; allowed: parts that leave the start of the grains free");
+                     " m deep in " + part->called() + "; allowed: walls that leave the start of the grains free");
   }
 }
 
@@ -641,11 +697,13 @@ std::vector<std::string> doubts_about(const Scene& scene) {
   std::ranges::move(doubts_about_continuation(scene), std::back_inserter(doubts));
   std::ranges::move(doubts_about_springs(scene), std::back_inserter(doubts));
   std::ranges::move(doubts_about_origins(scene), std::back_inserter(doubts));
+  std::ranges::move(doubts_about_meetings(scene), std::back_inserter(doubts));
   std::ranges::move(doubts_about_measurements(scene), std::back_inserter(doubts));
   return doubts;
 }
 
 void refuse_overlapping_start(const Scene& scene) {
+  refuse_meetings(scene);
   if (!scene.start && scene.bonds.empty() && scene.parts().empty()) return;
   Random random(scene.seed);
   const World world(scene, place(scene, random));

@@ -50,6 +50,12 @@ std::vector<std::string> doubts_about_continuation(const Scene& scene);
 /// Sentences about measurements whose box or plane no grain reaches (reach.cpp).
 std::vector<std::string> doubts_about_measurements(const Scene& scene);
 
+/// Sentences about opposite sides of a cell that meet by their motions (meetings.cpp).
+std::vector<std::string> doubts_about_meetings(const Scene& scene);
+
+/// Throws InputError if two walls, between which a servo acts, meet by their motions (meetings.cpp).
+void refuse_meetings(const Scene& scene);
+
 /// Sentences about springs of contacts that last fewer than ten steps (springs.cpp). A run counts these contacts as coarse.
 std::vector<std::string> doubts_about_springs(const Scene& scene);
 

@@ -44,7 +44,7 @@ void refuse_bad_flights(const World& world) {
       const double depth = k == i ? 0 : deepest_between(geoms[i], geoms[k]);
       if (depth <= allowed) continue;
       throw InputError(scene.called + ": part \"" + wall.name + "\", which is free, is " + rounded(depth) + " m deep in " +
-                       (scene.walls[k].is_part() ? "part \"" : "wall \"") + scene.walls[k].name + "\" at the start; allowed: " +
+                       scene.walls[k].called() + " at the start; allowed: " +
                        (scene.start ? "up to " + rounded(allowed) + " m, from start.overlap of the smallest half-axis"
                                     : "a start apart from all other walls, or a section [start], whose start.overlap allows more"));
     }

@@ -13,6 +13,7 @@
 
 #include "base/interval.hpp"
 #include "doubts.hpp"
+#include "model/wall_doubts.hpp"
 #include "sight.hpp"
 #include "world/free_places.hpp"
 #include "world/placement.hpp"
@@ -30,7 +31,7 @@ struct Lookout {
 
   std::string grains(std::size_t count) const {
     if (!name.empty()) return (count < places.size() ? "some grains" : "grains") + (" that feeder \"" + name) + "\" brings are";
-    return std::to_string(count) + " of " + std::to_string(places.size()) + " grains start";
+    return std::to_string(count) + " of " + counted(places.size(), "grain") + (count == 1 ? " starts" : " start");
   }
 };
 
@@ -100,7 +101,7 @@ void add_backs(const Sight& sight, const Scene& scene, const Lookout& origin, st
     for (const std::size_t wall : walls) ++counts[wall];
   }
   for (const auto& [wall, count] : counts) {
-    doubts.push_back("part \"" + scene.walls[wall].name + "\": " + origin.grains(count) +
+    doubts.push_back(scene.walls[wall].called() + ": " + origin.grains(count) +
                      " behind a triangle, which does not hold them: a triangle is solid behind, and holds what sees its corners "
                      "anticlockwise; turn its corners around, or let part.two_sided = true hold grains on both sides");
   }
@@ -133,9 +134,9 @@ void add_void(const Sight& sight, const Scene& scene, const Lookout& origin, std
     if (std::ranges::none_of(points_of(origin.places[i], origin.radii[i], *down), lands)) ++lost;
   }
   if (lost == 0) return;
-  doubts.push_back(origin.grains(lost) +
-                   " above nothing: no wall, part or sink is below them within the container, and they fall out of it" +
-                   (lost < origin.places.size() ? " unless other grains turn them aside" : ""));
+  const std::string they = origin.name.empty() && lost == 1 ? "it falls" : "they fall";
+  doubts.push_back(origin.grains(lost) + " above nothing: no wall, part or sink is below within the container, and " + they +
+                   " out of it" + (lost < origin.places.size() ? " unless other grains are in the way" : ""));
 }
 
 void add_sunk(const Scene& scene, const Lookout& origin, std::vector<std::string>& doubts) {
@@ -158,7 +159,7 @@ void add_unreached(const World& world, std::vector<std::string>& doubts) {
     dGeomGetAABB(world.walls().geoms()[i], aabb);
     const auto& [x, y] = box->width;
     if (aabb[1] > 0 && aabb[0] < x && aabb[3] > 0 && aabb[2] < y && aabb[5] > 0) continue;
-    doubts.push_back("part \"" + scene.walls[i].name + "\" stands outside the box of the container, where no grain meets it");
+    doubts.push_back(scene.walls[i].called() + " stands outside the box of the container, where no grain meets it");
   }
 }
 
@@ -170,22 +171,110 @@ double middle_along(const Wall& wall, dGeomID geom) {
   return wall.drive->axis.dot(Vector3(box[0] + box[1], box[2] + box[3], box[4] + box[5]) / 2);
 }
 
-/// Adds doubts about servos that leave all grains behind.
+/// Whether grains come somewhere, and none of them ahead of a driven wall. `sign`: -1 for the direction against its axis.
+bool leaves_all(const Wall& wall, double sign, dGeomID geom, const std::vector<Lookout>& origins) {
+  const Vector3 direction = sign * wall.drive->axis;
+  const double middle = sign * middle_along(wall, geom);
+  const auto is_ahead = [&](const Point& place) { return direction.dot(Vector3(place[0], place[1], place[2])) > middle; };
+  return std::ranges::any_of(origins, [](const Lookout& origin) { return !origin.places.empty(); }) &&
+         std::ranges::none_of(origins, [&](const Lookout& origin) { return std::ranges::any_of(origin.places, is_ahead); });
+}
+
+/// Adds a doubt about the servo of a plane whose axis is another one than its normal.
+void add_oblique(const Wall& wall, std::vector<std::string>& doubts) {
+  constexpr double kTyped = 1e-4;  // 1 - cosine: 0.8 degrees, for normals of three digits
+  const auto* const plane = std::get_if<PlaneShape>(&wall.shape);
+  if (plane == nullptr) return;
+  const Vector3 normal = wall.start.rotation * plane->normal;
+  if (wall.drive->axis.dot(normal) > 1 - kTyped) return;
+  doubts.push_back(wall.called() + " is a servo whose axis is not the normal of its plane: " + wall.key() +
+                   ".drive.stress is the force along the axis over the area, and no normal stress; " + wall.key() +
+                   ".drive.axis = [" + rounded(normal.x()) + ", " + rounded(normal.y()) + ", " + rounded(normal.z()) +
+                   "] would do");
+}
+
+/// Adds doubts about servos that leave all grains behind, or that press another way than their planes.
 void add_servos(const World& world, const std::vector<Lookout>& origins, std::vector<std::string>& doubts) {
   const std::vector<Wall>& walls = world.scene().walls;
   for (std::size_t i = 0; i < walls.size(); ++i) {
     if (!walls[i].drive || !walls[i].drive->servo) continue;
+    if (!leaves_all(walls[i], 1, world.walls().geoms()[i], origins)) {
+      add_oblique(walls[i], doubts);
+      continue;
+    }
     const Vector3& axis = walls[i].drive->axis;
-    const double middle = middle_along(walls[i], world.walls().geoms()[i]);
-    const auto is_ahead = [&](const Point& place) { return axis.dot(Vector3(place[0], place[1], place[2])) > middle; };
-    if (std::ranges::any_of(origins, [&](const Lookout& origin) { return std::ranges::any_of(origin.places, is_ahead); })) continue;
-    if (std::ranges::all_of(origins, [](const Lookout& origin) { return origin.places.empty(); })) continue;
     const auto against = [&](int k) { return rounded(0.0 - axis[k]); };
-    doubts.push_back("part \"" + walls[i].name +
-                     "\" is a servo whose axis points away from all grains at the start: it presses none, and leaves; "
-                     "part.drive.axis = [" +
-                     against(0) + ", " + against(1) + ", " + against(2) + "] would do");
+    doubts.push_back(walls[i].called() +
+                     " is a servo whose axis points away from all grains at the start: it presses none, and leaves; " +
+                     walls[i].key() + ".drive.axis = [" + against(0) + ", " + against(1) + ", " + against(2) + "] would do");
   }
+}
+
+/// Whether a box that moves along a direction meets another one. Both are pairs of ends along x, y and z, as of dGeomGetAABB().
+bool meets(const dReal* moving, const dReal* other, const Vector3& direction) {
+  double enter = 0, leave = INFINITY;  // m of the way
+  for (int axis = 0; axis < 3; ++axis) {
+    const double near = other[2 * axis] - moving[2 * axis + 1], far = other[2 * axis + 1] - moving[2 * axis];
+    const double along = direction[axis];
+    if (along == 0) {
+      if (near > 0 || far < 0) return false;
+      continue;
+    }
+    enter = std::max(enter, std::min(near / along, far / along));
+    leave = std::min(leave, std::max(near / along, far / along));
+  }
+  return enter <= leave;
+}
+
+/// Whether a free wall may fall on another one. Of both, the boxes around them count.
+bool may_land(const World& world, std::size_t free, const Vector3& down) {
+  const std::vector<dGeomID>& geoms = world.walls().geoms();
+  dReal box[6], other[6];
+  dGeomGetAABB(geoms[free], box);
+  for (std::size_t i = 0; i < geoms.size(); ++i) {
+    if (i == free) continue;
+    dVector4 plane;
+    if (dGeomGetClass(geoms[i]) == dPlaneClass) {
+      dGeomPlaneGetParams(geoms[i], plane);
+      if (down.dot(Vector3(plane[0], plane[1], plane[2])) < 0) return true;
+      continue;
+    }
+    dGeomGetAABB(geoms[i], other);
+    if (meets(box, other, down)) return true;
+  }
+  return false;
+}
+
+/// Adds doubts about walls that fall for ever: free ones above nothing, and driven ones that have neither a grain below them nor an
+/// end of their travel. These pass through other walls.
+void add_falling(const World& world, const std::vector<Lookout>& origins, std::vector<std::string>& doubts) {
+  const Scene& scene = world.scene();
+  const std::optional<Vector3> down = down_in(scene);
+  if (!down) return;
+  const double gravity = scene.gravity()->acceleration.norm();
+  WallDoubts of_walls;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    const Wall& wall = scene.walls[i];
+    if (wall.flight && wall.flight->from < scene.time.duration) {
+      const Vector3& velocity = wall.flight->velocity.linear;
+      const bool falls = velocity.cross(*down).norm() <= 1e-12 * velocity.norm();
+      if (falls && !may_land(world, i, *down)) {
+        of_walls.add("free", wall, 0,
+                     " is free above nothing: no wall is below it, and it falls for ever; a wall below it would do");
+      }
+    }
+    if (!wall.drive || wall.drive->servo || wall.drive->turns() || wall.drive->from >= scene.time.duration) continue;
+    const Drive& drive = *wall.drive;
+    const double sign = drive.axis.dot(*down) < 0 ? -1 : 1;
+    const double push = sign * drive.force + drive.mass * gravity * std::abs(drive.axis.dot(*down));  // N, downwards
+    const bool has_end = std::isfinite(sign < 0 ? drive.travel[0] : drive.travel[1]);
+    if (!(push > 0) || drive.axis.dot(*down) == 0 || has_end || !leaves_all(wall, sign, world.walls().geoms()[i], origins))
+      continue;
+    of_walls.add(
+        "driven", wall, push,
+        " falls for ever: no grain is below it, and no wall stops a wall that is driven; " + wall.key() + ".drive.travel would do");
+  }
+  of_walls.tell(doubts);
 }
 
 /// m along the axis of a drive: of the foremost point of its wall at the start, or of a plane.
@@ -212,6 +301,7 @@ double speed_after(double way, const Drive& drive, const Vector3& gravity) {
 void add_fast(const World& world, const std::vector<Lookout>& origins, std::vector<std::string>& doubts) {
   const Scene& scene = world.scene();
   if (scene.looks_ahead()) return;
+  WallDoubts of_walls;
   const Vector3 gravity = scene.gravity() == nullptr ? Vector3::Zero() : scene.gravity()->acceleration;
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     const Wall& wall = scene.walls[i];
@@ -228,15 +318,17 @@ void add_fast(const World& world, const std::vector<Lookout>& origins, std::vect
     way = std::min(way, wall.drive->travel[1]);
     const double speed = std::isfinite(way) ? speed_after(way, *wall.drive, gravity) : 0;
     if (!(speed * scene.time.step > scene.smallest_half_axis())) continue;
-    doubts.push_back(moves_too_far("part \"" + wall.name + "\" is driven up to the first grain with " + rounded(speed) + " m/s,",
-                                   speed * scene.time.step, scene) +
-                     "time.step up to " + rounded(scene.smallest_half_axis() / speed) + " s would do");
+    of_walls.add(
+        "fast", wall, speed,
+        moves_too_far(" is driven up to the first grain with " + rounded(speed) + " m/s,", speed * scene.time.step, scene) +
+            "time.step up to " + rounded(scene.smallest_half_axis() / speed) + " s would do");
   }
+  of_walls.tell(doubts);
 }
 
 std::string name_of(dGeomID solid, const World& world) {
   const Wall* wall = world.walls().wall_of(solid);
-  return wall != nullptr && wall->is_part() ? "part \"" + wall->name + '"' : "the container";
+  return wall != nullptr && wall->is_part() ? wall->called() : "the container";
 }
 
 /// The names of the solids that obstruct a grain at many random places; none if one place is free.
@@ -288,6 +380,7 @@ std::vector<std::string> doubts_about_origins(const Scene& scene) {
   }
   add_unreached(world, doubts);
   add_servos(world, origins, doubts);
+  add_falling(world, origins, doubts);
   add_fast(world, origins, doubts);
   return doubts;
 }

@@ -120,7 +120,7 @@ std::vector<std::string> doubts_about_springs(const Scene& scene) {
   auto [mobility2, name2] = grains.size() > 1 ? grains[1] : std::pair(0.0, std::string("a wall"));
   for (const Wall& part : scene.parts()) {
     const double mobility = mobility_of(part);
-    if (mobility > mobility2) name2 = "part \"" + part.name + '"';
+    if (mobility > mobility2) name2 = part.called();
     mobility2 = std::max(mobility, mobility2);
   }
   const double speed = largest_speed(scene);

@@ -19,7 +19,7 @@ class StateNames {
 
   /// A wall, or a grain with its line.
   std::string name_of(dGeomID geom) const {
-    if (const Wall* wall = world_.walls().wall_of(geom)) return (wall->is_part() ? "part \"" : "wall \"") + wall->name + '"';
+    if (const Wall* wall = world_.walls().wall_of(geom)) return wall->called();
     const Grain& grain = *grain_of(geom);
     return name_of(grain) + " of line " + std::to_string(line_of(grain));
   }

@@ -75,6 +75,14 @@ void DrivenBody::set_inertia(double inertia) {
   dBodySetMass(body_, &mass);
 }
 
+int DrivenBody::rows() const {
+  constexpr int kOfJoint = 5;  // of a slider or a hinge, and one at a stop
+  const auto [low, high] = drive_.travel;
+  const double inside = std::min(kInside, (high - low) / 4);
+  const bool is_at_stop = state_.position <= low + inside || state_.position >= high - inside;
+  return dBodyIsEnabled(body_) != 0 ? kOfJoint + (is_at_stop ? 1 : 0) : 0;
+}
+
 WallPose DrivenBody::pose_on(const WallPose& carrier) const { return axis_.pose_on(carrier, state_.position); }
 
 WallPose DrivenBody::next_on(const WallPose& carrier) const {

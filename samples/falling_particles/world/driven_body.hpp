@@ -38,6 +38,7 @@ class DrivenBody {
   void put(const WallPose& carrier, const WallVelocity& velocity);
 
   dBodyID id() const { return body_; }
+  int rows() const;                                 ///< of the solver, of the joint to the carrier
   bool is_held() const { return is_held_; }         ///< whether the wall cannot move relative to its carrier, in this step
   WallPose pose_on(const WallPose& carrier) const;  ///< of the wall
   WallVelocity velocity_on(const WallPose& carrier, const WallVelocity& velocity) const;

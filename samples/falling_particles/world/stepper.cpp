@@ -85,6 +85,8 @@ void Stepper::step(bool measures) {
     bonds->before_step();
   }
   costs_.contacts += contacts_.size();
+  costs_.contacts_of_walls += contacts_of_walls_.size();
+  costs_.rows_of_walls += static_cast<unsigned long long>(world_.walls().rows());
   for (const dContactGeom& contact : contacts_) deepest_contact_ = std::max<double>(deepest_contact_, contact.depth);
   {
     const Stopwatch::Lap lap(costs_.solver);

@@ -24,10 +24,12 @@ struct StepCosts {
   Stopwatch bonds;          ///< forces and breaks of bonds, without their rows in the solver
   unsigned long long pairs_tested = 0;
   unsigned long long contacts = 0;
+  unsigned long long contacts_of_walls = 0;  ///< between two walls
+  unsigned long long rows_of_walls = 0;      ///< of the joints of driven walls
   double narrow_phase_seconds() const { return collision.seconds() - broad_phase.seconds(); }
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(collision, broad_phase, contact_setup, solver, bonds, pairs_tested, contacts);
+    archive(collision, broad_phase, contact_setup, solver, bonds, pairs_tested, contacts, contacts_of_walls, rows_of_walls);
   }
 };
 

@@ -162,7 +162,7 @@ FacingFaces WallBodies::faces_between(const FacingWalls& pair) const {
   throw std::runtime_error("walls \"" + pair[0] + "\" and \"" + pair[1] +
                            R"(", which a key "between" names, no longer face each other, or have met, after )" +
                            rounded(static_cast<double>(steps_) * step_) +
-                           " s; part.drive.travel or until of a motion would keep them apart");
+                           " s; travel of a drive or until of a motion would keep them apart");
 }
 
 double WallBodies::area_of(const Entry& entry) const {
@@ -299,6 +299,12 @@ WallState WallBodies::state(std::size_t index) const { return {entries_[index].w
 
 const DrivenState* WallBodies::driven(std::size_t index) const {
   return entries_[index].driven == nullptr ? nullptr : &entries_[index].driven->state();
+}
+
+int WallBodies::rows() const {
+  int rows = 0;
+  for (const Entry& entry : entries_) rows += entry.driven == nullptr ? 0 : entry.driven->rows();
+  return rows;
 }
 
 const FlightState* WallBodies::flying(std::size_t index) const {

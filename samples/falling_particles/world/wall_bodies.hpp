@@ -95,6 +95,8 @@ class WallBodies {
   std::vector<std::pair<dGeomID, dGeomID>> pairs_of_free() const;
   /// Null for a wall without a drive.
   const DrivenState* driven(std::size_t index) const;
+  /// Of the solver in a step: of the joints of driven walls.
+  int rows() const;
   /// Null for a wall that is not free.
   const FlightState* flying(std::size_t index) const;
   /// Pa, of the grains on a servo in the last step; empty for a wall that is none or was held.

@@ -20,7 +20,7 @@ TwoBodies facing(Random& random, double tilt, const ContactMaterial& material) {
   const int axis1 = static_cast<int>(random(0, 2.999)), axis2 = static_cast<int>(random(0, 2.999));
   const Eigen::Quaterniond world = random.attitude();
   pair.second.attitude = tilted(random(0, tilt), random) * face_up(axis2);
-  const Vector3 aside(random(-0.01, 0.01), random(-0.01, 0.01), 0);
+  const Vector3 aside{random(-0.01, 0.01), random(-0.01, 0.01), 0};
   pair.first.attitude = tilted(0, random) * face_up(axis1);
   lower(pair, world, aside, random);
   return pair;
@@ -80,8 +80,8 @@ TEST_CASE("lammps: forces and torques of faces are the derivatives of the energy
     for (int axis = 0; axis < 3; ++axis) {
       const double scale = contact.force.normal + pair.material.adhesion;
       const TwoBodies::EnergySlopes slopes = pair.energy_slopes(axis, 1e-9, 1e-7);
-      CHECK(std::abs(slopes.along - contact.force.force[axis]) < 2e-3 * scale);
-      CHECK(std::abs(slopes.about + contact.torque2()[axis]) < 2e-3 * scale * 0.02);
+      CHECK(slopes.along.miss(contact.force.force[axis]) < 1e-4 * scale);
+      CHECK(slopes.about.miss(-contact.torque2()[axis]) < 1e-4 * scale * 0.02);
     }
   }
   CHECK(meeting > 100);
@@ -89,15 +89,16 @@ TEST_CASE("lammps: forces and torques of faces are the derivatives of the energy
 }
 
 TEST_CASE("lammps: face contacts change neither momentum nor angular momentum") {
+  constexpr double kStiffness = 1e5;  // N/m
   Random random{std::mt19937(4)};
   for (int i = 0; i < 100; ++i) {
-    TwoBodies pair = facing(random, 0.05, {.stiffness = 1e5, .restitution = 0.5, .friction = 0.4, .rolling_length = 1e-3});
+    TwoBodies pair = facing(random, 0.05, {.stiffness = kStiffness, .restitution = 0.5, .friction = 0.4, .rolling_length = 1e-3});
     pair.first.set_velocity(random.vector(1), random.vector(20));
     for (int step = 0; step < 3; ++step) {
       const PairContact contact = pair.find(1e-5);
       const Vector3 change = contact.torque1() + contact.torque2() +
                              (pair.first.body.pose.position - pair.second.body.pose.position).cross(contact.force.force);
-      CHECK(change.norm() <= 1e-14 * contact.force.force.norm());
+      CHECK(change.norm() <= 1e-15 * kStiffness * 2e-4);  // damping may leave little of the elastic force
     }
   }
 }
@@ -135,8 +136,9 @@ TEST_CASE("lammps: a level brick has the whole stiffness, and one on an edge hal
 TEST_CASE("lammps: forces of a face on a plane are the derivatives of the energy") {
   Random random{std::mt19937(6)};
   for (int i = 0; i < 100; ++i) {
-    Particle brick(kBrick, random(6, 30), random(6, 30));
-    check_slopes(brick, tilted(random(0, 0.15), random) * face_up(static_cast<int>(random(0, 2.999))), sticky(i));
+    Particle brick{kBrick, random(6, 30), random(6, 30)};
+    const Eigen::Quaterniond up = face_up(static_cast<int>(random(0, 2.999)));
+    check_slopes(brick, tilted(random(0, 0.15), random) * up, sticky(i));
   }
 }
 

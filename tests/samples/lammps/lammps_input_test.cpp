@@ -13,6 +13,8 @@
 
 #include "base/input_error.hpp"
 #include "base/random.hpp"
+#include "model/container_walls.hpp"
+#include "model/material.hpp"
 #include "support/relative.hpp"
 
 using falling_particles::Hopper;
@@ -132,6 +134,59 @@ TEST_CASE("to LAMMPS: a hopper and its dish are meshes, and the lid is removed w
   CHECK(static_cast<std::size_t>(std::ranges::count(text, 'f')) == mesh.triangles.size());
   CHECK(number_after(text, "v ") == relative(mesh.vertices[0][0]).epsilon(1e-7));
   CHECK(number_after(text, "f ") == mesh.triangles[0][0] + 1);
+}
+
+TEST_CASE("to LAMMPS: the sides of a cell are planes with their own laws, motions and drives") {
+  const LammpsInput input = lammps_input(scene_of("cell"));
+  const std::string law = " hooke 50000 restitution 0.1 friction 1e-06";
+  CHECK(has(input.commands, "boundary m m m\n"));
+  CHECK(has(input.commands, "pair_coeff * * hooke 50000 restitution 0.1 friction 0.5\n"));
+  CHECK(
+      has(input.commands, "fix x_low all wall/supernormal plane 0 0 0 1 0 0" + law +
+                              " drive axis 1 0 0 stress 10000 gain 0.0001 largest_speed 0.5 between y_low y_high z_low z_high\n"));
+  CHECK(has(input.commands, "fix z_low all wall/supernormal plane 0 0 0 0 0 1" + law + "\n"));
+  CHECK(has(input.commands, law + " move linear 0 0 -0.02 from 0.2 drive axis 0 0 -1 stress 10000 "));
+  CHECK(has(input.commands, " between x_low x_high y_low y_high until 0.2\n"));
+
+  Scene scene = scene_of("short");
+  scene.container = falling_particles::Cell{{{{0, 0, 0}, {0.05, 0.05, 0.1}}, {{-9, -9, -9}, {18, 18, 18}}}};
+  scene.walls = walls_in(scene.container);
+  scene.walls[0].friction = 0.7;
+  scene.effects.emplace_back(
+      fx::Friction{0.7, fx::MaterialSelector::between(0, falling_particles::material_of_wall(scene.walls, 0))});
+  falling_particles::Drive lid{-falling_particles::Vector3::UnitZ(), 2, 0.5};
+  lid.damping = 3;
+  lid.travel = {0, 0.02};
+  scene.walls[5].drive = lid;
+  falling_particles::Drive door{falling_particles::Vector3::UnitZ(), 4, 0.25};
+  door.power = 8;
+  door.point = falling_particles::Vector3(0.05, 0, 0);
+  door.travel = {-std::numbers::pi / 4, std::numbers::pi / 2};
+  scene.walls[1].drive = door;
+  scene.walls[4].motions = {{falling_particles::Vibration{{0, 0, 1e-3}, 20, 0.5}, 0, 0.1}};
+  const std::string commands = lammps_input(scene).commands;
+  CHECK(number_after(commands.substr(commands.find("fix x_low")), "friction ") == 0.7);
+  CHECK(number_after(commands.substr(commands.find("fix y_low")), "friction ") == 0.4);
+  CHECK(has(commands, " drive axis 0 0 -1 force 2 mass 0.5 gravity fall damping 3 travel 0 0.02\n"));
+  CHECK(has(commands, " drive axis 0 0 1 power 8 largest_torque 4 point 0.05 0 0 moment 0.25 travel -45 90\n"));
+  CHECK(has(commands, " move vibrate 0 0 0.001 20 0.5 until 0.1\n"));
+  scene.walls[4].motions = {{falling_particles::Conveyor{{1, 0, 0}, {{0, 0, 1}, {0, 0, 0}, 0}}}};
+  CHECK(has(lammps_input(scene).commands, " move conveyor 1 0 0\n"));
+  scene.walls[4].motions = {{falling_particles::Conveyor{{0, 0, 0}, {{0, 0, 1}, {0, 0, 0}, 3}}}};
+  CHECK(has(refusal(scene), "conveyor with rpm has no counterpart"));
+}
+
+TEST_CASE("to LAMMPS: servos that would rattle are named together, with the gain that would do") {
+  Scene scene = scene_of("cell");
+  const std::vector<std::string> warnings = lammps_input(scene).warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK(has(warnings[0], "wall \"x_low\" may rattle in LAMMPS"));
+  CHECK(has(warnings[0], R"(the same holds for "x_high", "y_low", "y_high", "z_high")"));
+  const double most = number_after(warnings[0], ", and up to ");
+  for (falling_particles::Wall& wall : scene.walls) {
+    if (wall.drive) wall.drive->servo->gain = 0.99 * most;
+  }
+  CHECK(lammps_input(scene).warnings.empty());
 }
 
 TEST_CASE("to LAMMPS: the springs of a scene are kept") {

@@ -1,8 +1,10 @@
 // Two bodies of the kernel of samples/lammps, and their motion.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "kernel/free_rotation.hpp"
 #include "kernel/pair_contact.hpp"
@@ -66,20 +68,34 @@ class Particle {
   }
 };
 
+/// The slopes of an energy on both sides of a place. They differ where a point with adhesion begins to touch.
+class Slopes {
+ public:
+  Slopes(double before, double here, double after, double step) : low_((here - before) / step), high_((after - here) / step) {
+    if (low_ > high_) std::swap(low_, high_);
+  }
+  /// How far a slope is outside of what is between them.
+  double miss(double slope) const { return std::max({0.0, low_ - slope, slope - high_}); }
+
+ private:
+  double low_, high_;
+};
+
 /// Two bodies and the history of their contact.
 struct TwoBodies {
   Particle first, second;
   ContactMaterial material;
   ContactHistory history{};
-  supernormal::Settings settings{};
+  /// Close: a difference of energies shows the error of the gap, and the direction of the force the square root of it.
+  supernormal::Settings settings{.tolerance = 1e-14};
 
   PairContact find(double step) { return find_pair_contact(first.body, second.body, material, settings, step, history); }
 
   /// How the energy of the contact changes as the second body moves along an axis (J/m) and rotates about it (J/rad).
   struct EnergySlopes {
-    double along, about;
+    Slopes along, about;
   };
-  /// Central differences over `shift` (m) and `angle` (rad) either way.
+  /// Differences over `shift` (m) and `angle` (rad) either way.
   EnergySlopes energy_slopes(int axis, double shift, double angle) {
     const Vector3 position = second.body.pose.position, e = Vector3::Unit(axis);
     const Eigen::Quaterniond attitude = second.attitude;
@@ -87,8 +103,9 @@ struct TwoBodies {
       second.place(position + moved * e, Eigen::Quaterniond(Eigen::AngleAxisd(turned, e)) * attitude);
       return find(0).force.energy;
     };
-    const EnergySlopes slopes{(energy_at(shift, 0) - energy_at(-shift, 0)) / (2 * shift),
-                              (energy_at(0, angle) - energy_at(0, -angle)) / (2 * angle)};
+    const double here = energy_at(0, 0);
+    const EnergySlopes slopes{Slopes(energy_at(-shift, 0), here, energy_at(shift, 0), shift),
+                              Slopes(energy_at(0, -angle), here, energy_at(0, angle), angle)};
     second.place(position, attitude);
     return slopes;
   }

@@ -184,7 +184,7 @@ namespace {
 
 /// A brick, a can or a pillow on one of its faces or sides, tilted by up to `tilt` (rad).
 Particle flat_body(int kind, double tilt, Random& random) {
-  Particle body(kBrick, kind == 1 ? random(1.5, 3.5) : random(6, 30), kind == 2 ? random(1.5, 3.5) : random(6, 30));
+  Particle body{kBrick, kind == 1 ? random(1.5, 3.5) : random(6, 30), kind == 2 ? random(1.5, 3.5) : random(6, 30)};
   const Eigen::Quaterniond rolled(Eigen::AngleAxisd(random(-3, 3), Vector3::Unit(kind == 1 ? 2 : 1)));
   const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
   const Eigen::Quaterniond up = kind == 0   ? face_up(static_cast<int>(random(0, 2.999)))
@@ -263,8 +263,8 @@ TEST_CASE("lammps: a brick slides over the border of a table without a jump") {
   const ContactMaterial material = prepared({.stiffness = 1e5});
   Particle brick(kBrick, 20, 20);
   double last = 1;
-  for (double x = 0; x < 0.04; x += 1e-5) {
-    brick.place({x, 0.003, kBrick.z() - 1e-5}, Eigen::Quaterniond::Identity());
+  for (int k = 0; k < 4000; ++k) {
+    brick.place({1e-5 * k, 0.003, kBrick.z() - 1e-5}, Eigen::Quaterniond::Identity());
     const double force = table.find(brick, material, 0).force.z();
     CHECK(std::abs(force - last) < 0.02);
     last = force;
@@ -277,7 +277,7 @@ TEST_CASE("lammps: forces of a can in a pipe are the derivatives of the energy")
   pipe.wall = std::make_shared<CylinderWall>(Vector3(0, 0, 0.04), Vector3::UnitX(), 0.04);
   const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
   for (int i = 0; i < 100; ++i) {
-    Particle can({0.01, 0.012, 0.02}, random(1.5, 3), random(8, 30));
+    Particle can{{0.01, 0.012, 0.02}, random(1.5, 3), random(8, 30)};
     const Eigen::Quaterniond rolled(Eigen::AngleAxisd(random(-3, 3), Vector3::UnitZ()));
     const Eigen::Quaterniond askew(Eigen::AngleAxisd(random(-0.1, 0.1), random.vector(1).normalized()));
     check_slopes(can, askew * lies * rolled, sticky(i), pipe, {0, random(-0.01, 0.01), -0.01});
@@ -297,8 +297,8 @@ TEST_CASE(
   CHECK(level.force.z() == relative(1).epsilon(1e-9));
   CHECK(level.torque.norm() < 1e-12);
   double last = 1;
-  for (double angle = 0; angle < can.shape->sides.at(0).tilt; angle += 1e-6) {
-    can.place({0, 0, 0.01 - 1e-5}, Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3::UnitZ())) * lies);
+  for (int k = 0; 1e-6 * k < can.shape->sides.at(0).tilt; ++k) {
+    can.place({0, 0, 0.01 - 1e-5}, Eigen::Quaterniond(Eigen::AngleAxisd(1e-6 * k, Vector3::UnitZ())) * lies);
     const WallForce askew = pipe.find(can, material, 0);
     CHECK(std::abs(askew.force.z() - last) < 5e-3);
     last = askew.force.z();

@@ -179,7 +179,7 @@ TEST_CASE("a servo has an area, its own or that between four walls that face eac
       {"stress = 1000", "stress = 1000\narea = 1", {"unknown key \"area\"", "between"}},
       {"\"x_high\"", "\"x_hig\"", {"part.drive.between[1] is the string \"x_hig\"", "did you mean \"x_high\""}},
       {R"(, "y_low", "y_high")", "", {"part.drive.between has 2 walls", "2 pairs of planes or boxes"}},
-      {R"("y_low", "y_high")", R"("floor", "lid")", {R"(has "floor" and "lid", which are no such pair)", "part.drive.axis"}},
+      {R"("y_low", "y_high")", R"("floor", "lid")", {R"(has "floor" and "lid", which are no such pair)", "the axis of the drive"}},
       {R"("x_high", "y_low")", R"("y_low", "x_high")", {R"(has "x_low" and "y_low", which are no such pair)"}},
   };
   for (const Mistake& mistake : mistakes) {
@@ -222,7 +222,7 @@ TEST_CASE("a container of kind none has a start and bounds, and parts hold the g
              {"container.start reaches from 0 to 0.4 m along z", "within container.bounds"});
   // A layer has 2 by 3 cells.
   check_says(complaint(replaced(scene_in(kNone), "size = [0.05, 0.06, 0.2]", "size = [0.05, 0.06, 0.04]") + kPart),
-             {"the scene has 7 grains", "up to 6"});
+             {"container.start.size[2] is 0.04 m, with room for 6 of the scene's 7 grains"});
 }
 
 TEST_CASE("a mesh is read in its unit, and a bad file is refused with the reason") {
@@ -269,7 +269,7 @@ TEST_CASE("a mesh is read in its unit, and a bad file is refused with the reason
   check_says(refusal("broken.stl", "mm"), {"part.file", "broken.stl", "cannot be read"});
   check_says(refusal("nan.stl", "mm"), {"part.file", "nan.stl\" has a coordinate that is not finite"});
   check_says(refusal("twice.obj", "m"),
-             {"part.file: \"twice.obj\" has 1 triangles with their corners in both orders", "part.two_sided = true"});
+             {"part.file: \"twice.obj\" has 1 triangle with corners in both orders", "part.two_sided = true"});
   const auto sheet = std::get<MeshShape>(load("twice.obj", "m\"\ntwo_sided = true # ").walls.back().shape);
   CHECK(sheet.two_sided);
   CHECK(sheet.triangles.size() == 1);
@@ -282,6 +282,6 @@ TEST_CASE("a part with a coefficient that an effect of the scene excludes is ref
   const std::string soft = replaced(kSceneText, "[max_correcting_velocity]\nvelocity = 0.05\n", "[compliance]\nstiffness = 1e4\n");
   check_says(complaint(soft + part + "restitution = 0.5\n"),
              {"scene.toml:36: part.restitution besides an effect of the scene: compliance must be without restitution",
-              "allowed: a part without it"});
+              "allowed: a wall without it"});
   CHECK(complaint(soft + part + "friction = 0.5\n").empty());
 }

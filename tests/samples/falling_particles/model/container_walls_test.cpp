@@ -266,6 +266,19 @@ TEST_CASE("the sides of a cell are planes around the start, which may stand, mov
   CHECK(other.walls[1].drive->servo->between == std::vector<FacingWalls>{{"y_low", "y_high"}, {"z_low", "plate"}});
 }
 
+TEST_CASE("a cell that has no room for its grains is named by its height, and a side by its own keys") {
+  const std::string cell = "kind = \"cell\"\nwidth = [0.05, 0.06]\nheight = 0.013\n";
+  check_says(complaint(scene_in(cell)), {"container.height is 0.013 m, with room for ", " of the scene's 7 grains at the start"});
+  check_says(complaint(scene_in(replaced(cell, "height = 0.013", "height = 0.1") +
+                                "x_low.drive = { stress = 1e3, gain = 1e-4, largest_speed = 0.2, between = [\"x_low\"] }")),
+             {"container.x_low.drive.between has 1 wall; allowed: 2 pairs"});
+  check_says(complaint(replaced(scene_in(replaced(kCell, "y_high.friction", "y_high.restitution")),
+                                "[max_correcting_velocity]\nvelocity = 0.05\n", "[compliance]\nstiffness = 1e4\n")),
+             {"container.y_high.restitution besides an effect of the scene", "allowed: a wall without it"});
+  check_says(complaint(scene_in(kCell) + "[[part]]\nname = \"x_low\"\nshape = \"plane\"\n"),
+             {"part.name is \"x_low\", which a wall of the container has"});
+}
+
 TEST_CASE("two servos of a cell press a grain between them with their stress times the area between the other sides") {
   const std::string servo = ".drive = { stress = 10, gain = 0.02, largest_speed = 0.2 }\n";
   Scene scene =
@@ -324,14 +337,14 @@ TEST_CASE("the error of a moving container names the key, its value and the allo
       {kDrum, {"rpm = 30", "rpm = 1e9", {"container.rpm is 1e+09", "revolutions a minute"}}},
       {kDrum, {"segments = 48", "segments = 3", {"container.segments is 3", "from 8"}}},
       {kDrum, {"segments = 48", "segments = 48\nturns_at = 1", {"container.turns_at is 1", "before time.duration"}}},
-      {kDrum, {"diameter = 0.1", "diameter = 0.03", {"the scene has 7 grains", "up to 0"}}},
+      {kDrum, {"diameter = 0.1", "diameter = 0.03", {"container.diameter is 0.03 m, with room for 0 of the scene's 7 grains"}}},
       {kDrum, {"length = 0.05", "length = 0.01", {"container.length is 0.01", "fits in any orientation"}}},
       {kTray, {"frequency = 30", "frequency = 300", {"container.frequency is 300", "ten time.step"}}},
       {kTray, {"amplitude = 0.001", "amplitude = -1", {"container.amplitude is -1", "(0, 1000] m"}}},
       {kTray, {"direction = [0, 0, 1]", "direction = [0, 0, 0]", {"container.direction", "a direction, not 0"}}},
       {kShearCell, {"cut = 0.02", "cut = 0.2", {"container.cut is 0.2", "below container.height"}}},
       {kShearCell, {"speed = 0.05", "speed = 0.2", {"container.speed is 0.2", "container.thickness"}}},
-      {kShearCell, {"lid = 0.11", "lid = 0.04", {"the scene has 7 grains", "up to"}}},
+      {kShearCell, {"lid = 0.11", "lid = 0.04", {"container.lid is 0.04 m, with room for ", " of the scene's 7 grains"}}},
       {kCell,
        {"stress = 1000, gain = 1e-4, largest_speed = 0.2 }",
         "stress = -1, gain = 1, largest_speed = 1 }",
@@ -348,7 +361,7 @@ TEST_CASE("the error of a moving container names the key, its value and the allo
   };
   for (const Wrong& wrong : all) {
     const Mistake& mistake = wrong.mistake;
-    CAPTURE(mistake.to);
+    CAPTURE(std::string(mistake.to));
     check_says(complaint(replaced(scene_in(wrong.container), mistake.from, mistake.to)), mistake.says);
   }
 }

@@ -76,7 +76,7 @@ TEST_CASE("continuation: bonds that are made anew beside the bonds of the run be
   CHECK(run.doubts(bond("glue", "touching = 0.1\n" + file)).empty());
   // All bonds of a section are broken; a section of another name is new, and those of a name that is gone are loose.
   run.check_one(bond("glue", file) + bond("glass", "touching = 10"),
-                {"bond \"glass\" bonds", "all 2 bonds of this name broke in the run before"});
+                {"bond \"glass\" bonds", "all bonds of this name broke in the run before (2)"});
   CHECK(run.doubts(bond("glue", file) + bond("new", "touching = 10")).empty());
   run.check_one("", {"has 1 bond of the name \"glue\", and the scene has no section [[bond]] of this name", "bond[glue].file = "});
   run.table("final_bonds.csv", bonds_of({}));
@@ -119,6 +119,23 @@ TEST_CASE("continuation: a plane is where its surface is") {
   run.table("parts.csv", kPoses + std::string("0.1,p,0.02,0.03,0.5,0.0099998333341666645,-0.99995000041666526,0,0\n"));
   // 78.1 mm, across the box, by 0.02.
   run.check_one(plane, {"starts 0.00156 m from where", "part.axis = [-1, 0, 0] and part.angle = 178.8541 would do"});
+}
+
+TEST_CASE("continuation: the sides of a cell are named together, with the keys that put them where they were left") {
+  const Continuation run;
+  const std::vector<std::string> cell = {
+      R"(container={kind = "cell", width = [0.05, 0.06], height = 0.7, x_low = { drive = { force = 0, mass = 1 } }, z_high = { drive = { force = 0, mass = 1 } }})"};
+  run.table("parts.csv", kPoses + std::string("0.1,x_low,0,0,0,1,0,0,0\n0.1,z_high,0,0,0.7,1,0,0,0\n"));
+  const std::vector<std::string> before = run.doubts("", cell);
+  run.table("parts.csv", kPoses + std::string("0.1,x_low,0.01,0,0,1,0,0,0\n0.1,z_high,0,0,0.5,1,0,0,0\n"));
+  const std::vector<std::string> doubts = run.doubts("", cell);
+  REQUIRE(doubts.size() == before.size() + 1);
+  std::string all;
+  for (const std::string& doubt : doubts) all += doubt;
+  check_says(
+      all, {"wall \"z_high\" starts 0.2 m from where",
+            "container.corner = [0.01, 0, 0], container.width = [0.04, 0.06], container.height = 0.5 would do (start.md); the same "
+            "holds for \"x_low\""});
 }
 
 TEST_CASE("continuation: a wall of the container is named without keys of a part") {

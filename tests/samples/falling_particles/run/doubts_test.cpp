@@ -39,6 +39,19 @@ void check_one_doubt(const Scene& scene, const std::vector<const char*>& says) {
   check_says(doubts.front(), says);
 }
 
+/// A cell with these keys around the scene's start.
+Scene in_cell(const std::string& keys, const std::vector<std::string>& overrides = {}) {
+  return scene_of(replaced(kSceneText, "kind = \"box\"\nwidth = [0.05, 0.06]\n",
+                           "kind = \"cell\"\nwidth = [0.05, 0.06]\nheight = 0.07\n" + keys),
+                  overrides);
+}
+
+std::string on_all_sides(const std::string& drive) {
+  std::string keys;
+  for (const char* side : {"x_low", "x_high", "y_low", "y_high", "z_low", "z_high"}) keys.append(side).append(drive);
+  return keys;
+}
+
 /// A box without a lid around the scene's start, whose triangles are seen from inside or from outside.
 Scene in_mesh(bool from_inside) {
   Scene scene = scene_of(std::string(kSceneText));
@@ -138,6 +151,12 @@ TEST_CASE("doubts: a driven part that jumps over a half-axis in its first step i
   check_one_doubt(with_part(lid + "mass = 1e-6\n"),
                   {"part \"p\" is driven 2.5 m in a step", "part.drive.mass from 0.000833 kg on"});
   CHECK(doubts_about(with_part(replaced(lid, "force = 10", "force = 0.05") + "mass = 0.01\n")).empty());
+  std::string all;
+  for (const std::string& doubt :
+       doubts_about(with_part(replaced(lid, "force = 10", "pressure = 1e9\narea = 100") + "mass = 0.01\n"))) {
+    all += doubt;
+  }
+  check_says(all, {"part \"p\" is driven 2.5e+06 m in a step", "a smaller force would do"});
   check_says(complaint(std::string(kSceneText) + "[[part]]\nname = \"p\"\n" + lid + "mass = 1e-160\n"),
              {"part.drive.mass is 1e-160; allowed: a number in [1e-12, 1e+06] kg"});
 }
@@ -175,7 +194,8 @@ TEST_CASE("doubts: a part that a torque or a servo moves by more than a half-axi
   // On springs the gain has a limit: 4 x (0.006 m)^2 / (10 N/m x 5e-4 s).
   const auto on_springs = [&](const char* gain) {
     const std::string text = replaced(kSceneText, "[max_correcting_velocity]\nvelocity = 0.05\n", "[compliance]\nstiffness = 10\n");
-    return scene_of(text + "[[part]]\nname = \"p\"\n" + replaced(servo, "gain = 1\n", gain) + "largest_speed = 1\n");
+    return scene_of(text + "[[part]]\nname = \"p\"\n" +
+                    replaced(replaced(servo, "gain = 1\n", gain), "stress = 1000", "stress = 1") + "largest_speed = 1\n");
   };
   check_one_doubt(on_springs("gain = 0.03\n"),
                   {"part \"p\" is a servo with a gain of 0.03 m/(s Pa)", "part.drive.gain up to 0.0288 m/(s Pa)"});
@@ -194,7 +214,7 @@ TEST_CASE("doubts: a grain may not start inside a part") {
     } catch (const InputError& error) {
       text = error.what();
     }
-    check_says(text, {"starts at [", "deep in part \"p\"; allowed: parts that leave the start of the grains free"});
+    check_says(text, {"starts at [", "deep in part \"p\"; allowed: walls that leave the start of the grains free"});
   }
   refuse_overlapping_start(with_part("shape = \"plane\"\nposition = [0, 0, 0.009]\n"));
 }
@@ -254,7 +274,7 @@ TEST_CASE("doubts: grains of a start or a feeder that are partly above nothing a
   const auto lost = [&](double end) {
     const std::vector<std::string> doubts = doubts_about(in_open(plate(end)));
     if (doubts.empty()) return 0;
-    check_says(doubts.front(), {" of 7 grains start above nothing", "they fall out of it unless other grains turn them aside"});
+    check_says(doubts.front(), {" of 7 grains start", " above nothing", " out of it unless other grains are in the way"});
     return static_cast<int>(std::stod(doubts.front()));
   };
   const Scene scene = in_open(plate(1));
@@ -532,6 +552,9 @@ TEST_CASE("doubts: what a part presses with is compared with the iterations and 
        "solver.iterations = 20 hold 1", "time.step up to 0.00025 s", "solver.iterations from 80 on", "would do (parts.md)"});
   CHECK(pressed(3.99 * most, {"time.step=2.5e-4"}).empty());
   CHECK(pressed(3.99 * most, {"solver.iterations=80"}).empty());
+  // No remedy is out of the range of its key.
+  REQUIRE(pressed(2e4 * most).size() == 1);
+  check_says(pressed(2e4 * most)[0], {"time.step up to 3.54e-06 s, or up to"});
   // A bed of peas and two dice of 3.5 layers bears a twelfth.
   const double die = mass_of(scene_of(std::string(kSceneText)).kinds[1].kind) / 1190;  // m^3
   const double layers = (400 * 4 * std::numbers::pi / 3 * 27e-9 + 2 * die) / (0.6 * 0.003 * 6e-3);
@@ -616,6 +639,115 @@ Scene on_springs(const GrainKind& kind, double stiffness) {
 }
 
 }  // namespace
+
+TEST_CASE("doubts: a servo that acts across its plane is named, with the normal of the plane") {
+  const auto servo = [](const std::string& axis) {
+    return in_cell("x_low.drive = { stress = 100, gain = 1e-4, largest_speed = 0.2" + axis + " }\n");
+  };
+  CHECK(doubts_about(servo("")).empty());
+  CHECK(doubts_about(servo(", axis = [1, 0.001, 0]")).empty());
+  for (const char* axis : {"[0, 1, 0]", "[1, 1, 0]"}) {
+    check_one_doubt(servo(std::string(", axis = ") + axis), {"wall \"x_low\" is a servo whose axis is not the normal of its plane",
+                                                             "container.x_low.drive.stress is the force along the axis",
+                                                             "container.x_low.drive.axis = [1, 0, 0] would do"});
+  }
+}
+
+TEST_CASE("doubts: six servos of a cell have one sentence, of the side that is worst, with the names of all") {
+  const auto check_sides = [](const Scene& scene, const std::vector<const char*>& says) {
+    const std::vector<std::string> doubts = doubts_about(scene);
+    REQUIRE_FALSE(doubts.empty());
+    check_says(doubts.back(), says);
+    for (const std::string& doubt : doubts) {
+      check_says(doubt,
+                 {"; the same holds for \"", "\"x_low\"", "\"x_high\"", "\"y_low\"", "\"y_high\"", "\"z_low\"", "\"z_high\""});
+    }
+  };
+  const std::string servo = ".drive = { stress = 1e5, gain = 5e-4, largest_speed = 0.2 }\n";
+  check_sides(in_cell(on_all_sides(servo)), {"wall \"x_low\" presses with 1e+05 Pa"});
+  std::string springs = replaced(kSceneText, "[max_correcting_velocity]\nvelocity = 0.05\n", "[compliance]\nstiffness = 10\n");
+  springs = replaced(springs, "kind = \"box\"\nwidth = [0.05, 0.06]\n",
+                     "kind = \"cell\"\nwidth = [0.05, 0.06]\nheight = 0.07\n" +
+                         on_all_sides(".drive = { stress = 1, gain = 0.03, largest_speed = 0.2 }\n"));
+  check_sides(scene_of(springs, {"container.y_high.drive.gain=0.04"}),
+              {"wall \"y_high\" is a servo with a gain of 0.04", "container.y_high.drive.gain up to 0.0288 m/(s Pa)"});
+  check_sides(in_cell(on_all_sides(".drive = { stress = 100, gain = 1, largest_speed = 20 }\n")),
+              {"is driven 0.01 m in a step", "container.x_low.drive.largest_speed up to 6 m/s"});
+  check_sides(in_cell(on_all_sides(".drive = { stress = 1, gain = 1e-4, largest_speed = 0.2, from = 0.1 }\n")),
+              {"wall \"x_low\" has drive.from = 0.1 s"});
+}
+
+TEST_CASE("doubts: a part that presses springs far together is named, and each remedy would do") {
+  const double pea = 6e-3, deep = 0.1 * 3e-3;  // m: its diameter, and the depth
+  const auto pressed = [](const std::string& springs, double stress) {
+    const std::string text = replaced(kSceneText, "[max_correcting_velocity]\nvelocity = 0.05\n", springs);
+    return scene_of(text + "[[part]]\nname = \"p\"\nshape = \"box\"\nsize = [0.05, 0.06, 0.01]\nposition = [0.025, 0.03, 0.3]\n" +
+                    "drive = { axis = [0, 0, -1], gain = 1e-9, largest_speed = 0.1, area = 0.003, stress = " + shortest(stress) +
+                    " }\n");
+  };
+  const std::string linear = "[compliance]\nstiffness = 20\n";
+  const double most = 20 * deep / pea / pea;
+  CHECK(doubts_about(pressed(linear, 0.999 * most)).empty());
+  check_one_doubt(pressed(linear, 4 * most),
+                  {"part \"p\" presses with 667 Pa: the springs of a contact overlap by about 0.4 of the smallest half-axis",
+                   "compliance.stiffness from 80 N/m on, or up to 167 Pa would do (parts.md)"});
+  const std::string hertz = "[hertz]\nyoungs_modulus = 1e4\npoisson_ratio = 0.3\n";
+  const double force = 4.0 / 3 * 1e4 / (2 * (1 - 0.09)) * std::sqrt(3e-3 / 2) * std::pow(deep, 1.5);
+  CHECK(doubts_about(pressed(hertz, 0.999 * force / pea / pea)).empty());
+  check_one_doubt(pressed(hertz, 8 * force / pea / pea),
+                  {"overlap by about 0.4 of the smallest half-axis", "hertz.youngs_modulus from 8e+04 Pa on"});
+}
+
+TEST_CASE("doubts: walls that fall for ever are named: free ones above nothing, driven ones above no grain") {
+  const std::string floor = "[[part]]\nname = \"floor\"\nshape = \"box\"\nsize = [1, 1, 0.1]\nposition = [0, 0, -0.05]\n";
+  const auto plate = [&](const std::string& position, const std::string& law) {
+    return in_open(floor + "[[part]]\nname = \"p\"\nshape = \"box\"\nsize = [0.02, 0.02, 0.01]\nposition = " + position + '\n' +
+                   law);
+  };
+  const std::string free = "free = { mass = 1e-4 }\n";
+  CHECK(doubts_about(plate("[0.025, 0.03, 1]", free)).empty());
+  CHECK(doubts_about(plate("[0.509, 0, 1]", free)).empty());  // it may land on the rim
+  check_one_doubt(plate("[0.511, 0, 1]", free), {"part \"p\" is free above nothing: no wall is below it, and it falls for ever"});
+  check_one_doubt(plate("[0, 0, -1]", free), {"is free above nothing"});
+  CHECK(doubts_about(plate("[0.511, 0, 1]", "free = { mass = 1e-4, velocity = [-1, 0, 0] }\n")).empty());
+  CHECK(doubts_about(in_cell("[[part]]\nname = \"p\"\nshape = \"box\"\nsize = [0.02, 0.02, 0.01]\nposition = [9, 9, 9]\n" + free))
+            .empty());
+
+  const auto driven = [&](const std::string& position, const std::string& rest) {
+    return plate(position, "drive = { axis = [0, 0, -1], mass = 1e-3" + rest + " }\n");
+  };
+  CHECK(doubts_about(driven("[0.025, 0.03, 1]", ", force = 1e-3")).empty());
+  check_one_doubt(driven("[0.025, 0.03, -1]", ", force = 1e-3"),
+                  {"part \"p\" falls for ever: no grain is below it", "part.drive.travel would do"});
+  CHECK(doubts_about(driven("[0.025, 0.03, -1]", ", force = 1e-3, travel = [0, 1]")).empty());
+  CHECK(doubts_about(driven("[0.025, 0.03, -1]", ", force = -0.01")).empty());  // 1 g weighs less
+  check_one_doubt(in_cell("z_low.drive = { force = 0.5, mass = 0.1 }\n"), {"wall \"z_low\" falls for ever"});
+  CHECK(doubts_about(in_cell("z_low.drive = { force = 1, mass = 0.1 }\n")).empty());
+}
+
+TEST_CASE("doubts: sides of a cell that meet by their motions are named with the time, and refused between a servo") {
+  const auto moved = [](const std::string& rest) {
+    return in_cell("x_low.motion = [{ kind = \"velocity\", velocity = [1, 0, 0]" + rest + " }]\n");
+  };
+  check_one_doubt(moved(""), {R"(walls "x_low" and "x_high" meet after 0.05 s by their motions)"});
+  CHECK(doubts_about(moved(", until = 0.04")).empty());
+  const auto refusal = [&](const std::string& keys) {
+    try {
+      refuse_overlapping_start(in_cell(keys));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string servo = "z_high.drive = { stress = 100, gain = 1e-4, largest_speed = 0.2";
+  const std::string motion = "x_low.motion = [{ kind = \"velocity\", velocity = [1, 0, 0] }]\n";
+  check_says(refusal(motion + servo + " }\n"),
+             {R"(the servo of wall "z_high" acts between "x_low" and "x_high")", "after 0.05 s", "container.z_high.drive.area"});
+  CHECK(refusal(motion + servo + ", area = 0.003 }\n").empty());
+  const std::string turn = "x_low.motion = [{ kind = \"rotation\", axis = [0, 0, 1], point = [0, 0, 0], rpm = 6 }]\n";
+  check_says(refusal(turn + servo + " }\n"), {"do not face each other", "after 0.0005 s"});
+  CHECK(doubts_about(in_cell(turn)).empty());
+}
 
 TEST_CASE("doubts: springs with contacts of fewer than ten steps are named, as a run counts them") {
   const double step = 5e-4;

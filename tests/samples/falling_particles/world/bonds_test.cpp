@@ -544,7 +544,7 @@ TEST_CASE("bonds: the forecast counts them by section") {
   const Scene scene = scene_with(folder, rods(4), clamped_beam());
   const Forecast found = forecast(scene);
   CHECK(found.bonds == std::vector<std::uint64_t>{1, 3});
-  CHECK(describe(scene, found).find("clamped: 1 beams of ") != std::string::npos);
+  CHECK(describe(scene, found).find("clamped: 1 beam of ") != std::string::npos);
 }
 
 TEST_CASE("bonds: LAMMPS' input refuses them") {

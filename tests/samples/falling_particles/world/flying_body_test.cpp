@@ -178,6 +178,7 @@ TEST_CASE("free walls: they rest and slide on other walls, with the friction of 
       CHECK(std::abs(state.pose.position.z() - 0.02) < 1e-4);
       CHECK(state.velocity.linear.norm() < 1e-3);
       CHECK(stepper.contacts() == 0);  // of grains
+      CHECK(stepper.costs().contacts_of_walls > 2000);
     }
   }
 }
