@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "input/sampling.hpp"
+#include "model/empty_space.hpp"
 #include "model/fit_error.hpp"
 #include "model/fit_union.hpp"
 #include "study/compounds.hpp"
@@ -43,6 +45,43 @@ TEST_CASE("the six bodies of an animal end with its points") {
   CHECK(error.reach < 1.1 * find_error(truth, data).reach);
   CHECK(error.rms < 0.02 * error.radius);
   CHECK(std::abs(error.body.volume - integrate_union(truth).solid.volume) < 2 * error.volume_error);
+}
+
+TEST_CASE("the bound keeps a ball within the largest reach beyond a rounded cube") {
+  // |x|^3 + |y|^3 + |z|^3 = 1 as a mesh. A ball of radius r about its centre reaches r - 1 beyond it, on the axes.
+  constexpr std::uint32_t kSteps = 40;
+  Data mesh;
+  for (int face = 0; face < 6; ++face) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.points.size());
+    for (std::uint32_t i = 0; i <= kSteps; ++i) {
+      for (std::uint32_t j = 0; j <= kSteps; ++j) {
+        const double up = face % 2 == 0 ? 1 : -1;
+        Vector3 x;
+        x[face / 2] = up;
+        x[(face / 2 + 1) % 3] = up * (2.0 * i / kSteps - 1);  // the triangles face outwards
+        x[(face / 2 + 2) % 3] = 2.0 * j / kSteps - 1;
+        mesh.vertices.points.emplace_back(x / x.lpNorm<3>());
+        const std::uint32_t k = first + i * (kSteps + 1) + j;
+        if (i == kSteps || j == kSteps) continue;
+        mesh.triangles.push_back({k, k + kSteps + 1, k + 1});
+        mesh.triangles.push_back({k + 1, k + kSteps + 1, k + kSteps + 2});
+      }
+    }
+  }
+  const Cloud surface = sample_triangles(mesh.vertices.points, mesh.triangles, 20000, 1), cloud = thinned(surface, 3000);
+  const Extent extent = extent_of(surface.points);
+  FitSettings settings{.family = Family::Ellipsoid, .noise = Noise::AlongNormal, .rejects_outliers = false, .mesh = mesh};
+  const FittedBody ball =
+      refine_body({Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Ones()}, cloud, settings);
+  const double before = find_distances(std::vector{ball.body}, mesh).reach;
+  settings.empty = moved(find_empty_space(normalized(surface, extent)), extent.size, extent.centre);
+  const Union fitted = bounded({ball}, cloud, settings);
+  REQUIRE(fitted.bodies.size() == 1);
+  const FitError after = find_distances(std::vector{fitted.bodies[0].body}, mesh);
+  const double most = std::max(kMostReach * after.radius, settings.empty.margin * extent.size);
+  CHECK(before > 1.5 * most);
+  CHECK(after.reach < 1.02 * most);
+  CHECK(fitted.bodies[0].body.half_axes.isApproxToConstant(1 + most, 0.01));
 }
 
 TEST_CASE("a cube is fitted by one body, with and without noise") {

@@ -11,6 +11,7 @@
 
 #include "body.hpp"
 #include "cloud.hpp"
+#include "input/read_data.hpp"
 #include "least_squares.hpp"
 #include "uncertainty.hpp"
 
@@ -44,6 +45,8 @@ struct FitSettings {
   /// More points of the same surface with normals, such as of a mesh, from which the empty space is found. Empty: the points to
   /// fit.
   Cloud surface = {};
+  /// The mesh, if the data are one: the limits of a union hold for it, as in the report. Without triangles: for the points to fit.
+  Data mesh = {};
   /// Where no body shall be. fit_body() and fit_union() find it.
   EmptySpace empty = {};
   int threads = 1;

@@ -219,10 +219,10 @@ namespace {
 /// The distance from discs around the points of a cloud: its surface runs between them, in their tangent planes.
 class DiscDistance {
  public:
-  /// `spacings`: the radius of the discs. `surface`: of the cloud; a part of the points has its normals.
-  DiscDistance(const std::vector<Vector3>& points, const Surface& surface, double spacings)
+  /// `surface`: of the cloud; a part of the points has its normals.
+  DiscDistance(const std::vector<Vector3>& points, const Surface& surface)
       : surface_(surface),
-        spacings_(spacings * std::sqrt(static_cast<double>(surface.points.size()) / static_cast<double>(points.size()))),
+        spacings_(kSpacings * std::sqrt(static_cast<double>(surface.points.size()) / static_cast<double>(points.size()))),
         points_(points),
         with_normals_(surface.points) {}
 
@@ -245,7 +245,7 @@ class DiscDistance {
 };
 
 /// The distances of the bodies' surface from the data.
-void measure_surface(std::span<const DistanceFunction> functions, const Data& data, double spacings, FitError& error) {
+void measure_surface(std::span<const DistanceFunction> functions, const Data& data, FitError& error) {
   const DataDistance to_data(data);
   const Cloud cloud = data.triangles.empty() ? data.vertices : sample_triangles(data.vertices.points, data.triangles, kSamples, 2);
   const Surface surface = make_surface(cloud);
@@ -255,7 +255,7 @@ void measure_surface(std::span<const DistanceFunction> functions, const Data& da
   for (Vector3& x : closing) x = extent.centre + extent.size * x;
   const PointTree holes(std::move(closing));
   std::optional<DiscDistance> to_discs;
-  if (data.triangles.empty()) to_discs.emplace(cloud.points, surface, spacings);
+  if (data.triangles.empty()) to_discs.emplace(cloud.points, surface);
   for (const Vector3& x : free_surface(functions, kSamples)) {
     const double distance = to_data(x);
     error.to_data = std::max(error.to_data, distance);
@@ -308,7 +308,7 @@ void add_uncertainty(FitError& error, std::span<const FittedBody> fitted) {
   error.moment_errors = square.tail<3>().cwiseSqrt();
 }
 
-FitError find_distances(std::span<const Body> bodies, const Data& data, double spacings) {
+FitError find_distances(std::span<const Body> bodies, const Data& data) {
   FitError error;
   const std::vector<DistanceFunction> functions(bodies.begin(), bodies.end());
   std::vector<Vector3> points = data.vertices.points;
@@ -327,7 +327,7 @@ FitError find_distances(std::span<const Body> bodies, const Data& data, double s
   error.rms = std::sqrt(square / static_cast<double>(points.size()));
   error.mean = sum / static_cast<double>(points.size() - uniform);
   error.radius = radius_of(points);
-  measure_surface(functions, data, spacings, error);
+  measure_surface(functions, data, error);
   return error;
 }
 

@@ -69,8 +69,8 @@ void add_uncertainty(FitError& error, std::span<const FittedBody> fitted);
 /// surface of the bodies. They are lower bounds: the true distances are larger by at most the spacing of the points.
 FitError find_error(std::span<const Body> bodies, const Data& data);
 
-/// Only the distances of find_error(), without the solids. `spacings`: a cloud has discs of this radius, in spacings, around its
-/// points, in their tangent planes. Its reach is measured from them.
-FitError find_distances(std::span<const Body> bodies, const Data& data, double spacings = kSpacings);
+/// Only the distances of find_error(), without the solids. The reach beyond a cloud is measured from discs around its points, in
+/// their tangent planes, with a radius of kSpacings spacings.
+FitError find_distances(std::span<const Body> bodies, const Data& data);
 
 }  // namespace fit

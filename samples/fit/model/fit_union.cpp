@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "fit_error.hpp"
 #include "kmeans.hpp"
@@ -95,6 +96,13 @@ struct Model {
   std::vector<Body> bodies;
   double mean_square = std::numeric_limits<double>::infinity();
 };
+
+/// Whether one of the models has nearly the same error: descents that end alike.
+bool is_known(const Model& model, const std::vector<Model>& models) {
+  constexpr double kAlike = 0.01;
+  return std::ranges::any_of(models,
+                             [&](const Model& other) { return std::abs(model.mean_square / other.mean_square - 1) < kAlike; });
+}
 
 bool has_enough(const Assignment& assignment, Family family) {
   return std::ranges::all_of(assignment.counts, [&](std::size_t count) { return count >= 2 * least_points(family); });
@@ -292,32 +300,26 @@ std::vector<std::vector<Body>> enlarged(const Model& model, const Cloud& cloud, 
   return sets;
 }
 
-/// The best model from several clusterings. Clusterings with the same ellipsoids are used once.
-Model best_of_clusterings(const Cloud& cloud, const FitSettings& search, int count, Family family) {
+/// The models from several clusterings. Clusterings with the same ellipsoids are used once.
+std::vector<Model> from_clusterings(const Cloud& cloud, const FitSettings& search, int count, Family family) {
   constexpr int kSeeds = 2;
-  constexpr double kAlike = 0.01;
-  Model best;
-  std::vector<double> known;
+  std::vector<Model> starts, models;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     const Model start = start_from_clusters(cloud, search, count, static_cast<std::uint64_t>(seed));
-    const auto is_known = [&](double other) { return std::abs(start.mean_square / other - 1) < kAlike; };
-    if (!std::isfinite(start.mean_square) || std::ranges::any_of(known, is_known)) continue;
-    known.push_back(start.mean_square);
-    const Model model = with_family(start, cloud, search, family);
-    if (model.mean_square < best.mean_square) best = model;
+    if (!std::isfinite(start.mean_square) || is_known(start, starts)) continue;
+    starts.push_back(start);
+    models.push_back(with_family(start, cloud, search, family));
   }
-  return best;
+  return models;
 }
 
-/// The best model with one more body than `fewer`.
-Model best_enlarged(const Model& fewer, const Cloud& cloud, const FitSettings& search, Family family) {
-  Model best;
-  if (!std::isfinite(fewer.mean_square)) return best;
-  for (const std::vector<Body>& bodies : enlarged(fewer, cloud, search)) {
-    const Model model = with_family(alternate(bodies, cloud, search, Distance::Union, 8), cloud, search, family);
-    if (model.mean_square < best.mean_square) best = model;
-  }
-  return best;
+/// The models with one more body than `fewer`.
+std::vector<Model> enlargements(const Model& fewer, const Cloud& cloud, const FitSettings& search, Family family) {
+  std::vector<Model> models;
+  if (!std::isfinite(fewer.mean_square)) return models;
+  for (const std::vector<Body>& bodies : enlarged(fewer, cloud, search))
+    models.push_back(with_family(alternate(bodies, cloud, search, Distance::Union, 8), cloud, search, family));
+  return models;
 }
 
 /// The model without the body that the others replace best.
@@ -335,18 +337,20 @@ Model reduced(const Model& model, const Cloud& cloud, const FitSettings& search)
   return alternate(kept, cloud, search, Distance::Union, 8);
 }
 
-/// The best model with `count` bodies: from clusterings, and from the best model `fewer` with one body less. Bodies that the others
-/// replace move to where they are missed (split and merge; Ueda et al., Neural Computation 12, 2000).
-Model best_of_count(const Model& fewer, const Cloud& cloud, const FitSettings& search, int count, Family family) {
-  Model best = best_of_clusterings(cloud, search, count, family);
-  const Model more = best_enlarged(fewer, cloud, search, family);
-  if (more.mean_square < best.mean_square) best = more;
-  if (!std::isfinite(best.mean_square)) return best;
-  for (;;) {
-    const Model other = best_enlarged(reduced(best, cloud, search), cloud, search, family);
-    if (!gains(other, best)) return other.mean_square < best.mean_square ? other : best;
-    best = other;
-  }
+/// Models with `count` bodies, the best first: from clusterings, and from the best model `fewer` with one body less. Bodies that
+/// the others replace move to where they are missed (split and merge; Ueda et al., Neural Computation 12, 2000).
+std::vector<Model> models_of_count(const Model& fewer, const Cloud& cloud, const FitSettings& search, int count, Family family) {
+  std::vector<Model> models = from_clusterings(cloud, search, count, family);
+  models.emplace_back();  // with an infinite error: the last
+  Model best, before;
+  const auto add = [&](const std::vector<Model>& more) {
+    models.insert(models.end(), more.begin(), more.end());
+    std::ranges::stable_sort(models, {}, &Model::mean_square);
+    before = std::exchange(best, models.front());
+  };
+  add(enlargements(fewer, cloud, search, family));
+  while (gains(best, before)) add(enlargements(reduced(best, cloud, search), cloud, search, family));
+  return models;
 }
 
 /// The final descents, on all points and with error bars.
@@ -376,17 +380,6 @@ std::vector<FittedBody> finish(std::vector<Body> bodies, const Cloud& cloud, Fit
   return fitted;
 }
 
-/// How far a union is from the limits of a good fit, for the root mean square and the reach. The data do not show a reach smaller
-/// than the margin.
-struct Excess {
-  double rms, reach;  // over the limits
-
-  Excess(const FitError& error, double most_reach)
-      : rms(error.rms / (kMostDistance * error.radius)), reach(error.reach / most_reach) {}
-  bool is_within() const { return rms <= 1 && reach <= 1; }
-  double length() const { return std::hypot(rms, reach); }
-};
-
 std::vector<Body> bodies_of(const std::vector<FittedBody>& fitted) {
   std::vector<Body> bodies(fitted.size());
   std::ranges::transform(fitted, bodies.begin(), &FittedBody::body);
@@ -400,20 +393,18 @@ bool are_well_fitted(const std::vector<FittedBody>& fitted, double size) {
   });
 }
 
-/// Descends again if a union is not within the limits. Up to here, every excess costs; now only one beyond the largest reach of a
-/// good fit does, and costs a hundred times as much: least squares under a bound. A penalty alone leaves some excess. The bound
-/// moves inwards by what is left, so that the weight need not grow (the method of multipliers in the form of Powell 1969). The
-/// result counts if it is nearer to the limits.
-std::vector<FittedBody> bounded(std::vector<FittedBody> fitted, const Cloud& cloud, FitSettings settings) {
-  constexpr int kMostRounds = 8;                       // the hand and the apple of README.md take 3 and 4
+}  // namespace
+
+Union bounded(std::vector<FittedBody> fitted, const Cloud& cloud, FitSettings settings) {
+  constexpr int kMostRounds = 8;                       // README.md has examples
   constexpr double kBoundWeight = 100 * kEmptyWeight;  // README.md has others
   const double size = 1 / settings.empty.scale;        // of the data: the grid is for extent 1
-  if (!settings.empty.grid || are_well_fitted(fitted, size)) return fitted;
+  if (!settings.empty.grid || are_well_fitted(fitted, size)) return {fitted, {}};
   const auto error_of = [&](const std::vector<FittedBody>& each) {
     std::vector<std::size_t> outliers;
     for (const FittedBody& body : each) outliers.insert(outliers.end(), body.outliers.begin(), body.outliers.end());
-    return settings.surface.points.empty() ? find_distances(bodies_of(each), {without(cloud, outliers), {}, ""})
-                                           : find_distances(bodies_of(each), {settings.surface, {}, ""}, 0);
+    return find_distances(bodies_of(each),
+                          settings.mesh.triangles.empty() ? Data{without(cloud, outliers), {}, ""} : settings.mesh);
   };
   FitError error = error_of(fitted);
   const double most = std::max(kMostReach * error.radius, settings.empty.margin * size);
@@ -424,20 +415,22 @@ std::vector<FittedBody> bounded(std::vector<FittedBody> fitted, const Cloud& clo
   settings.empty.weight = kBoundWeight;
   for (int round = 0; round < kMostRounds && !least.is_within(); ++round) {
     if (settings.progress && round == 0) settings.progress("descending with a bound on the reach beyond the data");
-    bound -= std::max(0.0, error.reach - most);
+    if (round > 0) bound -= std::max(0.0, error.reach - most);  // the first descent leaves what the search did
     if (!(bound > 0)) break;
     settings.empty.margin = bound / size;
     const std::vector<FittedBody> next = finish(bodies, cloud, settings);
     bodies = bodies_of(next);
     error = error_of(next);
     const Excess excess(error, most);
-    if (excess.length() < least.length()) {
+    if (excess < least) {
       least = excess;
       fitted = next;
     }
   }
-  return fitted;
+  return {fitted, least};
 }
+
+namespace {
 
 std::vector<FittedBody> unite(const Cloud& cloud, int largest_count, const FitSettings& settings, const Progress& progress) {
   require_points(cloud, least_points(settings.family.value_or(Family::Ellipsoid)));
@@ -453,20 +446,34 @@ std::vector<FittedBody> unite(const Cloud& cloud, int largest_count, const FitSe
     of_data.empty = find_empty_space(settings.surface.points.empty() ? data : normalized(settings.surface, extent));
   of_data.empty.steep = kSteep;
 
-  Model best, of_count;
+  std::vector<Model> best, of_count;
   for (int count = 1; count <= largest_count; ++count) {
     if (progress) progress(count, largest_count);
-    of_count = count == 1 ? best_of_one(few, family, of_data) : best_of_count(of_count, few, of_data, count, family);
-    if (is_better(of_count, best, few.points.size())) best = of_count;
+    of_count = count == 1 ? std::vector{best_of_one(few, family, of_data)}
+                          : models_of_count(of_count.front(), few, of_data, count, family);
+    if (best.empty() || is_better(of_count.front(), best.front(), few.points.size())) best = of_count;
   }
-  if (best.bodies.size() <= 1) return {fit_body(cloud, settings)};
-  if (settings.progress) settings.progress("descending with " + std::to_string(best.bodies.size()) + " bodies on all points");
+  if (best.front().bodies.size() <= 1) return {fit_body(cloud, settings)};
   FitSettings of_part = moved(of_data, extent.size, extent.centre);
   of_part.is_whole = false;  // the others hide some of it
   of_part.largest_over_radius = kLargestOverRadius;
-  best = searched_again(best, thinned(data, 3000), of_data, family);
-  for (Body& body : best.bodies) body = moved(body, extent.size, extent.centre);
-  return bounded(finish(best.bodies, cloud, of_part), cloud, of_part);
+  const Cloud some = thinned(data, 3000);
+  // The search ranks unions by the mean square and the penalty. Their ranks among near equals say nothing of the limits.
+  constexpr std::size_t kMostUnions = 4;  // the hand and the elephant of README.md take 3
+  std::vector<Model> tried;
+  Union nearest;
+  for (const Model& model : best) {
+    if (is_known(model, tried)) continue;
+    if (tried.size() == kMostUnions || !std::isfinite(model.mean_square)) break;
+    tried.push_back(model);
+    if (settings.progress) settings.progress("descending with " + std::to_string(model.bodies.size()) + " bodies on all points");
+    std::vector<Body> bodies = searched_again(model, some, of_data, family).bodies;
+    for (Body& body : bodies) body = moved(body, extent.size, extent.centre);
+    const Union other = bounded(finish(bodies, cloud, of_part), cloud, of_part);
+    if (tried.size() == 1 || other.excess < nearest.excess) nearest = other;
+    if (nearest.excess.is_within()) break;
+  }
+  return nearest.bodies;
 }
 
 }  // namespace

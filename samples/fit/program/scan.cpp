@@ -70,6 +70,7 @@ FitSettings settings_of(const Options& options, const Scan& scan) {
   if (is_mesh && options.noise == "auto") settings.noise = Noise::AlongNormal;
   settings.is_whole = scan.is_closed;
   if (settings.is_whole) settings.volume = volume_target(scan.data);
+  if (is_mesh) settings.mesh = scan.data;
   if (is_mesh) settings.surface = sample_triangles(scan.data.vertices.points, scan.data.triangles, kSurfacePoints, 4);
   const std::map<std::string, Sides> sides = {{"auto", Sides::Auto}, {"all", Sides::All}, {"some", Sides::Some}};
   settings.sides = sides.at(options.sides);
