@@ -562,7 +562,7 @@ void add_walls(const Scene& scene, std::vector<std::string>& doubts) {
   for (const Wall& wall : scene.parts()) {
     add_late(scene, wall, of_walls);
     if (const double least = thinnest(wall.shape); least < kThin * size) {
-      of_walls.add("thin", wall, size / least,
+      of_walls.add("thin", wall, -least,
                    " is " + rounded(least) + " m thin, " + in_half_axes(least, scene) + ": is it in another unit?");
     }
     const double way = normal_way_of(wall, scene);
