@@ -555,8 +555,8 @@ void add_walls(const Scene& scene, std::vector<std::string>& doubts) {
   const double size = scene.smallest_half_axis();
   WallDoubts of_walls;
   // A displacement in a step, and what would make it smaller.
-  const auto add_way = [&](const std::string& kind, const Wall& wall, const char* does, double way, const std::string& remedy) {
-    if (way > size) of_walls.add(kind, wall, way, moves_too_far(does, way, scene) + remedy);
+  const auto add_way = [&](const std::string& kind, const Wall& wall, const char* does, double way, const auto& remedy) {
+    if (way > size) of_walls.add(kind, wall, way, moves_too_far(does, way, scene) + remedy(way));
   };
   const auto shorter = [&](double way) { return "time.step up to " + rounded(scene.time.step * size / way) + " s would do"; };
   for (const Wall& wall : scene.parts()) {
@@ -565,19 +565,14 @@ void add_walls(const Scene& scene, std::vector<std::string>& doubts) {
       of_walls.add("thin", wall, -least,
                    " is " + rounded(least) + " m thin, " + in_half_axes(least, scene) + ": is it in another unit?");
     }
-    const double way = normal_way_of(wall, scene);
-    add_way("moves", wall, " moves", way, shorter(way));
-    if (wall.flight) {
-      const double first = first_way_of(wall, *wall.flight, scene.time.step);
-      add_way("flies", wall, " flies", first, shorter(first));
-    }
+    add_way("moves", wall, " moves", normal_way_of(wall, scene), shorter);
+    if (wall.flight) add_way("flies", wall, " flies", first_way_of(wall, *wall.flight, scene.time.step), shorter);
     if (!wall.drive) continue;
     if (wall.drive->servo) add_gain(scene, wall, of_walls);
-    const double first = first_way_of(wall, scene.time.step);
     add_way(wall.drive->servo     ? "servo"
             : wall.drive->turns() ? "turns"
                                   : "slides",
-            wall, " is driven", first, slower(wall, first / size));
+            wall, " is driven", first_way_of(wall, scene.time.step), [&](double way) { return slower(wall, way / size); });
   }
   of_walls.tell(doubts);
 }
