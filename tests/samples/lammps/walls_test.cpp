@@ -246,6 +246,62 @@ TEST_CASE("lammps: a floor of triangles bears faces and sides as a plane does, a
   CHECK(in_contact > 500);
 }
 
+namespace {
+
+/// A square of 0.1 m around `middle`, in cells of a size (m), with coordinates in single precision.
+std::vector<supernormal::MeshTriangle> rounded_slope(const Eigen::Quaterniond& slope, const Vector3& middle, double cell) {
+  const int count = static_cast<int>(std::lround(0.1 / cell));
+  const auto corner = [&](int i, int j) -> Vector3 {
+    return (middle + slope * Vector3(i * cell - 0.05, j * cell - 0.05, 0)).cast<float>().cast<double>();
+  };
+  std::vector<supernormal::MeshTriangle> triangles;
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < count; ++j) {
+      const int index = static_cast<int>(triangles.size());
+      triangles.push_back({{corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)}, index});
+      triangles.push_back({{corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)}, index + 1});
+    }
+  }
+  return triangles;
+}
+
+}  // namespace
+
+TEST_CASE("lammps: a slope of triangles in single precision is one plane") {
+  Random random{std::mt19937(17)};
+  const ContactMaterial material = prepared({.stiffness = 1e5});
+  const Eigen::Quaterniond slope(Eigen::AngleAxisd(0.4, Vector3(0.3, 1, 0).normalized()));
+  const double depth = 1e-4;
+  for (const double away : {0.0, 1.0}) {
+    const Vector3 middle = away * Vector3(1, 0.7, 0.4), up = slope * Vector3::UnitZ();
+    Floor mesh, plane;
+    plane.wall = std::make_shared<PlaneWall>(middle, up);
+    for (const double cell : {2e-3, 5e-3, 2e-2}) {
+      mesh.wall = std::make_shared<MeshWall>(rounded_slope(slope, middle, cell));
+      for (int i = 0; i < 30; ++i) {
+        Particle body = flat_body(i % 3, i % 2 == 0 ? 0 : 0.1, random);
+        const Eigen::Quaterniond attitude = slope * body.attitude;
+        double height = 0.05;
+        const auto place = [&] { body.place(middle + height * up, attitude); };
+        place();
+        while (plane.find(body, material, 0).contacts == 0) {
+          height -= 1e-5;
+          place();
+        }
+        height -= depth;
+        place();
+        const WallForce on_mesh = mesh.find(body, material, 0), on_plane = plane.find(body, material, 0);
+        CAPTURE(away);
+        CAPTURE(cell);
+        CAPTURE(i);
+        CHECK(on_mesh.contacts == on_plane.contacts);
+        // Triangles of 2 mm at 1 m are off by up to 1e-4 rad.
+        CHECK((on_mesh.force - on_plane.force).norm() < 0.03 * on_plane.force.norm());
+      }
+    }
+  }
+}
+
 TEST_CASE("lammps: at the border of a surface, forces of faces and sides are the derivatives of the energy") {
   Random random{std::mt19937(15)};
   Floor floor;

@@ -44,18 +44,23 @@ constexpr double kLevel = 1e-5;
 // The distance of their vertices from one plane, relative to a side of a triangle, as there.
 constexpr double kCrack = 1e-6;
 
-/// Unit, out of the surface; zero without an area.
-Vector3 normal_of(const supernormal::MeshTriangle& triangle) {
+// The relative error of a coordinate: all formats of meshes are read in single precision.
+constexpr double kRounding = 0x1p-24;
+
+/// Out of the surface, m^2; zero without an area.
+Vector3 area_of(const supernormal::MeshTriangle& triangle) {
   const std::array<Vector3, 3>& v = triangle.vertices;
-  return (v[1] - v[0]).cross(v[2] - v[0]).normalized();
+  return 0.5 * (v[1] - v[0]).cross(v[2] - v[0]);
 }
 
-bool is_in_plane(const supernormal::MeshTriangle& triangle, const Vector3& point, const Vector3& normal) {
+double longest_side(const supernormal::MeshTriangle& triangle) {
   const std::array<Vector3, 3>& v = triangle.vertices;
-  const Vector3 first = v[1] - v[0], second = v[2] - v[0], area = first.cross(second);
-  const double upright = area.dot(normal), near = kCrack * kCrack * std::max(first.squaredNorm(), second.squaredNorm());
-  if (upright <= 0 || area.cross(normal).squaredNorm() > kLevel * kLevel * upright * upright) return false;
-  return std::ranges::all_of(v, [&](const Vector3& vertex) { return std::pow(normal.dot(vertex - point), 2) <= near; });
+  return std::max({(v[1] - v[0]).norm(), (v[2] - v[1]).norm(), (v[0] - v[2]).norm()});
+}
+
+/// How far the normal of a triangle with an area may be off, rad, if each vertex is off by `rounding` (m).
+double tilt_by(double rounding, const supernormal::MeshTriangle& triangle) {
+  return rounding * longest_side(triangle) / area_of(triangle).norm();
 }
 
 /// Whether the tilt of a face or a side leaves it a share on a plane. `normal` is in the body's frame.
@@ -74,8 +79,20 @@ MeshWall::MeshWall(std::vector<supernormal::MeshTriangle> triangles) : triangles
   std::iota(indices.begin(), indices.end(), 0);
   std::vector<Box> boxes;
   boxes.reserve(triangles_.size());
-  for (const auto& triangle : triangles_) boxes.push_back(box_of(triangle));
+  Box all;
+  for (const auto& triangle : triangles_) all.extend(boxes.emplace_back(box_of(triangle)));
+  rounding_ = kRounding * all.min().cwiseAbs().cwiseMax(all.max().cwiseAbs()).norm();
   tree_.init(indices.begin(), indices.end(), boxes.begin(), boxes.end());
+}
+
+bool MeshWall::is_in_plane(const supernormal::MeshTriangle& triangle, const supernormal::MeshTriangle& seed) const {
+  const Vector3 area = area_of(triangle), normal = area_of(seed).normalized(), &origin = seed.vertices[0];
+  const double upright = area.dot(normal), tilt = tilt_by(rounding_, seed);
+  if (upright <= 0 || area.cross(normal).norm() > (kLevel + tilt + tilt_by(rounding_, triangle)) * upright) return false;
+  const double near = kCrack * longest_side(triangle) + 2 * rounding_;
+  return std::ranges::all_of(triangle.vertices, [&](const Vector3& vertex) {
+    return std::abs(normal.dot(vertex - origin)) <= near + tilt * (vertex - origin).norm();
+  });
 }
 
 void MeshWall::collect(const supernormal::Pose& pose, double half, const supernormal::BodyBox* body_box,
@@ -91,9 +108,19 @@ void MeshWall::add_contacts(const ParticleShape& shape, const supernormal::Pose&
   collect(pose, shape.bounding_radius, &body_box, near_);
   if (near_.empty()) return;
   const std::size_t first = contacts.size();
+  tilts_.clear();
   for (const supernormal::MeshContact& contact : search_.find(shape.body, pose, near_)) {
     const supernormal::Proximity& found = contact.proximity;
-    if (found.gap < 0) contacts.push_back({found.normal, found.contact, -found.gap});
+    if (found.gap >= 0) continue;
+    // Each contact has a stiffness of its own. A plane has one, but rounding makes a surface of many faces of it.
+    const double tilt = kLevel + tilt_by(rounding_, triangles_[static_cast<std::size_t>(contact.triangle)]);
+    bool is_new = true;
+    for (std::size_t k = first; k < contacts.size() && is_new; ++k) {
+      is_new = found.normal.cross(contacts[k].normal).norm() > tilt + tilts_[k - first] || found.normal.dot(contacts[k].normal) < 0;
+    }
+    if (!is_new) continue;
+    contacts.push_back({found.normal, found.contact, -found.gap});
+    tilts_.push_back(tilt);
   }
   if (shape.bulge == 0) return;
   find_floors(shape, pose);
@@ -122,8 +149,8 @@ void MeshWall::find_floors(const ParticleShape& shape, const supernormal::Pose& 
   body.faces = shape.faces;
   body.sides = shape.sides;
   for (const supernormal::MeshTriangle& seed : near_) {
-    const Vector3 normal = normal_of(seed), point = seed.vertices[0];
-    const auto is_here = [&](const Floor& one) { return is_in_plane(seed, one.ground.origin, one.ground.frame.col(2)); };
+    const Vector3 normal = area_of(seed).normalized(), point = seed.vertices[0];
+    const auto is_here = [&](const Floor& one) { return is_in_plane(seed, *one.seed); };
     if (normal.isZero() || !may_lie(shape, pose.rotation.transpose() * normal) || std::ranges::any_of(floors_, is_here)) continue;
     const double gap = supernormal::find_plane_proximity(shape.body, pose, normal, normal.dot(point)).gap;
     if (gap >= shape.bulge) continue;
@@ -138,14 +165,14 @@ void MeshWall::find_floors(const ParticleShape& shape, const supernormal::Pose& 
     ground.is_surface = true;
     const std::size_t first = patches_.size();
     for (const supernormal::MeshTriangle& other : around_) {
-      if (!is_in_plane(other, point, normal)) continue;
+      if (!is_in_plane(other, seed)) continue;
       std::array<Vector2, 3>& triangle = triangles_of_floors_.emplace_back();
       for (std::size_t v = 0; v < 3; ++v) triangle[v] = ground.frame.leftCols<2>().transpose() * (other.vertices[v] - point);
       patches_.emplace_back(triangle);
     }
     ground.patches = std::span(patches_).subspan(first);
     const std::optional<FaceContact> contact = find_ground_contact(body, ground);
-    floors_.push_back({ground, gap, contact ? contact->share : 0});
+    floors_.push_back({ground, gap, contact ? contact->share : 0, &seed});
   }
   // The last one of a contact counts.
   std::ranges::sort(floors_, {}, [](const Floor& one) { return std::pair(one.share, -std::abs(one.gap)); });
