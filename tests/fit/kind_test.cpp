@@ -91,6 +91,7 @@ TEST_CASE("the kind of scanned bodies in any orientation is the kind of the bodi
   }
   REQUIRE(common_axis(fits) == 1);
   std::vector<FittedBody> fitted;
+  fitted.reserve(fits.size());
   for (const FitsByAxis& each : fits) fitted.push_back(each[1].fitted);
   require_stones(find_kind(fitted), 1e-5);
 }

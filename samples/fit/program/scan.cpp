@@ -101,6 +101,7 @@ FitError find_error(const Scan& scan, const std::vector<FittedBody>& fitted) {
 
 FitError find_distances(const Scan& scan, const std::vector<FittedBody>& fitted) {
   std::vector<DistanceFunction> functions;
+  functions.reserve(fitted.size());
   for (const FittedBody& each : fitted) functions.emplace_back(each.body);
   const std::vector<Eigen::Vector3d> points = without(scan.points, outliers_of(fitted)).points;
   FitError error;

@@ -31,7 +31,8 @@ void write_stones(const std::string& folder, std::size_t count, double noise) {
   std::vector<fit::KindScan> scans;
   for (const fit::Body& stone : fit::make_stones(count, 1)) {
     const std::string name = "stone_" + std::to_string(scans.size() + 101) + ".xyz";
-    write_points(folder + "/" + name, fit::scatter(stone, {.points = 4000, .noise = noise, .seed = scans.size() + 1}).points);
+    write_points(std::string(folder).append("/").append(name),
+                 fit::scatter(stone, {.points = 4000, .noise = noise, .seed = scans.size() + 1}).points);
     exact.emplace_back().body = stone;
     fit::KindScan scan{name, exact.back(), {}, {}};
     scan.error.radius = 1;
