@@ -23,8 +23,8 @@ double find_maximum_on_arc(const Slope& slope, double low, double high) {
     const ArcSlope here = slope(angle);
     if (here.first == 0) break;
     (here.first > 0 ? low : high) = angle;
-    const double step = -here.first / here.second;
-    const bool is_good = here.second < 0 && std::abs(step) < 0.5 * last_step && angle + step > low && angle + step < high;
+    const double step = here.second < 0 ? -here.first / here.second : last_step;
+    const bool is_good = std::abs(step) < 0.5 * last_step && angle + step > low && angle + step < high;
     const double next = is_good ? angle + step : 0.5 * (low + high);
     last_step = std::abs(next - angle);
     angle = next;
@@ -39,8 +39,8 @@ double find_maximum_uphill(const Slope& slope) {
   constexpr double kFirstStep = 0.01;  // rad; without a step of Newton's method
   const ArcSlope here = slope(0);
   if (here.first == 0) return 0;
-  const double uphill = here.first > 0 ? 1 : -1, newton = std::abs(here.first / here.second);
-  double last = 0, next = here.second < 0 && newton > 0 ? std::min(2 * newton, 1.0) : kFirstStep;
+  const double uphill = here.first > 0 ? 1 : -1, newton = here.second < 0 ? std::abs(here.first / here.second) : 0;
+  double last = 0, next = newton > 0 ? std::min(2 * newton, 1.0) : kFirstStep;
   while (next < std::numbers::pi && uphill * slope(uphill * next).first > 0) {
     last = next;
     next = std::min(4 * next, std::numbers::pi);
