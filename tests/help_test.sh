@@ -23,7 +23,9 @@ while read -r script; do
   count=$((count + 1))
 done < <(grep -rlI --include=run --include=clang --include=check_plugin --include=without_optional 'install-packages\|usage\.bash' \
   "$root/.ci/run" "$root/samples" "$root/tests")
-expect 0 env PATH="$work/bin:$PATH" "$root/samples/studies/run" drum_exponents --help
-grep -q -- --seeds "$work/log" || fail "a study prints: $(cat "$work/log")"
+if [ -d "$root/samples/studies" ]; then
+  expect 0 env PATH="$work/bin:$PATH" "$root/samples/studies/run" drum_exponents --help
+  grep -q -- --seeds "$work/log" || fail "a study prints: $(cat "$work/log")"
+fi
 [ "$count" -ge 15 ] || fail "only $count scripts were found"
-echo "all passed"
+echo "$count scripts: all passed"

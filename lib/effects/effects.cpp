@@ -87,11 +87,6 @@ void look_ahead(dBodyID body, double time) {
   if (!has_ours) throw std::invalid_argument("the body has no geom made by snCreate…, but must have one");
 }
 
-template <typename E>
-bool has(const std::vector<Effect>& list) {
-  return std::ranges::any_of(list, [](const Effect& effect) { return std::holds_alternative<E>(effect); });
-}
-
 }  // namespace
 
 struct Effects::State {

@@ -36,14 +36,6 @@ void require_listed_once(const std::vector<Effect>& list, const Effect& effect) 
   }
 }
 
-template <typename Wanted>
-bool has(const std::vector<Effect>& list) {
-  for (const Effect& effect : list) {
-    if (std::holds_alternative<Wanted>(effect)) return true;
-  }
-  return false;
-}
-
 void require_company(const std::vector<Effect>& list) {
   if (has<Buoyancy>(list) && !has<Gravity>(list)) {
     throw BadEffect("buoyancy", "", "buoyancy is listed without gravity, which it is the reaction to: list both or none");

@@ -1,6 +1,8 @@
 // Refuses effects: the message names the effect, the parameter, its value and the valid range.
 #pragma once
 
+#include <algorithm>
+#include <variant>
 #include <vector>
 
 #include "supernormal/effects.hpp"
@@ -10,5 +12,10 @@ namespace supernormal::effects {
 /// Throws BadEffect (a std::invalid_argument) for the first parameter out of its range, for an effect that is listed twice, and for
 /// an effect whose required partner is missing or that excludes another.
 void require_valid(const std::vector<Effect>& list);
+
+template <typename Wanted>
+bool has(const std::vector<Effect>& list) {
+  return std::ranges::any_of(list, [](const Effect& effect) { return std::holds_alternative<Wanted>(effect); });
+}
 
 }  // namespace supernormal::effects

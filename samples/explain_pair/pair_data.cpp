@@ -1,8 +1,6 @@
-// The part of explain_pair that needs C++: the hard cases, the grains of a scene, and the methods of the literature, as JSON on
-// stdout.
+// The part of explain_pair that needs C++: the hard cases and the methods of the literature, as JSON on stdout.
 //   pair_data list                        names and reasons of the hard cases
 //   pair_data case NAME                   a hard case
-//   pair_data scene FILE KEY=VALUE...     the grains of a scene, with the values of --set
 //   pair_data literature                  the paths of the methods, for a pair on stdin
 // Exit code: 0 done; 1 failed; 2 bad input.
 #include <algorithm>
@@ -16,17 +14,14 @@
 #include <string>
 #include <vector>
 
-#include "base/input_error.hpp"
-#include "base/nearest_word.hpp"
+#include "common/input_error.hpp"
+#include "common/nearest_word.hpp"
 #include "literature/method.hpp"
-#include "model/scene.hpp"
 #include "support/hard_cases/catalogue.hpp"
-#include "world/placement.hpp"
 
 namespace {
 
-using falling_particles::ConvexBody;
-using falling_particles::InputError;
+using common::InputError;
 using nlohmann::json;
 using supernormal::Matrix3;
 using supernormal::Pose;
@@ -59,21 +54,6 @@ json json_of(const Pose& pose) {
   return {{"position", numbers(pose.position)}, {"rotation", rows}};
 }
 
-/// Of the core: the rounding is a part of Body, but not of its lengths.
-Body body_of(const ConvexBody& grain) {
-  using supernormal::samples::capsule, supernormal::samples::superellipsoid, supernormal::samples::superovoid;
-  const auto [a, b, c] = grain.core_half_axes();
-  switch (grain.shape) {
-    case ConvexBody::Shape::Superovoid:
-      return superovoid({a, b, c}, grain.delta, grain.epsilon, grain.taper[0], grain.taper[1]).rounded(grain.rounding);
-    case ConvexBody::Shape::Capsule:
-      return capsule(a, c - a).rounded(grain.rounding);
-    case ConvexBody::Shape::Superellipsoid:
-      break;
-  }
-  return superellipsoid({a, b, c}, grain.delta, grain.epsilon).rounded(grain.rounding);
-}
-
 json list_of_hard_cases() {
   json list = json::array();
   for (const HardCase& one : supernormal::samples::hard_cases()) list.push_back({one.name, one.reason});
@@ -87,28 +67,11 @@ json hard_case(const std::string& name) {
     std::vector<std::string> names(cases.size());
     std::ranges::transform(cases, names.begin(), &HardCase::name);
     throw InputError("--case: \"" + name + "\" is no hard case; allowed: one of the " + std::to_string(names.size()) +
-                     " names that --list prints" + falling_particles::did_you_mean(name, names));
+                     " names that --list prints" + common::did_you_mean(name, names));
   }
   return {{"bodies", {json_of(found->body1), json_of(found->body2)}},
           {"poses", {json_of(found->pose1), json_of(found->pose2)}},
           {"first_normal", found->first_normal ? numbers(*found->first_normal) : json()}};
-}
-
-/// The factors of the grains at the start are drawn in the order in which the run drew them.
-json scene(const std::string& path, const std::vector<std::string>& overrides) {
-  const falling_particles::Scene scene = falling_particles::load_scene(path, overrides);
-  json scales = json::array(), kinds;
-  if (scene.has_sizes()) {
-    falling_particles::Random random(scene.seed);
-    for (const auto& placement : place(scene, random)) scales.push_back(placement.scale);
-  }
-  for (const auto& entry : scene.kinds) {
-    kinds[entry.kind.name] = {{"body", json_of(body_of(entry.kind.all_components().front().body))},
-                              {"bounding_radius", entry.kind.bounding_radius()},
-                              {"is_compound", !entry.kind.components.empty()},
-                              {"has_sizes", entry.size.has_value()}};
-  }
-  return {{"name", scene.name}, {"scales", scales}, {"kinds", kinds}};
 }
 
 Pose pose_of(const json& pose) {
@@ -155,9 +118,8 @@ json literature_paths(const json& pair) {
 json answer_to(const std::string& question, const std::vector<std::string>& arguments) {
   if (question == "list") return list_of_hard_cases();
   if (question == "case") return hard_case(arguments.at(0));
-  if (question == "scene") return scene(arguments.at(0), {arguments.begin() + 1, arguments.end()});
   if (question == "literature") return literature_paths(json::parse(std::cin));
-  throw InputError("\"" + question + "\" is no question; allowed: list, case, scene, literature");
+  throw InputError("\"" + question + "\" is no question; allowed: list, case, literature");
 }
 
 }  // namespace

@@ -61,7 +61,22 @@ class Pair:
 
 def data(*question, stdin=None):
     """The answer of pair_data.cpp. Raises InputError or RuntimeError with its message."""
-    answer = subprocess.run([os.environ["EXPLAIN_PAIR_DATA"], *question], input=stdin, capture_output=True, text=True)
+    return _answer_of(os.environ["EXPLAIN_PAIR_DATA"], *question, stdin=stdin)
+
+
+def scene_grains(scene, *overrides):
+    """The grains of a scene, from a program of samples/falling_particles. Raises InputError or RuntimeError."""
+    program = os.environ["EXPLAIN_PAIR_GRAINS"]
+    if not os.access(program, os.X_OK):
+        raise InputError(
+            f'--scene takes the program "{program}", which does not exist; allowed: build samples/falling_particles, or name its scene_grains '
+            "in the environment variable EXPLAIN_PAIR_GRAINS"
+        )
+    return _answer_of(program, scene, *overrides)
+
+
+def _answer_of(*command, stdin=None):
+    answer = subprocess.run(command, input=stdin, capture_output=True, text=True)
     if answer.returncode != 0:
         raise (InputError if answer.returncode == 2 else RuntimeError)(answer.stderr.strip())
     return json.loads(answer.stdout)
@@ -199,7 +214,7 @@ class _Grains:
 
     def __init__(self, scene, trajectory, time, overrides):
         self.paths = (trajectory, scene)
-        self.scene = data("scene", scene, *overrides)
+        self.scene = scene_grains(scene, *overrides)
         self.bodies = _nearest_frame(trajectory, time)
 
     def require(self, index):

@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <supernormal/effects.hpp>
+#include <utility>
 #include <vector>
 
-#include "base/input_error.hpp"
 #include "base/interrupt.hpp"
+#include "common/input_error.hpp"
 #include "input/list_sections.hpp"
 #include "input/load_effects.hpp"
 #include "model/scene.hpp"
@@ -96,6 +98,13 @@ void warn(const std::vector<std::string>& doubts) {
   for (const std::string& doubt : doubts) std::fprintf(stderr, "falling_particles: warning: %s\n", doubt.c_str());
 }
 
+/// The last lines of a run: what there is to look at, and how.
+void tell_pictures(const std::filesystem::path& folder) {
+  for (const auto& [file, use] : {std::pair{"view.html", "a browser plays the run"}, {"still.png", "its last moment"}}) {
+    if (std::filesystem::exists(folder / file)) std::fprintf(stderr, "xdg-open %s    # %s\n", (folder / file).c_str(), use);
+  }
+}
+
 ExitCode simulate(const Options& options) {
   falling_particles::Scene scene = falling_particles::load_scene(options.scene_path, options.overrides);
   if (!options.to_lammps.empty()) {
@@ -110,6 +119,7 @@ ExitCode simulate(const Options& options) {
   std::fflush(stdout);
   falling_particles::catch_interrupts();  // again: the results are in place, and Ctrl-C ends only the drawing
   falling_particles::render(end.renderings, end.folder, options.run.quiet);
+  if (!options.run.quiet) tell_pictures(end.folder);
   if (end.interrupted || falling_particles::interrupted()) return Interrupted;
   return end.leaked && options.check_leaks ? Leaked : Done;
 }

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <supernormal/supernormal.h>
 #include <sys/stat.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <array>
@@ -13,13 +14,15 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <supernormal/shapes/tessellation.hpp>
+#include <vector>
 
-#include "input/catalogue.hpp"
 #include "input/orientation.hpp"
 #include "input/read_data.hpp"
 #include "model/fit_error.hpp"
@@ -53,6 +56,22 @@ std::vector<Body> bodies_of(std::span<const FittedBody> fitted) {
   std::vector<Body> bodies;
   for (const FittedBody& each : fitted) bodies.push_back(each.body);
   return bodies;
+}
+
+std::vector<double> numbers(const toml::table& table, std::string_view key) {
+  std::vector<double> values;
+  const toml::array* const array = table[key].as_array();
+  REQUIRE(array != nullptr);
+  for (const toml::node& node : *array) values.push_back(node.value_or(double{NAN}));
+  return values;
+}
+
+/// The table of the grain, with no other one beside it.
+toml::table only_grain(const std::string& lines, const std::string& name) {
+  toml::table all = toml::parse(lines);
+  CHECK(all.size() == 1);
+  REQUIRE(all[name].is_table());
+  return *all[name].as_table();
 }
 
 /// A library of C code, compiled with warnings as errors, and loaded.
@@ -505,47 +524,45 @@ TEST_CASE("a fit to a mesh of a body returns the body, with its volume and inert
   CHECK(error.to_data < 1.1e-3 * 0.01);
 }
 
-TEST_CASE("a grain catalogue accepts the printed lines of TOML") {
-  const TemporaryFolder folder;
+TEST_CASE("the printed lines of TOML are one grain of a catalogue") {
   const std::vector<FittedBody> fitted = {fitted_of(placed_body(Family::Superellipsoid, 3, 2.5)),
                                           fitted_of(placed_body(Family::Ellipsoid, 2, 2)),
                                           fitted_of(placed_body(Family::Superovoid, 2, 2, -0.3))};
   const auto grain_of = [&](std::span<const FittedBody> bodies) {
-    const auto grains =
-        falling_particles::load_catalogue(folder.write("grains.toml", toml_lines(bodies, "thing", 1200, "a \"scan\"")));
-    REQUIRE(grains.size() == 1);
-    CHECK(grains[0].name == "thing");
-    CHECK(grains[0].source == "a \"scan\"");
-    return grains[0];
+    toml::table grain = only_grain(toml_lines(bodies, "thing", 1200, "a \"scan\""), "thing");
+    CHECK(grain["source"].value<std::string>() == "a \"scan\"");
+    return grain;
   };
-  const auto grain = grain_of(std::span(fitted).first(1));
-  CHECK(grain.half_axes == std::array<double, 3>{0.03, 0.02, 0.01});
-  CHECK(grain.delta == 3);
-  CHECK(grain.epsilon == 2.5);
-  CHECK(grain.density == 1200);
-  CHECK(grain_of(std::span(fitted).subspan(1, 1)).delta == 2);
-  const auto egg = grain_of(std::span(fitted).subspan(2));
-  REQUIRE(egg.components.size() == 1);
-  CHECK(egg.components[0].body.taper == std::array<double, 2>{-0.3, -0.3});
+  const toml::table grain = grain_of(std::span(fitted).first(1));
+  CHECK(numbers(grain, "half_axes") == std::vector{0.03, 0.02, 0.01});
+  CHECK(grain["delta"].value<double>() == 3);
+  CHECK(grain["epsilon"].value<double>() == 2.5);
+  CHECK(grain["density"].value<double>() == 1200);
+  CHECK_FALSE(grain.contains("taper"));
+  CHECK(grain_of(std::span(fitted).subspan(1, 1))["delta"].value<double>() == 2);
+  CHECK(numbers(grain_of(std::span(fitted).subspan(2)), "taper") == std::vector{-0.3, -0.3});
 }
 
 TEST_CASE("a union is printed as one grain, with the relative poses of its parts") {
-  const TemporaryFolder folder;
   std::vector<FittedBody> fitted = {fitted_of(placed_body(Family::Superellipsoid, 3, 2.5)),
                                     fitted_of(placed_body(Family::Superovoid, 2, 2, -0.3))};
   fitted[0].body.position = {5000, 0, 0};  // far from the origin of a scanner
   fitted[1].body.position = {5000.02, 0.01, 0};
   fitted[1].body.orientation = Eigen::Quaterniond(-0.7, 0.3, 0.2, 0.5).normalized();
-  const auto grains = falling_particles::load_catalogue(folder.write("grains.toml", toml_lines(fitted, "tooth", 1200, "a scan")));
-  REQUIRE(grains.size() == 1);
-  REQUIRE(grains[0].components.size() == 2);
-  const auto& parts = grains[0].components;
-  const auto at = [](const auto& part) { return Vector3(part.position[0], part.position[1], part.position[2]); };
-  const auto turn = [](const auto& part) {
-    return Eigen::Quaterniond(part.quaternion[0], part.quaternion[1], part.quaternion[2], part.quaternion[3]);
+  const toml::table tooth = only_grain(toml_lines(fitted, "tooth", 1200, "a scan"), "tooth");
+  const toml::array& parts = *tooth["parts"].as_array();
+  REQUIRE(parts.size() == 2);
+  const auto vector_of = [&](std::size_t part, const char* key) {
+    const std::vector<double> values = numbers(*parts[part].as_table(), key);
+    REQUIRE(values.size() == 3);
+    return Vector3(values[0], values[1], values[2]);
   };
-  CHECK(((at(parts[1]) - at(parts[0])) - Vector3(0.02, 0.01, 0)).norm() < 1e-6);
-  for (std::size_t k = 0; k < 2; ++k) CHECK(turn(parts[k]).angularDistance(fitted[k].body.orientation) < 1e-7);
+  CHECK((vector_of(1, "position") - vector_of(0, "position") - Vector3(0.02, 0.01, 0)).norm() < 1e-6);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double degrees = (*parts[k].as_table())["angle"].value_or(double{NAN});
+    const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180, vector_of(k, "axis").normalized());
+    CHECK(Eigen::Quaterniond(turn).angularDistance(fitted[k].body.orientation) < 1e-7);
+  }
 }
 
 TEST_CASE("the printed lines of C compile and create the bodies") {

@@ -1,21 +1,17 @@
 #include <doctest/doctest.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "kind/grain_kind.hpp"
 #include "kind/kind_text.hpp"
-#include "model/scene.hpp"  // of samples/falling_particles
 #include "output/paste.hpp"
-#include "samples/scene_text.hpp"
 #include "study/random_body.hpp"
 #include "study/truth.hpp"
-#include "support/temporary_folder.hpp"
 
 using namespace fit;
 
@@ -124,31 +120,30 @@ TEST_CASE("the taper of a kind is valid, however much the exponents differ") {
   CHECK(size_of(kind.body) == doctest::Approx(kind.median));
 }
 
-TEST_CASE("a scene takes the lines of a kind, and its grains have the sizes of the scans") {
-  const TemporaryFolder folder;
+// That falling_particles draws these sizes: grains_of_fit_test.sh.
+TEST_CASE("the lines of a kind have the sizes of the scans, up to three deviations from their median") {
   std::vector<FittedBody> fitted;
   for (const Body& body : stones()) fitted.push_back(exact(body));
   const GrainKind kind = find_kind(fitted);
   FittedBody mean;
   mean.body = kind.body;
-  folder.write("grains.toml", std::string(kCatalogueText) + toml_lines(std::vector{mean}, "stone", 2600, "six scans"));
-  const std::string text = scene_lines(kind, "stone");
-  CHECK(text.find("count = 6\n") != std::string::npos);
-  const std::string scene =
-      replaced(replaced(kSceneText, "[[grain]]\nname = \"pea\"\ncount = 5\n", text), "count = 6", "count = 1000");
-  const auto loaded = falling_particles::load_scene(folder.write("scene.toml", scene));
-  REQUIRE(loaded.has_sizes());
-  std::vector<double> logarithms;
-  for (const auto& each : loaded.kinds) {
-    if (each.kind.name != "stone") continue;
-    for (const double scale : each.scales) logarithms.push_back(std::log(scale));
-  }
-  REQUIRE(logarithms.size() == 1000);
-  double square = 0;
-  for (const double x : logarithms) square += x * x / 1000;
-  CHECK(std::abs(std::accumulate(logarithms.begin(), logarithms.end(), 0.0)) < 1000 * 0.01 * std::log(1.3));
-  // The deviation of a normal distribution that is cut at three deviations is 0.9866 of it.
-  CHECK(std::sqrt(square) == doctest::Approx(0.9866 * std::log(kind.geometric_deviation)).epsilon(0.01));
+  const toml::table catalogue = toml::parse(toml_lines(std::vector{mean}, "stone", 2600, "six scans"));
+  const toml::node_view stone = catalogue["stone"];
+  CHECK(stone["half_axes"][0].value_or(double{NAN}) == doctest::Approx(kind.body.half_axes.x()).epsilon(1e-8));
+  CHECK(stone["density"].value<double>() == 2600);
+  CHECK(stone["source"].value<std::string>() == "six scans");
+  const toml::table scene = toml::parse(scene_lines(kind, "stone"));
+  const toml::node_view grain = scene["grain"][0];
+  CHECK(grain["name"].value<std::string>() == "stone");
+  CHECK(grain["count"].value<int>() == 6);
+  const toml::node_view size = grain["size"];
+  CHECK(size["distribution"].value<std::string>() == "lognormal");
+  CHECK(size["unit"].value<std::string>() == "catalogue");
+  CHECK(size["median"].value<double>() == 1);
+  const double deviation = kind.geometric_deviation;
+  CHECK(size["geometric_deviation"].value_or(double{NAN}) == doctest::Approx(deviation).epsilon(1e-8));
+  CHECK(size["smallest"].value_or(double{NAN}) == doctest::Approx(std::pow(deviation, -3)).epsilon(1e-8));
+  CHECK(size["largest"].value_or(double{NAN}) == doctest::Approx(std::pow(deviation, 3)).epsilon(1e-8));
 }
 
 TEST_CASE("scans of one size have no distribution, and scans of too many sizes a warning") {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-#include "expect.hpp"
+#include "support/expect.hpp"
 
 namespace supernormal::fuzz {
 namespace {

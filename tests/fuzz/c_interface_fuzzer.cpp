@@ -11,8 +11,8 @@
 
 #include "bodies.hpp"
 #include "byte_reader.hpp"
-#include "expect.hpp"
 #include "supernormal/supernormal.h"
+#include "support/expect.hpp"
 
 namespace supernormal::fuzz {
 namespace {

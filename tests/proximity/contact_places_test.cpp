@@ -24,6 +24,7 @@
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/shapes/superovoid.hpp"
+#include "support/rotation_between.hpp"
 #include "support/without_hessian.hpp"
 
 using namespace supernormal;
@@ -169,7 +170,7 @@ class Placing {
     const double lean = way == Way::LeaningFaceOnFace ? std::pow(10.0, uniform(-12, -2)) : 0;
     const Vector3 against = (-up + lean * direction()).normalized();
     const Eigen::AngleAxisd about(uniform(0, 6.3), up);
-    pair.pose.rotation = (about * Eigen::Quaterniond::FromTwoVectors(down, against)).normalized().toRotationMatrix();
+    pair.pose.rotation = (about * test::rotation_between(down, against)).normalized().toRotationMatrix();
     // A place on the face, off its middle: the smaller body may hang over its edge.
     const Vector3 off = uniform(0.1, 0.95) * pair.large->half_extents().cwiseProduct(direction());
     const Vector3 on_face = pair.large->support(up) * up + off - off.dot(up) * up;
@@ -185,7 +186,7 @@ class Placing {
     PlacedPair pair{slender(), slender(), {}, 0};
     pair.unit = std::min(pair.large->half_extents().minCoeff(), pair.small->half_extents().minCoeff());
     const Vector3 up = direction();
-    pair.pose.rotation = Eigen::Quaterniond::FromTwoVectors(direction(), up).toRotationMatrix();
+    pair.pose.rotation = test::rotation_between(direction(), up).toRotationMatrix();
     const Vector3 touching = pair.large->point(up) - pair.pose.rotation * pair.small->point(-(pair.pose.rotation.transpose() * up));
     pair.pose.position = (1 - std::pow(10, uniform(-4, 0))) * touching;
     return pair;

@@ -3,13 +3,11 @@
 #include <array>
 #include <cmath>
 
+#include "contact/mesh/surface.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 
 namespace supernormal {
 namespace {
-
-// Triangles whose normals are within this angle (rad) are coplanar, up to rounding of their coordinates.
-constexpr double kLevel = 1e-5;
 
 // Width of a crack between triangles that should meet, and the distance of their vertices from one plane. Relative to the longest
 // side of a triangle, or to the distance of a manifold point.

@@ -19,9 +19,6 @@ constexpr double kFlat = 1e-12;
 // placed. The tolerance is this fraction of a triangle's longest side.
 constexpr double kSeam = 1e-6;
 
-// Triangles with normals within this angle (rad) are coplanar, up to seams.
-constexpr double kLevel = 1e-5;
-
 // Upper limit of a triangle's size in body sizes, so that cracks which the body might notice remain.
 constexpr double kLargestFace = 1e3;
 

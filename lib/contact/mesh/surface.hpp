@@ -10,6 +10,9 @@
 
 namespace supernormal {
 
+/// Triangles with normals within this angle (rad) are coplanar, up to seams and the rounding of their coordinates.
+inline constexpr double kLevel = 1e-5;
+
 inline std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// The next vertex of a face after vertex k.

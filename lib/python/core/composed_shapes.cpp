@@ -11,7 +11,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "interpreter_lock.hpp"
+#include "supernormal/python/interpreter_lock.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/linear_image.hpp"
 #include "supernormal/shapes/minkowski_sum.hpp"

@@ -10,10 +10,10 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "enums.hpp"
-#include "interpreter_lock.hpp"
 #include "parallel_for.hpp"
 #include "shapes/validation.hpp"
 #include "supernormal/impact/time_of_impact.hpp"
+#include "supernormal/python/interpreter_lock.hpp"
 #include "values.hpp"
 
 namespace py = pybind11;

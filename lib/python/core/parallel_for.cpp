@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "interpreter_lock.hpp"
+#include "supernormal/python/interpreter_lock.hpp"
 
 namespace py = pybind11;
 

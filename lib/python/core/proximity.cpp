@@ -11,13 +11,13 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "enums.hpp"
-#include "interpreter_lock.hpp"
 #include "parallel_for.hpp"
 #include "recording_shape.hpp"
 #include "shape_queries.hpp"
 #include "shapes/validation.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "supernormal/python/interpreter_lock.hpp"
 #include "values.hpp"
 
 namespace py = pybind11;

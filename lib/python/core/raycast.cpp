@@ -7,9 +7,9 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "enums.hpp"
-#include "interpreter_lock.hpp"
 #include "parallel_for.hpp"
 #include "shapes/validation.hpp"
+#include "supernormal/python/interpreter_lock.hpp"
 #include "supernormal/raycast/ray.hpp"
 #include "values.hpp"
 

@@ -9,17 +9,20 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/number_text.hpp"
 #include "literature/extent.hpp"
 #include "random_geometry.hpp"
 #include "report/statistics.hpp"
-#include "report/text.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/bounding_box.hpp"
 
 namespace accuracy_cost {
 namespace {
 
-using falling_particles::Random;
+using common::joined;
+using common::MeasuredTable;
+using common::number;
+using common::Random;
 using supernormal::BoundingBox;
 using supernormal::Pose;
 using supernormal::Vector3;
@@ -150,18 +153,18 @@ std::string line(BodyClass body_class, const Way& way, const std::vector<Body>& 
 
 }  // namespace
 
-Part box_costs(std::size_t bodies, std::uint64_t seed, const Effort& effort) {
-  Part part{"boxes", "class,box,bodies,time_s,volume,volume_p99,failures,pairs,apart,narrow_s", {}};
+MeasuredTable box_costs(std::size_t bodies, std::uint64_t seed, const Effort& effort) {
+  MeasuredTable table{"boxes", "class,box,bodies,time_s,volume,volume_p99,failures,pairs,apart,narrow_s", {}};
   for (const BodyClass body_class : kAllBodyClasses) {
-    part.tasks.push_back({std::string{letter(body_class)}, [=] {
-                            const std::vector<Body> all = draw_bodies(body_class, bodies, seed);
-                            std::vector<std::string> lines;
-                            lines.reserve(std::size(kWays));
-                            for (const Way& way : kWays) lines.push_back(line(body_class, way, all, effort));
-                            return lines;
-                          }});
+    table.tasks.push_back({std::string{letter(body_class)}, [=] {
+                             const std::vector<Body> all = draw_bodies(body_class, bodies, seed);
+                             std::vector<std::string> lines;
+                             lines.reserve(std::size(kWays));
+                             for (const Way& way : kWays) lines.push_back(line(body_class, way, all, effort));
+                             return lines;
+                           }});
   }
-  return part;
+  return table;
 }
 
 }  // namespace accuracy_cost

@@ -1,26 +1,23 @@
 // Measures the cost of a query: our solvers and libccd on the same pairs of bodies, with the same support function, in one run.
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
-#include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <iostream>
-#include <stdexcept>
 #include <string>
-#include <system_error>
+#include <vector>
 
-#include "atlas.hpp"
 #include "box_cost.hpp"
+#include "common/measured_tables.hpp"
+#include "common/python_script.hpp"
 #include "measurement.hpp"
 #include "ode/collider_cost.hpp"
 #include "ode/collider_sweep.hpp"
 #include "ode/face_cost.hpp"
 #include "ode/pair_cost.hpp"
-#include "ode/scene_cost.hpp"
 #include "query_cost.hpp"
+#include "report/environment.hpp"
 #include "report/report.hpp"
 
 namespace {
@@ -44,36 +41,24 @@ struct Options {
   bool faces = false;
   bool dcollide = false;
   bool atlas = false;
-  bool scene = false;
   bool literature = false;
   bool boxes = false;
-  std::string scene_path = "samples/scenes/pile.toml";
   std::string out = "out/accuracy_cost";
 };
 
-/// Becomes the program that writes report.md and draws the figures of a folder.
-[[noreturn]] void become_report(const std::string& folder) {
-  constexpr const char* kPython = "/usr/bin/python3";  // of Debian, which packs matplotlib for it
-  execl(kPython, kPython, ACCURACY_COST_SOURCE "/samples/benchmarks/accuracy_cost/report.py", folder.c_str(), nullptr);
-  throw std::runtime_error("no report: cannot run " + std::string(kPython) + ": " + std::generic_category().message(errno));
-}
-
 void run(const Options& options) {
   const Effort effort{options.rounds, options.batch_us * 1e-6};
-  if (options.atlas || options.scene || options.literature || options.boxes) {
-    std::vector<Part> parts;
+  if (options.atlas || options.literature || options.boxes) {
+    std::vector<common::MeasuredTable> tables;
     if (options.atlas) {
-      parts.push_back(query_costs(kAtlasPairs, options.seed, effort));
-      parts.push_back(mesh_costs(kAtlasMeshPairs, options.seed, effort));
-      parts.push_back(collider_sweep(kAtlasPoses, options.seed, effort));
+      tables.push_back(query_costs(kAtlasPairs, options.seed, effort));
+      tables.push_back(mesh_costs(kAtlasMeshPairs, options.seed, effort));
+      tables.push_back(collider_sweep(kAtlasPoses, options.seed, effort));
     }
-    if (options.atlas || options.literature) parts.push_back(literature_costs(kAtlasPairs, options.seed, effort));
-    if (options.atlas || options.boxes) parts.push_back(box_costs(kAtlasBodies, options.seed, effort));
-    if (options.atlas || options.scene) {
-      for (const auto& make : {scene_forms, scene_growth, scene_outcomes}) parts.push_back(make(options.scene_path));
-    }
-    run_parts(parts, options.out);
-    become_report(options.out);
+    if (options.atlas || options.literature) tables.push_back(literature_costs(kAtlasPairs, options.seed, effort));
+    if (options.atlas || options.boxes) tables.push_back(box_costs(kAtlasBodies, options.seed, effort));
+    measure_tables(tables, environment(), options.out);
+    common::become_python(ACCURACY_COST_REPORT, options.out);  // writes report.md and draws the figures
   }
   if (options.colliders) {
     write_collider_costs(options.poses, options.seed, effort, std::cout);
@@ -124,13 +109,13 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_flag("--faces", options.faces, "times dCollide of bodies at rest, by their exponents, instead")->excludes(csv);
     app.add_flag("--dcollide", options.dcollide, "times dCollide of two of our bodies beside libccd instead")->excludes(csv);
-    app.add_flag("--atlas", options.atlas, "measures all levels instead: queries, meshes, colliders, scenes")->excludes(csv);
-    app.add_flag("--scene", options.scene, "times a scene of grains in the form of several classes instead")->excludes(csv);
+    app.add_flag("--atlas", options.atlas,
+                 "measures all levels instead: queries, meshes, colliders, boxes; scene_cost measures scenes into the same folder")
+        ->excludes(csv);
     app.add_flag("--literature", options.literature, "compares with the methods of the literature instead")->excludes(csv);
     app.add_flag("--boxes", options.boxes, "compares the ways to a bounding box instead")->excludes(csv);
-    app.add_option("--scene-file", options.scene_path, "with --atlas and --scene: the grains, in a box")->capture_default_str();
     app.add_option("--out", options.out,
-                   "with --atlas, --scene, --literature and --boxes: folder for the results; what is there is not measured again")
+                   "with --atlas, --literature and --boxes: folder for the results; what is there is not measured again")
         ->capture_default_str();
     CLI11_PARSE(app, argc, argv);
     run(options);

@@ -14,7 +14,7 @@
 namespace accuracy_cost {
 namespace {
 
-using falling_particles::Random;
+using common::Random;
 using supernormal::Matrix3;
 using supernormal::Pose;
 using supernormal::Settings;

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "base/random.hpp"
+#include "common/random.hpp"
 #include "supernormal/proximity/pose.hpp"
 #include "supernormal/shapes/shape.hpp"
 
@@ -44,7 +44,7 @@ struct Pair {
 };
 
 /// A random body of one class.
-std::shared_ptr<const supernormal::Shape> random_body(falling_particles::Random& random, BodyClass body_class);
+std::shared_ptr<const supernormal::Shape> random_body(common::Random& random, BodyClass body_class);
 
 /// Draws about `count` pairs, equally many of each class and situation, mixed. The same seed gives the same pairs on every machine.
 /// The bodies touch along a random normal and are then moved along it by the given distance. This is their gap unless another

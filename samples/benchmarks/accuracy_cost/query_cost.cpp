@@ -13,6 +13,7 @@
 namespace accuracy_cost {
 namespace {
 
+using common::MeasuredTable;
 using supernormal::Solver;
 
 // Decimal exponents of the tightest tolerances. Ours is relative; the tolerance of libccd is in metres, for bodies of about one
@@ -95,41 +96,41 @@ std::string line(const Method& method, BodyClass body_class, Situation situation
 
 using MethodsOf = std::function<Methods(BodyClass)>;
 
-Part part_of(const std::string& name, std::size_t pair_count, std::uint64_t seed, const Effort& effort,
-             const MethodsOf& methods_of) {
-  Part part{name, kHeader, {}};
+MeasuredTable table_of(const std::string& name, std::size_t pair_count, std::uint64_t seed, const Effort& effort,
+                       const MethodsOf& methods_of) {
+  MeasuredTable table{name, kHeader, {}};
   for (const BodyClass body_class : kAllBodyClasses) {
     for (const Situation situation : kAllSituations) {
-      part.tasks.push_back({std::string{letter(body_class), letter(situation)}, [=] {
-                              std::vector<Pair> pairs = draw_pairs_of(body_class, situation, pair_count, seed);
-                              const Methods methods = methods_of(body_class);
-                              const auto samples = measure(methods, pairs, effort);
-                              improve_references(samples, pairs);
-                              std::vector<std::string> lines;
-                              lines.reserve(methods.size());
-                              for (std::size_t m = 0; m < methods.size(); ++m) {
-                                const auto all = [](const Pair&) { return true; };
-                                lines.push_back(line(*methods[m], body_class, situation, statistics(samples[m], pairs, all)));
-                              }
-                              return lines;
-                            }});
+      table.tasks.push_back({std::string{letter(body_class), letter(situation)}, [=] {
+                               std::vector<Pair> pairs = draw_pairs_of(body_class, situation, pair_count, seed);
+                               const Methods methods = methods_of(body_class);
+                               const auto samples = measure(methods, pairs, effort);
+                               improve_references(samples, pairs);
+                               std::vector<std::string> lines;
+                               lines.reserve(methods.size());
+                               for (std::size_t m = 0; m < methods.size(); ++m) {
+                                 const auto all = [](const Pair&) { return true; };
+                                 lines.push_back(line(*methods[m], body_class, situation, statistics(samples[m], pairs, all)));
+                               }
+                               return lines;
+                             }});
     }
   }
-  return part;
+  return table;
 }
 
 }  // namespace
 
-Part query_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort) {
-  return part_of("query", pairs, seed, effort, all_methods);
+MeasuredTable query_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort) {
+  return table_of("query", pairs, seed, effort, all_methods);
 }
 
-Part literature_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort) {
-  return part_of("literature", pairs, seed, effort, compared_with_literature);
+MeasuredTable literature_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort) {
+  return table_of("literature", pairs, seed, effort, compared_with_literature);
 }
 
-Part mesh_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort) {
-  return part_of("meshes", pairs, seed, effort, [](BodyClass /*body_class*/) {
+MeasuredTable mesh_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort) {
+  return table_of("meshes", pairs, seed, effort, [](BodyClass /*body_class*/) {
     if (snInit() == 0) throw std::runtime_error(snLastError());
     Methods methods = ode_mesh_methods();
     methods.push_back(supernormal_method("hybrid", Solver::Hybrid, Start::Cold, 1e-9));

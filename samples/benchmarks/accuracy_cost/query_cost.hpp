@@ -3,18 +3,18 @@
 
 #include <cstdint>
 
-#include "atlas.hpp"
+#include "common/measured_tables.hpp"
 #include "measurement.hpp"
 
 namespace accuracy_cost {
 
 /// Measures all solvers at all their tolerances, with a task for each class of bodies and situation, each with `pairs` pairs.
-Part query_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort);
+common::MeasuredTable query_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort);
 
 /// The same for the literature methods and our solvers.
-Part literature_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort);
+common::MeasuredTable literature_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort);
 
 /// The same for dConvex and dTriMesh, over their number of vertices, and our solver.
-Part mesh_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort);
+common::MeasuredTable mesh_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort);
 
 }  // namespace accuracy_cost

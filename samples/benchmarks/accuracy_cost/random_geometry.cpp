@@ -6,7 +6,7 @@
 
 namespace accuracy_cost {
 
-using falling_particles::Random;
+using common::Random;
 using supernormal::Matrix3;
 using supernormal::Vector3;
 

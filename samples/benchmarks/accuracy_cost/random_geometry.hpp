@@ -1,17 +1,17 @@
 // Random normals and orientations.
 #pragma once
 
-#include "base/random.hpp"
+#include "common/random.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace accuracy_cost {
 
-double uniform(falling_particles::Random& random, double low, double high);
+double uniform(common::Random& random, double low, double high);
 
 /// A unit vector, uniform on the sphere.
-supernormal::Vector3 random_normal(falling_particles::Random& random);
+supernormal::Vector3 random_normal(common::Random& random);
 
 /// A uniform rotation.
-supernormal::Matrix3 random_orientation(falling_particles::Random& random);
+supernormal::Matrix3 random_orientation(common::Random& random);
 
 }  // namespace accuracy_cost

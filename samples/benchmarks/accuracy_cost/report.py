@@ -1,4 +1,4 @@
-"""Writes report.md from the tables of `accuracy_cost --out FOLDER`, and draws its figures: report.py FOLDER.
+"""Writes report.md from the tables of `accuracy_cost` and `scene_cost` in a folder, and draws its figures: report.py FOLDER.
 
 Parts without measurements are left out. Without matplotlib there are no figures.
 """
@@ -472,14 +472,15 @@ def report(tables):
     measured = next((tables[name] for name in ("query", "scene_forms", "boxes", "literature") if tables[name].rows), None)
     environment = "".join(f"* {line}\n" for line in (measured.comments if measured else []))
     return (
-        "# What accuracy costs\n\nWritten by `accuracy_cost --atlas`. Only ratios carry to another machine; all methods of a table took "
-        f"turns in one run.\n\n{environment}\n" + "".join(section(tables) for section, name in SECTIONS if tables[name].rows)
+        "# What accuracy costs\n\nWritten by `accuracy_cost --atlas` and `scene_cost`. Only ratios carry to another machine; all "
+        f"methods of a table took turns in one run.\n\n{environment}\n"
+        + "".join(section(tables) for section, name in SECTIONS if tables[name].rows)
     )
 
 
 def main():
     if len(sys.argv) != 2:
-        sys.exit("usage: report.py FOLDER, with the tables of accuracy_cost")
+        sys.exit("usage: report.py FOLDER, with the tables of accuracy_cost and scene_cost")
     folder = pathlib.Path(sys.argv[1])
     tables = read_tables(folder)
     try:

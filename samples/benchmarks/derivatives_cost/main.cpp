@@ -14,12 +14,12 @@
 #include <string>
 #include <vector>
 
-#include "drawn_pairs.hpp"
 #include "supernormal/proximity/clearance.hpp"
 #include "supernormal/proximity/derivatives.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/capsule.hpp"
+#include "support/drawn_pairs.hpp"
 
 namespace {
 

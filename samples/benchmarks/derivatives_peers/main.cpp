@@ -25,11 +25,11 @@
 #include "dgd/geometry/3d/cuboid.h"
 #include "dgd/geometry/3d/ellipsoid.h"
 #include "dgd/geometry/xd/capsule.h"
-#include "drawn_pairs.hpp"
 #include "supernormal/proximity/derivatives.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/capsule.hpp"
+#include "support/drawn_pairs.hpp"
 
 namespace {
 

@@ -34,7 +34,7 @@ def submit_slurm(entry, sweep, store, program, jobs, options, wait):
     tasks at once, None for as many as the cluster gives. Returns when all have ended, if it is to wait.
     """
     if shutil.which("sbatch") is None:
-        raise InputError("Slurm is not installed; tests/run --cluster installs one for a machine of its own (Debian package slurm-wlm)")
+        raise InputError("Slurm is not installed; tests/run cluster installs one for a machine of its own (Debian package slurm-wlm)")
     stride = min(len(sweep.points), MOST_TASKS)
     tasks = sorted({index % stride for index in unfinished(sweep, store)})
     if not tasks:

@@ -5,9 +5,11 @@
 #include <new>
 #include <string>
 
-#include "read_file.hpp"
+#include "common/read_file.hpp"
 
 namespace falling_particles {
+
+using namespace common;
 
 Hash hash_of(std::string_view bytes) {
   const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());

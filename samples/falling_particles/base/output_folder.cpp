@@ -18,11 +18,13 @@
 #include <utility>
 #include <vector>
 
+#include "common/input_error.hpp"
 #include "files.hpp"
-#include "input_error.hpp"
 #include "write_file.hpp"
 
 namespace falling_particles {
+
+using namespace common;
 namespace {
 
 namespace fs = std::filesystem;

@@ -9,9 +9,9 @@
 #include <sstream>
 #include <utility>
 
-#include "input_error.hpp"
-#include "nearest_word.hpp"
-#include "read_file.hpp"
+#include "common/input_error.hpp"
+#include "common/nearest_word.hpp"
+#include "common/read_file.hpp"
 #include "toml_depth.hpp"
 #include "toml_override.hpp"
 

@@ -8,10 +8,12 @@
 #include <string_view>
 #include <vector>
 
-#include "input_error.hpp"
-#include "interval.hpp"
+#include "common/input_error.hpp"
+#include "common/interval.hpp"
 
 namespace falling_particles {
+
+using namespace common;
 
 /// The characters that a name may have without quotes.
 constexpr const char* kNameCharacters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";

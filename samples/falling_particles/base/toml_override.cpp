@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "input_error.hpp"
-#include "nearest_word.hpp"
+#include "common/input_error.hpp"
+#include "common/nearest_word.hpp"
 #include "toml_depth.hpp"
 #include "toml_input.hpp"
 

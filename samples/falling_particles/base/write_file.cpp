@@ -12,10 +12,12 @@
 #include <system_error>
 #include <utility>
 
+#include "common/input_error.hpp"
 #include "files.hpp"
-#include "input_error.hpp"
 
 namespace falling_particles {
+
+using namespace common;
 namespace {
 
 [[noreturn]] void fail_to_write(const std::filesystem::path& path, int error) {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/nearest_word.hpp"
+#include "common/nearest_word.hpp"
 #include "load_sections.hpp"
 #include "state_table.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/nearest_word.hpp"
+#include "common/nearest_word.hpp"
 #include "load_motion.hpp"
 #include "load_sections.hpp"
 #include "observe/facing_walls.hpp"

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "base/nearest_word.hpp"
+#include "common/nearest_word.hpp"
 #include "load_sections.hpp"
 #include "observe/measurement.hpp"
 #include "observe/region.hpp"

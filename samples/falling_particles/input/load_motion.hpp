@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/toml_input.hpp"
-#include "model/motion.hpp"
+#include "common/motion.hpp"
 #include "model/scene.hpp"
 
 namespace falling_particles {

@@ -5,11 +5,11 @@
 #include <set>
 #include <utility>
 
-#include "base/input_error.hpp"
-#include "base/nearest_word.hpp"
-#include "base/read_file.hpp"
 #include "base/toml_input.hpp"
 #include "catalogue.hpp"
+#include "common/input_error.hpp"
+#include "common/nearest_word.hpp"
+#include "common/read_file.hpp"
 #include "load_drive.hpp"
 #include "load_effects.hpp"
 #include "load_sections.hpp"

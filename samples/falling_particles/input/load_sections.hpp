@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/toml_input.hpp"
+#include "common/mesh.hpp"
 #include "model/scene.hpp"
 
 namespace falling_particles {

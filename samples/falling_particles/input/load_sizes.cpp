@@ -7,7 +7,6 @@ namespace falling_particles {
 namespace {
 
 using By = SizeDistribution::By;
-using Bounds = SizeDistribution::Bounds;
 
 // No grain is larger, as for the half-axes of a catalogue.
 constexpr double kLargestSize = 2;  // m
@@ -37,7 +36,7 @@ class Lengths {
 
   double read(const char* key) const { return table_.number(key, range()) / unit_; }
 
-  Bounds bounds() const {
+  SizeDistribution::Bounds bounds() const {
     const double smallest = table_.number("smallest", range());
     const Interval above{smallest, smallest * kLargestRatio, false, true,
                          is_relative_ ? "(above size.smallest)" : "m (above size.smallest)"};
@@ -100,7 +99,7 @@ std::optional<SizeDistribution> load_sizes(const TomlTable& entry, double sieve_
   const By by = (table.has("by") ? table.choice("by", {"number", "mass"}) == "mass" : is_sieve) ? By::Mass : By::Number;
   const Lengths lengths(table, sieve_size);
   if (is_sieve) return SizeDistribution::sieve(lengths.openings(), lengths.passing(), by);
-  const Bounds bounds = lengths.bounds();
+  const SizeDistribution::Bounds bounds = lengths.bounds();
   if (kind == "uniform") return SizeDistribution::uniform(bounds, by);
   if (kind == "normal") return SizeDistribution::normal(lengths.read("mean"), lengths.read("deviation"), bounds, by);
   constexpr double kLargestSpread = 100;

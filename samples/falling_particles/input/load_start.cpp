@@ -6,7 +6,7 @@
 #include <system_error>
 #include <vector>
 
-#include "base/nearest_word.hpp"
+#include "common/nearest_word.hpp"
 #include "load_sections.hpp"
 #include "model/grain_shape.hpp"
 #include "state_table.hpp"

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/load_mesh.hpp"
 #include "load_drive.hpp"
 #include "load_flight.hpp"
-#include "load_mesh.hpp"
 #include "load_motion.hpp"
 #include "load_sections.hpp"
 #include "model/container_walls.hpp"

@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "base/input_error.hpp"
-#include "base/nearest_word.hpp"
-#include "base/read_file.hpp"
+#include "common/input_error.hpp"
+#include "common/nearest_word.hpp"
+#include "common/read_file.hpp"
 
 namespace falling_particles {
 namespace {

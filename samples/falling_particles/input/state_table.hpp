@@ -8,9 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "base/interval.hpp"
+#include "common/interval.hpp"
 
 namespace falling_particles {
+
+using namespace common;
 
 /// Named columns of words, from a CSV file or from a text dump of LAMMPS. Of several frames the last one is read, unless all are
 /// asked for: the lines of the largest time_s of a CSV file, the last section of a dump. The columns of a dump get the names that

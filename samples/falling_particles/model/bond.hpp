@@ -9,9 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "motion.hpp"
+#include "common/motion.hpp"
 
 namespace falling_particles {
+
+using namespace common;
 
 /// The unstrained pose of a bond, in the frame of its first body: a grain, or the wall of a part.
 struct BondRest {

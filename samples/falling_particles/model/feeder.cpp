@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/interval.hpp"
+#include "common/interval.hpp"
 #include "grain_shape.hpp"
 #include "scene.hpp"
 

@@ -1,9 +1,11 @@
 // The inertia of a wall that moves freely.
 #pragma once
 
-#include "motion.hpp"
+#include "common/motion.hpp"
 
 namespace falling_particles {
+
+using namespace common;
 
 /// A wall that is free in all six degrees of freedom. Its weight and the forces of its contacts move it.
 struct Flight {

@@ -1,4 +1,4 @@
-// Axes, points, regions and meshes.
+// Axes, points and regions.
 #pragma once
 
 #include <array>
@@ -37,12 +37,6 @@ struct Region {
     }
     return true;
   }
-};
-
-/// A single-sided triangle mesh. Grains are on the side from which the vertices of a triangle run anticlockwise.
-struct Mesh {
-  std::vector<std::array<float, 3>> vertices;          ///< m; ODE keeps meshes in single precision
-  std::vector<std::array<unsigned int, 3>> triangles;  ///< indices of vertices
 };
 
 }  // namespace falling_particles

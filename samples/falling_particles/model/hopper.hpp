@@ -3,9 +3,12 @@
 
 #include <optional>
 
+#include "common/mesh.hpp"
 #include "geometry.hpp"
 
 namespace falling_particles {
+
+using namespace common;
 
 /// A round, flat dish with a low rim, solid down to the floor. Grains that are poured on it form a heap; the excess falls off.
 struct Dish {

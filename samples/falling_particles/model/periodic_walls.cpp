@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/interval.hpp"
+#include "common/interval.hpp"
 
 namespace falling_particles {
 namespace {

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "base/random.hpp"
+#include "common/random.hpp"
 
 namespace falling_particles {
+
+using namespace common;
 namespace {
 
 constexpr std::size_t kCellsPerPiece = 2000;

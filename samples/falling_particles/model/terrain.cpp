@@ -5,9 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/random.hpp"
+#include "common/random.hpp"
 
 namespace falling_particles {
+
+using namespace common;
 namespace {
 
 constexpr std::array kRelativeAmplitudes = {1.0, 1.0 / 4, 1.0 / 16};

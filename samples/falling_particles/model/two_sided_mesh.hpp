@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "common/mesh.hpp"
 #include "wall.hpp"
 
 namespace falling_particles {

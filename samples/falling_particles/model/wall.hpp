@@ -9,10 +9,11 @@
 #include <variant>
 #include <vector>
 
-#include "drive.hpp"
+#include "common/drive.hpp"
+#include "common/mesh.hpp"
+#include "common/motion.hpp"
 #include "flight.hpp"
 #include "geometry.hpp"
-#include "motion.hpp"
 
 namespace falling_particles {
 

@@ -1,7 +1,7 @@
 // Height, volume fraction and bulk density of a bed of grains.
 #pragma once
 
-#include "base/random.hpp"
+#include "common/random.hpp"
 #include "model/container.hpp"
 #include "model/hopper.hpp"
 #include "world/world.hpp"

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/mesh.hpp"
 #include "model/container.hpp"
 
 namespace falling_particles {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "base/random.hpp"
 #include "bed.hpp"
+#include "common/random.hpp"
 #include "model/hopper.hpp"
 #include "world/world.hpp"
 

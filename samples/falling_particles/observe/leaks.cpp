@@ -6,7 +6,7 @@
 #include <span>
 #include <variant>
 
-#include "base/interval.hpp"
+#include "common/interval.hpp"
 #include "world/to_vector.hpp"
 
 namespace falling_particles {

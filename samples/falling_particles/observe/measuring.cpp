@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/toml_string.hpp"
+#include "common/toml_string.hpp"
 #include "simulation.hpp"
 
 namespace falling_particles {

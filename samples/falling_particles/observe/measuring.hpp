@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/output_folder.hpp"
-#include "base/stopwatch.hpp"
 #include "base/write_file.hpp"
+#include "common/stopwatch.hpp"
 #include "measurement.hpp"
 #include "model/request.hpp"
 

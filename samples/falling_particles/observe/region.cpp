@@ -11,7 +11,6 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFarthest = 1e6;  // m
 constexpr double kMostCells = 1000;
 
@@ -133,7 +132,8 @@ Bounds SamplingRegion::bounds(const World& world) const {
   if (given_) return *given_;
   if (!between_.empty()) return bounds_between(between_, world);
   if (is_cell_) return {Vector3::Zero(), periods_of(world)};
-  Bounds everywhere{Vector3::Constant(-kInfinity), Vector3::Constant(kInfinity)};
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  Bounds everywhere{Vector3::Constant(-kEndless), Vector3::Constant(kEndless)};
   if (world.cell() == nullptr) return everywhere;
   for (int axis = 0; axis < 3; ++axis) {  // each grain has one image in the cell
     const std::optional<Period>& period = world.cell()->axes()[static_cast<std::size_t>(axis)];

@@ -8,7 +8,7 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
-#include "base/random.hpp"
+#include "common/random.hpp"
 #include "discharge.hpp"
 #include "energy.hpp"
 #include "leaks.hpp"

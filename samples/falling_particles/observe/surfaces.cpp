@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/nearest_word.hpp"
+#include "common/nearest_word.hpp"
 
 namespace falling_particles {
 

@@ -6,9 +6,11 @@
 #include <string>
 #include <string_view>
 
-#include "base/interval.hpp"
+#include "common/interval.hpp"
 
 namespace falling_particles {
+
+using namespace common;
 
 /// Builds the lines of a table. Numbers are written as the shortest text that reads back exactly.
 class TableText {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/archive.hpp"
-#include "base/nearest_word.hpp"
+#include "common/nearest_word.hpp"
 #include "measurement.hpp"
 #include "simulation.hpp"
 #include "surfaces.hpp"

@@ -6,7 +6,7 @@
 #include "base/archive.hpp"
 #include "base/files.hpp"
 #include "base/hash.hpp"
-#include "base/input_error.hpp"
+#include "common/input_error.hpp"
 
 namespace falling_particles {
 namespace {

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <string>
 
-#include "base/interval.hpp"
+#include "common/interval.hpp"
 #include "shown_components.hpp"
 
 namespace falling_particles {

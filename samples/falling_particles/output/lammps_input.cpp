@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/input_error.hpp"
-#include "base/interval.hpp"
-#include "base/random.hpp"
 #include "base/write_file.hpp"
+#include "common/input_error.hpp"
+#include "common/interval.hpp"
+#include "common/random.hpp"
 #include "model/container_walls.hpp"
 #include "model/grain_shape.hpp"
 #include "model/material.hpp"

@@ -5,8 +5,8 @@
 #include <sstream>
 #include <variant>
 
-#include "base/input_error.hpp"
-#include "base/interval.hpp"
+#include "common/input_error.hpp"
+#include "common/interval.hpp"
 
 namespace falling_particles {
 namespace {

@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "base/interval.hpp"
 #include "base/write_file.hpp"
+#include "common/interval.hpp"
 #include "grain_mesh.hpp"
 #include "palette.hpp"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <variant>
 
-#include "base/toml_string.hpp"
+#include "common/toml_string.hpp"
 
 namespace falling_particles {
 namespace {

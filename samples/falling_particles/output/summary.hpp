@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/stopwatch.hpp"
+#include "common/stopwatch.hpp"
 #include "model/scene.hpp"
 #include "observe/bed.hpp"
 #include "observe/discharge.hpp"

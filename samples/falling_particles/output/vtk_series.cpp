@@ -6,8 +6,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/interval.hpp"
 #include "base/write_file.hpp"
+#include "common/interval.hpp"
 #include "shown_components.hpp"
 
 namespace falling_particles {

@@ -56,7 +56,7 @@ struct Mesher {
   Mesh operator()(const PlaneShape& plane) const {
     Mesh mesh;
     const std::vector<Vector3> outline = plane.shown_radius > 0 ? circle(plane.shown_radius) : rectangle(extent, extent);
-    const auto turn = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), plane.normal);
+    const auto turn = rotation_between(Vector3::UnitZ(), plane.normal);
     for (const Vector3& corner : outline) mesh.vertices.push_back(vertex(turn * corner));
     for (unsigned int i = 2; i < outline.size(); ++i) mesh.triangles.push_back({0, i - 1, i});
     return mesh;

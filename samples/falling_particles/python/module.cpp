@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/input_error.hpp"
 #include "columns.hpp"
+#include "common/input_error.hpp"
 #include "observe/energy.hpp"
 #include "observe/measuring.hpp"
 #include "open_world.hpp"

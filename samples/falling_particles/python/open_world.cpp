@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "base/input_error.hpp"
-#include "base/interval.hpp"
+#include "common/input_error.hpp"
+#include "common/interval.hpp"
 #include "output/picture.hpp"
 #include "output/rendering.hpp"
 #include "run/changes.hpp"

@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "python/core/interpreter_lock.hpp"
+#include "supernormal/python/interpreter_lock.hpp"
 
 namespace falling_particles::python {
 namespace {

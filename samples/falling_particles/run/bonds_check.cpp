@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "base/input_error.hpp"
-#include "base/interval.hpp"
+#include "common/input_error.hpp"
+#include "common/interval.hpp"
 #include "doubts.hpp"
 #include "world/world.hpp"
 

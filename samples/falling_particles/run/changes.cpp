@@ -7,9 +7,9 @@
 #include <utility>
 #include <variant>
 
-#include "base/input_error.hpp"
-#include "base/nearest_word.hpp"
 #include "base/toml_input.hpp"
+#include "common/input_error.hpp"
+#include "common/nearest_word.hpp"
 #include "doubts.hpp"
 #include "input/load_effects.hpp"
 #include "model/container_walls.hpp"

@@ -7,10 +7,10 @@
 #include <variant>
 
 #include "base/files.hpp"
-#include "base/input_error.hpp"
-#include "base/interval.hpp"
-#include "base/read_file.hpp"
 #include "base/write_file.hpp"
+#include "common/input_error.hpp"
+#include "common/interval.hpp"
+#include "common/read_file.hpp"
 
 namespace falling_particles {
 namespace {

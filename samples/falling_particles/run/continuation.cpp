@@ -12,8 +12,8 @@
 #include <variant>
 #include <vector>
 
-#include "base/input_error.hpp"
-#include "base/interval.hpp"
+#include "common/input_error.hpp"
+#include "common/interval.hpp"
 #include "doubts.hpp"
 #include "input/state_table.hpp"
 #include "model/wall_doubts.hpp"

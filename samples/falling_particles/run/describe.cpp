@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-#include "base/interval.hpp"
+#include "common/interval.hpp"
 #include "doubts.hpp"
 #include "forecast.hpp"
 #include "model/container.hpp"

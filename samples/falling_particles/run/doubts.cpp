@@ -11,8 +11,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "base/input_error.hpp"
-#include "base/interval.hpp"
+#include "common/input_error.hpp"
+#include "common/interval.hpp"
 #include "input/load_drive.hpp"
 #include "input/state_table.hpp"
 #include "model/grain_shape.hpp"

@@ -7,7 +7,7 @@
 
 #include "base/archive.hpp"
 #include "base/files.hpp"
-#include "base/input_error.hpp"
+#include "common/input_error.hpp"
 
 namespace falling_particles {
 namespace {

@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "base/input_error.hpp"
-#include "base/interval.hpp"
+#include "common/input_error.hpp"
+#include "common/interval.hpp"
 #include "doubts.hpp"
 #include "world/world.hpp"
 

@@ -11,7 +11,7 @@
 #include <set>
 #include <variant>
 
-#include "base/interval.hpp"
+#include "common/interval.hpp"
 #include "doubts.hpp"
 #include "model/wall_doubts.hpp"
 #include "sight.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <variant>
 
-#include "base/interval.hpp"
+#include "common/interval.hpp"
 #include "doubts.hpp"
 #include "model/container.hpp"
 #include "model/lattice.hpp"

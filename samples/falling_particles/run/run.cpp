@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "base/input_error.hpp"
 #include "base/interrupt.hpp"
 #include "base/output_folder.hpp"
 #include "checkpoints.hpp"
+#include "common/input_error.hpp"
 #include "progress.hpp"
 #include "stepwise_run.hpp"
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "model/motion.hpp"
+#include "common/motion.hpp"
 #include "world/world.hpp"
 
 namespace falling_particles {

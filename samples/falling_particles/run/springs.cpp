@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/interval.hpp"
+#include "common/interval.hpp"
 #include "doubts.hpp"
 #include "model/grain_shape.hpp"
 #include "output/grain_mesh.hpp"

@@ -1,7 +1,7 @@
 // The check of a state from which a scene starts.
 
-#include "base/input_error.hpp"
-#include "base/interval.hpp"
+#include "common/input_error.hpp"
+#include "common/interval.hpp"
 #include "doubts.hpp"
 #include "observe/overlap.hpp"
 #include "world/world.hpp"

@@ -8,8 +8,8 @@
 
 #include "base/archive.hpp"
 #include "base/interrupt.hpp"
-#include "base/interval.hpp"
 #include "base/write_file.hpp"
+#include "common/interval.hpp"
 #include "world/to_vector.hpp"
 
 namespace falling_particles {

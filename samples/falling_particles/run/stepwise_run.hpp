@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/output_folder.hpp"
-#include "base/stopwatch.hpp"
 #include "checkpoints.hpp"
+#include "common/stopwatch.hpp"
 #include "observe/measuring.hpp"
 #include "observe/simulation.hpp"
 #include "output/recorder.hpp"

@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/input_error.hpp"
-#include "base/interval.hpp"
+#include "common/input_error.hpp"
+#include "common/interval.hpp"
 #include "to_vector.hpp"
 #include "world.hpp"
 
@@ -226,7 +226,7 @@ void Bonds::add_joints(std::size_t index) {
     dBodySetAutoDisableFlag(joints.first, 0);
     place_anchor(bond, joints);
   }
-  joints.axes = Quaterniond::FromTwoVectors(Vector3::UnitX(), bond.rest.centre - bond.rest.start);
+  joints.axes = rotation_between(Vector3::UnitX(), bond.rest.centre - bond.rest.start);
   joints.stiffness = stiffness_of(rule, bond.radius, bond.rest.length());
   const auto [of_first, of_second] = inverse_masses(bond, joints);
   // The row of a spring k and a damper d: velocity + force / (step k + d) = 0. The force of the pose acts besides.

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/interval.hpp"
+#include "common/interval.hpp"
 
 namespace falling_particles {
 namespace {

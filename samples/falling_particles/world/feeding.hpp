@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "base/random.hpp"
+#include "common/random.hpp"
 #include "free_places.hpp"
 #include "model/feeder.hpp"
 #include "world.hpp"

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/random.hpp"
+#include "common/random.hpp"
 #include "model/scene.hpp"
 
 namespace falling_particles {

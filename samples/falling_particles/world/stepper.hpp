@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/stopwatch.hpp"
+#include "common/stopwatch.hpp"
 #include "contact_joints.hpp"
 #include "model/scene.hpp"
 #include "world.hpp"

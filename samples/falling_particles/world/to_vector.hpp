@@ -3,9 +3,11 @@
 
 #include <ode/ode.h>
 
-#include "model/motion.hpp"
+#include "common/motion.hpp"
 
 namespace falling_particles {
+
+using namespace common;
 
 inline Vector3 to_vector(const dReal* v) { return {v[0], v[1], v[2]}; }
 

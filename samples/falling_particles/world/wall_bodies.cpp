@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/interval.hpp"
+#include "common/interval.hpp"
 #include "model/material.hpp"
 #include "to_vector.hpp"
 #include "wall_body.hpp"

@@ -3,9 +3,11 @@
 
 #include <ode/ode.h>
 
-#include "model/motion.hpp"
+#include "common/motion.hpp"
 
 namespace falling_particles {
+
+using namespace common;
 
 /// A body without automatic sleep and without damping.
 inline dBodyID create_wall_body(dWorldID world) {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/interval.hpp"  // of samples/falling_particles
+#include "common/interval.hpp"
 
 namespace fit {
 namespace {
@@ -40,7 +40,7 @@ std::string append_polygon(std::span<const double> corners, Data& data) {
   for (const double index : corners) {
     const bool is_vertex = index >= 0 && index < static_cast<double>(count) && index == std::floor(index);
     if (!is_vertex) {
-      return "there is no vertex " + falling_particles::shortest(index) +
+      return "there is no vertex " + common::shortest(index) +
              "; allowed: " + (count == 0 ? "none" : "0 to " + std::to_string(count - 1));
     }
     polygon.push_back(static_cast<std::uint32_t>(index));

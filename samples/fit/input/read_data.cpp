@@ -19,7 +19,7 @@
 #include <sstream>
 #include <utility>
 
-#include "base/read_file.hpp"  // of samples/falling_particles
+#include "common/read_file.hpp"
 #include "orientation.hpp"
 #include "read_off.hpp"
 #include "read_ply.hpp"
@@ -286,7 +286,7 @@ std::size_t remove_stray_vertices(Data& data) {
 Data read_data(const std::string& path, double scale, const std::string& group) {
   const std::string extension = lower_extension(path);
   if (!is_scan(path)) throw InputError(path + ": unknown extension \"" + extension + "\"; allowed: " + kExtensions);
-  if (const std::string other = falling_particles::what_is_no_file(path); !other.empty()) {
+  if (const std::string other = common::what_is_no_file(path); !other.empty()) {
     throw InputError(path + ": " + other + ", and no file");
   }
   if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": no such file");

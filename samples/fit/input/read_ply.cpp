@@ -14,7 +14,7 @@
 #include <sstream>
 #include <utility>
 
-#include "base/interval.hpp"  // of samples/falling_particles
+#include "common/interval.hpp"
 #include "polygon.hpp"
 
 namespace fit {
@@ -141,10 +141,10 @@ class Numbers {
 
   std::size_t next_count(const Type& type) {
     const double count = next(type);
-    if (!(count >= 0) || count != std::floor(count)) fail("a list has " + falling_particles::shortest(count) + " entries");
+    if (!(count >= 0) || count != std::floor(count)) fail("a list has " + common::shortest(count) + " entries");
     // Every entry takes at least one byte: refuse a count beyond the end of the file early.
     if (count > static_cast<double>(bytes_.size() - at_))
-      fail("a list has " + falling_particles::shortest(count) + " entries, but the file ends before");
+      fail("a list has " + common::shortest(count) + " entries, but the file ends before");
     return static_cast<std::size_t>(count);
   }
 
@@ -263,8 +263,7 @@ void read_vertices(const std::string& path, Numbers& numbers, const Element& ele
     data.vertices.points.push_back(vector_at(place));
     for (std::size_t k = 0; k < 3; ++k) {
       const double x = data.vertices.points.back()[static_cast<Eigen::Index>(k)];
-      if (!std::isfinite(x))
-        numbers.fail(std::string(1, "xyz"[k]) + " is " + falling_particles::shortest(x) + ", but must be finite");
+      if (!std::isfinite(x)) numbers.fail(std::string(1, "xyz"[k]) + " is " + common::shortest(x) + ", but must be finite");
     }
     if (has_normals) data.vertices.normals.push_back(vector_at(normal));
   }

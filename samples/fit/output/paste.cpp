@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "base/toml_string.hpp"
+#include "common/toml_string.hpp"
 #include "json.hpp"
 
 namespace fit {
@@ -121,7 +121,7 @@ std::string toml_lines(std::span<const FittedBody> bodies, const std::string& na
     }
     text += "]\n";
   }
-  return text + "density = " + literal(density) + "\nsource = " + falling_particles::toml_string(source) + "\n";
+  return text + "density = " + literal(density) + "\nsource = " + common::toml_string(source) + "\n";
 }
 
 std::string c_lines(std::span<const FittedBody> bodies, const std::string& name, const std::string& source, const Solid& solid,

@@ -13,7 +13,7 @@
 #include <stdexcept>
 
 #include "../impact/comparison.hpp"
-#include "smooth_shape.hpp"
+#include "common/bullet_shape.hpp"
 
 namespace {
 

@@ -51,10 +51,13 @@ coefficient = 0.5
 
 def check_ode(driver):
     """Four bricks fall on the floor in any orientation: falling_particles, and LAMMPS from the same start with the same stiffness."""
+    program = driver.other_product("falling_particles")
+    if program is None:
+        print("left out: bricks: four bricks on the floor: there is no falling_particles in this build")
+        return
     (driver.folder / "catalogue.toml").write_text(CATALOGUE, encoding="utf-8")
     scene = driver.folder / "brick.toml"
     scene.write_text(SCENE, encoding="utf-8")
-    program = driver.program.parent.parent / "falling_particles/falling_particles"
     subprocess.run([program, "-q", "-t", "1", "--no-pictures", "--scene", scene, "--out", driver.folder], check=True, stdout=subprocess.DEVNULL)
     subprocess.run([program, "--scene", scene, "--to-lammps", driver.folder], check=True)
     (table,) = driver.run(str((driver.folder / "brick").resolve()))

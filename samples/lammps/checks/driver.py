@@ -15,6 +15,11 @@ class Driver:
         self.folder = pathlib.Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
 
+    def other_product(self, name):
+        """A program of samples/falling_particles in the same build; None if that product is not built."""
+        program = self.program.parent.parent / "falling_particles" / name
+        return program if program.exists() else None
+
     def run(self, name, ranks=1, **variables):
         """Runs the input NAME.in and returns its tables of numbers, one for each `run`: lists of dictionaries by column."""
         return read_tables(self.output(name, ranks, **variables))

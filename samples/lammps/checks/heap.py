@@ -13,17 +13,18 @@ FROM, TO = 0.2, 0.6  # fractions of the charge between which falling_particles m
 
 def study(driver):
     """A hopper pours 900 soybeans on a dish: falling_particles, and LAMMPS on one rank."""
-    build = driver.program.parent.parent
+    program, heap_of_dump = driver.other_product("falling_particles"), driver.other_product("heap_of_dump")
+    if program is None or heap_of_dump is None:
+        raise SystemExit("the study heap takes falling_particles and heap_of_dump of samples/falling_particles in the same build")
     scene = tomllib.loads(SCENE.read_text())
     print("| contacts | step, s | deepest overlap at the end | angle of repose | flow, kg/s | processor time for a simulated second, s |")
     print("|---|---:|---:|---:|---:|---:|")
-    program = build / "falling_particles/falling_particles"
     summary, seconds = in_ode(program, driver.folder)
     rigid = [summary["end"]["deepest_overlap_relative"], summary["heap"]["angle_of_repose"], summary["heap"]["angle_standard_error"]]
     charge = summary["discharge"]["charge"]
     print(row("rigid, by ODE", scene, scene["time"]["step"], rigid, summary["discharge"]["mass_flow"], seconds), flush=True)
     step, frames, seconds = in_lammps(program, driver)
-    soft = end_of_dump(build / "lammps/heap_of_dump", driver.folder / "heap.lammpstrj")
+    soft = end_of_dump(heap_of_dump, driver.folder / "heap.lammpstrj")
     print(row(f"springs of {SPRINGS} N/m, by LAMMPS", scene, step, soft, flow(frames, step, scene, charge), seconds), flush=True)
 
 

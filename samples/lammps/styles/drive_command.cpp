@@ -97,7 +97,7 @@ class Numbers {
   std::map<std::string, std::vector<double>> values_;
 };
 
-void read_sliding(const Numbers& numbers, const std::string& law, falling_particles::Drive& drive) {
+void read_sliding(const Numbers& numbers, const std::string& law, common::Drive& drive) {
   if (law == "force") {
     numbers.refuse_others({"force", "mass", "damping"});
     drive.force = numbers.any("force");
@@ -113,7 +113,7 @@ void read_sliding(const Numbers& numbers, const std::string& law, falling_partic
   drive.damping = numbers.not_negative("damping");
 }
 
-void read_turning(const Numbers& numbers, const std::string& law, falling_particles::Drive& drive) {
+void read_turning(const Numbers& numbers, const std::string& law, common::Drive& drive) {
   drive.point = numbers.vector("point");
   if (law == "torque") {
     numbers.refuse_others({"torque", "point", "moment", "mass", "damping"});
@@ -128,15 +128,15 @@ void read_turning(const Numbers& numbers, const std::string& law, falling_partic
   drive.damping = numbers.not_negative("damping");
 }
 
-void read_servo(const Numbers& numbers, falling_particles::Drive& drive) {
+void read_servo(const Numbers& numbers, common::Drive& drive) {
   const bool has_walls = numbers.has("between");
   numbers.refuse_others({"stress", "gain", "largest_speed", has_walls ? "between" : "area"});
   if (numbers.has("gravity")) throw std::invalid_argument("drive: gravity has no meaning with stress: a servo has no mass");
-  drive.servo = falling_particles::Servo{numbers.positive("stress"), numbers.positive("gain"), numbers.positive("largest_speed"),
-                                         has_walls ? 0 : numbers.positive("area")};
+  drive.servo = common::Servo{numbers.positive("stress"), numbers.positive("gain"), numbers.positive("largest_speed"),
+                              has_walls ? 0 : numbers.positive("area")};
 }
 
-void read_travel(const Numbers& numbers, falling_particles::Drive& drive) {
+void read_travel(const Numbers& numbers, common::Drive& drive) {
   if (!numbers.has("travel")) return;
   const double low = numbers.find("travel")[0], high = numbers.find("travel")[1];
   const double largest = drive.turns() ? kLargestTurn : kLargest;
@@ -155,7 +155,7 @@ void read_travel(const Numbers& numbers, falling_particles::Drive& drive) {
 DriveCommand read_drive(Words& words) {
   DriveCommand command{};
   const Numbers numbers(words, command);
-  falling_particles::Drive& drive = command.drive;
+  common::Drive& drive = command.drive;
   drive.axis = direction_of("drive: axis", numbers.vector("axis"));
   const std::string law = numbers.law();
   if (law == "stress") {

@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "model/drive.hpp"
+#include "common/drive.hpp"
 #include "styles/words.hpp"
 
 namespace granular {
 
 /// The parsed drive.
 struct DriveCommand {
-  falling_particles::Drive drive;
+  common::Drive drive;
   std::string gravity;               ///< the fix gravity that gives the wall weight; empty for none
   std::vector<std::string> between;  ///< four fixes of planes that face each other two by two, for the area; empty if it is given
 };

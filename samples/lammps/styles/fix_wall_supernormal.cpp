@@ -22,7 +22,7 @@ FixWallSupernormal::FixWallSupernormal(LAMMPS* lammps, int count, char** words)
   } catch (const std::exception& refusal) {
     error->all(FLERR, std::string("fix wall/supernormal: ") + refusal.what());
   }
-  if (command_.drive) driven_.emplace(command_.drive->drive, falling_particles::WallPose{command_.anchor});
+  if (command_.drive) driven_.emplace(command_.drive->drive, common::WallPose{command_.anchor});
   scalar_flag = vector_flag = 1;
   is_extensive_.assign(kSums - 1, 1);
   if (driven_) is_extensive_.resize(is_extensive_.size() + kDriveValues, 0);
@@ -111,12 +111,12 @@ void FixWallSupernormal::setup(int vflag) {
   is_drive_restored_ = false;
 }
 
-falling_particles::WallPose FixWallSupernormal::carrier_at(double time) const {
+common::WallPose FixWallSupernormal::carrier_at(double time) const {
   return pose_at({command_.anchor, Eigen::Quaterniond::Identity()}, command_.motions, time);
 }
 
-falling_particles::WallPose FixWallSupernormal::pose() const {
-  const falling_particles::WallPose carrier = carrier_at(clock_.now());
+common::WallPose FixWallSupernormal::pose() const {
+  const common::WallPose carrier = carrier_at(clock_.now());
   return driven_ ? driven_->pose_on(carrier) : carrier;
 }
 
@@ -133,7 +133,7 @@ void FixWallSupernormal::initial_integrate(int /*vflag*/) {
 void FixWallSupernormal::final_integrate() { kick(clock_.now() - 0.25 * update->dt); }
 
 Body FixWallSupernormal::wall_body(double step) const {
-  using namespace falling_particles;
+  using namespace common;
   const WallPose start{command_.anchor, Eigen::Quaterniond::Identity()};
   const double time = clock_.now(), before = time - step, after = time + step;
   const WallPose carrier = carrier_at(time);

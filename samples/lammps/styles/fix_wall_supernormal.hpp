@@ -61,8 +61,8 @@ class FixWallSupernormal : public LAMMPS_NS::Fix {
   WallHistory& history(int i) { return histories_[static_cast<std::size_t>(i)]; }
   const ContactMaterial& material(int type) const;
   /// The wall with its prescribed motions alone.
-  falling_particles::WallPose carrier_at(double time) const;
-  falling_particles::WallPose pose() const;
+  common::WallPose carrier_at(double time) const;
+  common::WallPose pose() const;
   Vector3 normal() const { return pose().rotation * *command_.normal; }  ///< of a plane
   void find_facing_walls();
   double area_between() const;

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "input/load_mesh.hpp"
+#include "common/load_mesh.hpp"
 #include "kernel/refuse.hpp"
 #include "kernel/walls/box_wall.hpp"
 #include "kernel/walls/cylinder_wall.hpp"
@@ -18,7 +18,7 @@ namespace granular {
 namespace {
 
 std::vector<supernormal::MeshTriangle> load_triangles(const std::string& file, double unit) {
-  const falling_particles::Mesh mesh = falling_particles::load_mesh(file, unit);
+  const common::Mesh mesh = common::load_mesh(file, unit);
   std::vector<supernormal::MeshTriangle> triangles;
   triangles.reserve(mesh.triangles.size());
   for (const auto& corners : mesh.triangles) {
@@ -58,19 +58,19 @@ void read_shape(Words& words, WallCommand& command) {
   }
 }
 
-falling_particles::WallMotion read_motion(Words& words) {
+common::WallMotion read_motion(Words& words) {
   const std::string kind = words.next("move");
-  if (kind == "linear") return {falling_particles::Translation{words.vector(kind)}};
-  if (kind == "conveyor") return {falling_particles::Conveyor{words.vector(kind), {Vector3::UnitZ(), Vector3::Zero(), 0}}};
+  if (kind == "linear") return {common::Translation{words.vector(kind)}};
+  if (kind == "conveyor") return {common::Conveyor{words.vector(kind), {Vector3::UnitZ(), Vector3::Zero(), 0}}};
   if (kind == "rotate") {
     const Vector3 axis = words.direction("move rotate: axis"), point = words.vector(kind);
-    return {falling_particles::Rotation{axis, point, words.number(kind)}};
+    return {common::Rotation{axis, point, words.number(kind)}};
   }
   if (kind == "vibrate") {
     const Vector3 amplitude = words.vector(kind);
     const double frequency = words.number(kind);
     if (!(frequency > 0)) refuse("move vibrate: frequency", frequency, "(0, inf)");
-    return {falling_particles::Vibration{amplitude, frequency, words.number(kind)}};
+    return {common::Vibration{amplitude, frequency, words.number(kind)}};
   }
   throw std::invalid_argument("move " + kind + " is none of linear, rotate, vibrate, conveyor");
 }
@@ -101,9 +101,7 @@ WallCommand read_wall_command(Words words) {
     const auto& [ignored, from, until] = command.motions.back();
     if (until <= from) refuse("move: until", until, "(from, inf)");
   }
-  const auto moves_surface = [](const falling_particles::WallMotion& motion) {
-    return std::holds_alternative<falling_particles::Conveyor>(motion.kind);
-  };
+  const auto moves_surface = [](const common::WallMotion& motion) { return std::holds_alternative<common::Conveyor>(motion.kind); };
   if (command.drive && std::ranges::any_of(command.motions, moves_surface)) {
     throw std::invalid_argument("drive besides move conveyor; allowed: with the other motions");
   }

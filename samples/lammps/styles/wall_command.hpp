@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "common/motion.hpp"
 #include "kernel/contact_material.hpp"
 #include "kernel/walls/wall.hpp"
-#include "model/motion.hpp"
 #include "styles/drive_command.hpp"
 #include "styles/words.hpp"
 
@@ -20,7 +20,7 @@ struct WallCommand {
   std::optional<Vector3> normal;     ///< of a plane, unit; out of the wall
   ContactMaterial material;          ///< unless `type` is set
   std::optional<int> type;           ///< the wall has the material of this atom type
-  std::vector<falling_particles::WallMotion> motions;
+  std::vector<common::WallMotion> motions;
   std::optional<DriveCommand> drive;
 };
 

@@ -13,6 +13,7 @@
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "support/mesh_samples.hpp"
+#include "support/rotation_between.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;
@@ -80,7 +81,7 @@ TEST_CASE("bodies with a vertex deep in an edge of a mesh: no shorter translatio
     const double angle = std::numbers::pi / 4 * (1 + 0.9 * aside.x());
     const Vector3 inwards = (Vector3(-std::cos(angle), -std::sin(angle), 0) + std::pow(10, -1 - aside.y()) * aside).normalized();
     const auto axis = static_cast<int>(i % 3);
-    const Matrix3 turn = Eigen::Quaterniond::FromTwoVectors(Vector3::Unit(axis), inwards).toRotationMatrix() *
+    const Matrix3 turn = test::rotation_between(Vector3::Unit(axis), inwards).toRotationMatrix() *
                          Eigen::AngleAxisd(std::numbers::pi * aside.z(), Vector3::Unit(axis)).toRotationMatrix();
     const double depth = kDepths[i / 3 % kDepths.size()] * unit;
     const Pose pose{Vector3(0.9, 1.4, 0.3 * aside.z()) - (half[axis] - depth) * inwards, turn};

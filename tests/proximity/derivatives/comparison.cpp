@@ -7,10 +7,12 @@
 #include <limits>
 #include <ostream>
 #include <sstream>
+#include <utility>
 
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/superovoid.hpp"
+#include "support/rotation_between.hpp"
 
 namespace supernormal::test {
 namespace {
@@ -107,16 +109,38 @@ class Comparison {
   }
 
  private:
-  /// The derivatives in units of the bodies' size, each quantity divided by its norm.
+  /// The derivatives in units of the bodies' size, each quantity divided by its norm in `scale`. Matrices have dynamic sizes here
+  /// and in turned(), because each product of fixed sizes is compiled by itself.
   Eigen::MatrixXd relative(const ProximityDerivatives& d, const ProximityDerivatives& scale) const {
-    Eigen::Matrix<double, 12, 12> units = Eigen::Matrix<double, 12, 12>::Identity();
-    for (int k = 0; k < 12; ++k) units(k, k) = static_cast<double>(this->scale(k));
-    Eigen::MatrixXd rows(22, 12);
-    rows << d.gap_gradient.transpose() * units / ((scale.gap_gradient.transpose() * units).norm() + unit_),
-        d.normal * units / ((scale.normal * units).norm() + 1), d.point1 * units / ((scale.point1 * units).norm() + unit_),
-        d.point2 * units / ((scale.point2 * units).norm() + unit_),
-        units * d.gap_hessian * units / ((units * scale.gap_hessian * units).norm() + unit_);
+    Eigen::VectorXd units(12);
+    for (int k = 0; k < 12; ++k) units[k] = static_cast<double>(this->scale(k));
+    const auto rows_of = [&units](const ProximityDerivatives& from) {
+      Eigen::MatrixXd rows(22, 12);
+      rows << from.gap_gradient.transpose(), from.normal, from.point1, from.point2, from.gap_hessian;
+      rows = (rows * units.asDiagonal()).eval();
+      for (int k = 0; k < 12; ++k) rows.row(10 + k) *= units[k];
+      return rows;
+    };
+    Eigen::MatrixXd rows = rows_of(d);
+    const Eigen::MatrixXd sizes = rows_of(scale);
+    int row = 0;
+    for (const auto& [count, least] : {std::pair{1, unit_}, {3, 1.0}, {3, unit_}, {3, unit_}, {12, unit_}}) {
+      rows.middleRows(row, count) /= sizes.middleRows(row, count).norm() + least;
+      row += count;
+    }
     return rows;
+  }
+
+  /// Derivatives for the twists that `turn` maps to those of `d`, with vectors turned by `rotation`.
+  static ProximityDerivatives turned(const ProximityDerivatives& d, const Eigen::MatrixXd& turn, const Eigen::MatrixXd& rotation) {
+    const auto rows = [&](const Eigen::MatrixXd& of) -> Eigen::MatrixXd { return rotation * of * turn; };
+    ProximityDerivatives back = d;
+    back.gap_gradient = turn.transpose() * Eigen::MatrixXd(d.gap_gradient);
+    back.normal = rows(d.normal);
+    back.point1 = rows(d.point1);
+    back.point2 = rows(d.point2);
+    back.gap_hessian = turn.transpose() * Eigen::MatrixXd(d.gap_hessian) * turn;
+    return back;
   }
 
   void compare_with(Quantity what, const ProximityDerivatives& other) {
@@ -134,15 +158,12 @@ class Comparison {
   void compare_swapped() {
     const ProximityDerivatives swapped = find_proximity_derivatives(*pair_.body2.shape, pair_.pose2, *pair_.body1.shape,
                                                                     pair_.pose1, answer_at(-found_.common_normal));
-    Eigen::Matrix<double, 12, 12> swap = Eigen::Matrix<double, 12, 12>::Zero();
-    swap.topRightCorner<6, 6>().setIdentity();
-    swap.bottomLeftCorner<6, 6>().setIdentity();
-    ProximityDerivatives back = swapped;
-    back.gap_gradient = swap * swapped.gap_gradient;
-    back.normal = -swapped.normal * swap;
-    back.point1 = swapped.point2 * swap;
-    back.point2 = swapped.point1 * swap;
-    back.gap_hessian = swap * swapped.gap_hessian * swap;
+    Eigen::MatrixXd swap = Eigen::MatrixXd::Zero(12, 12);
+    swap.topRightCorner(6, 6).setIdentity();
+    swap.bottomLeftCorner(6, 6).setIdentity();
+    ProximityDerivatives back = turned(swapped, swap, Matrix3::Identity());
+    back.normal = -back.normal;
+    std::swap(back.point1, back.point2);
     compare_with(OfSwapped, back);
   }
 
@@ -153,14 +174,9 @@ class Comparison {
         moved2{R * (pair_.pose2.position - pair_.pose1.position), R * pair_.pose2.rotation};
     const ProximityDerivatives moved =
         find_proximity_derivatives(*pair_.body1.shape, moved1, *pair_.body2.shape, moved2, answer_at(R * found_.common_normal));
-    Eigen::Matrix<double, 12, 12> turn = Eigen::Matrix<double, 12, 12>::Zero();
-    for (int i = 0; i < 12; i += 3) turn.block<3, 3>(i, i) = R;
-    ProximityDerivatives back = moved;
-    back.gap_gradient = turn.transpose() * moved.gap_gradient;
-    back.normal = R.transpose() * moved.normal * turn;
-    back.point1 = R.transpose() * moved.point1 * turn;
-    back.point2 = R.transpose() * moved.point2 * turn;
-    back.gap_hessian = turn.transpose() * moved.gap_hessian * turn;
+    Eigen::MatrixXd turn = Eigen::MatrixXd::Zero(12, 12);
+    for (int i = 0; i < 12; i += 3) turn.block(i, i, 3, 3) = R;
+    const ProximityDerivatives back = turned(moved, turn, R.transpose());
     compare_with(OfMoved, back);
   }
 
@@ -424,7 +440,7 @@ DerivativePair DerivativePairs::draw_flat() {
   pair.pose1.rotation = Eigen::AngleAxisd(uniform(0, 3.14), direction()).toRotationMatrix();
   const Vector3 n = pair.pose1.rotation * n1;
   const double tilt = uniform(0, 1) < 0.2 ? 0 : log_uniform(1e-14, 1e-3);
-  const Matrix3 facing = Eigen::Quaterniond::FromTwoVectors(n2, -n).toRotationMatrix(),
+  const Matrix3 facing = test::rotation_between(n2, -n).toRotationMatrix(),
                 about = Eigen::AngleAxisd(uniform(0, 6.28), n).toRotationMatrix(),
                 tilted = Eigen::AngleAxisd(tilt, n.cross(direction()).normalized()).toRotationMatrix();
   pair.pose2.rotation = tilted * about * facing;

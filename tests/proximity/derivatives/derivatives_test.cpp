@@ -23,6 +23,7 @@
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/shapes/superovoid.hpp"
+#include "support/rotation_between.hpp"
 #include "support/traps.hpp"
 #include "support/without_hessian.hpp"
 
@@ -287,7 +288,7 @@ TEST_CASE("derivatives: a capsule whose end is centred on a vertex or an edge of
     axis.tail(3 - free) = axis.tail(3 - free).cwiseAbs();  // the capsule leaves the box
     const double radius = size * uniform(0.01, 0.3), half_length = size * uniform(0.1, 1);
     Pose pose2;
-    pose2.rotation = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), pose1.rotation * axis).toRotationMatrix();
+    pose2.rotation = test::rotation_between(Vector3::UnitZ(), pose1.rotation * axis).toRotationMatrix();
     pose2.position = pose1.position + pose1.rotation * (point + half_length * axis);
     const ProximityDerivatives found = derivatives(Box(half), pose1, Capsule(radius, half_length), pose2);
     CAPTURE(k);

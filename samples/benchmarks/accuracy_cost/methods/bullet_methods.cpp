@@ -1,6 +1,6 @@
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
 
-#include "hosts/bullet/smooth_shape.hpp"
+#include "common/bullet_shape.hpp"
 #include "method.hpp"
 
 namespace accuracy_cost {

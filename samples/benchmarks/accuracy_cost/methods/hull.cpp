@@ -6,9 +6,11 @@
 
 namespace accuracy_cost {
 
+using common::Polyhedron;
+
 // Two adjacent triangles may be nearly coplanar, and then the hull may have the other diagonal. So their opposite vertices count as
 // neighbours, too.
-Hull::Hull(const Mesh& mesh) : vertices_(mesh.vertices) {
+Hull::Hull(const Polyhedron& mesh) : vertices_(mesh.vertices) {
   std::vector<std::set<unsigned>> neighbours(vertices_.size());
   std::map<std::pair<unsigned, unsigned>, unsigned> opposite;  // opposite vertices of the directed edges
   const auto connect = [&](unsigned a, unsigned b) {

@@ -1,14 +1,14 @@
 // The support function of a convex hull.
 #pragma once
 
-#include "ode/mesh.hpp"
+#include "common/polyhedron.hpp"
 
 namespace accuracy_cost {
 
 /// The convex hull of a closed mesh whose vertices are all extreme. Its support function climbs from vertex to vertex.
 class Hull {
  public:
-  explicit Hull(const Mesh& mesh);
+  explicit Hull(const common::Polyhedron& mesh);
 
   const supernormal::Vector3& vertex(unsigned index) const { return vertices_[index]; }
 

@@ -6,6 +6,7 @@
 namespace accuracy_cost {
 namespace {
 
+using common::MeshSize;
 using supernormal::Vector3;
 
 constexpr double kTolerance = 1e-6;  // m

@@ -1,7 +1,9 @@
+#include "common/number_text.hpp"
 #include "method.hpp"
-#include "report/text.hpp"
 
 namespace accuracy_cost {
+
+using common::text;
 
 // CMakeLists.txt defines the version of each library that it finds, and compiles its methods.
 

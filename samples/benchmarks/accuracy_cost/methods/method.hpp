@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ode/mesh.hpp"
+#include "common/polyhedron.hpp"
 #include "pairs.hpp"
 #include "supernormal/proximity/proximity.hpp"
 
@@ -98,10 +98,10 @@ Methods fcl_methods(Motion motion = Motion::None);
 Methods simbody_methods();
 
 /// The mesh of a superellipsoid or ellipsoid.
-Mesh mesh_of(const supernormal::Shape& shape, MeshSize size);
+common::Polyhedron mesh_of(const supernormal::Shape& shape, common::MeshSize size);
 
 /// GJK and EPA of libccd for a convex hull, with a mesh of the body as support function.
-std::unique_ptr<Method> ccd_hull(MeshSize size);
+std::unique_ptr<Method> ccd_hull(common::MeshSize size);
 
 /// ODE colliders of polyhedra with vertices on the bodies. A query without contacts means that the bodies are apart.
 Methods ode_mesh_methods();

@@ -11,6 +11,11 @@
 namespace accuracy_cost {
 namespace {
 
+using common::GeomMaker;
+using common::MeshSize;
+using common::OdeGeom;
+using common::Polyhedron;
+using common::superellipsoid_mesh;
 using supernormal::Vector3;
 
 constexpr std::array<MeshSize, 5> kSizes = {{{6, 5}, {14, 9}, {30, 17}, {60, 34}, {128, 64}}};  // 32, 128, 512, 2042, 8194 vertices
@@ -18,7 +23,7 @@ constexpr std::array<MeshSize, 3> kLiteratureSizes = {{{10, 8}, {24, 20}, {48, 4
 
 class OdeMeshes final : public Method {
  public:
-  OdeMeshes(std::string name, GeomMaker (*maker)(const Mesh&), MeshSize size, Motion motion = Motion::None)
+  OdeMeshes(std::string name, GeomMaker (*maker)(const Polyhedron&), MeshSize size, Motion motion = Motion::None)
       : Method(std::move(name), std::to_string(size.vertices())), maker_(maker), size_(size), motion_(motion) {}
 
   Answer query(const Pair& pair) const override {
@@ -51,7 +56,7 @@ class OdeMeshes final : public Method {
     std::shared_ptr<const supernormal::Shape> shape1, shape2;  // kept alive, so that no other shape gets their addresses
     OdeGeom geom;
   };
-  GeomMaker (*maker_)(const Mesh&);
+  GeomMaker (*maker_)(const Polyhedron&);
   MeshSize size_;
   Motion motion_;
   mutable std::unordered_map<const supernormal::Shape*, Kept> geoms_;
@@ -59,7 +64,7 @@ class OdeMeshes final : public Method {
 
 }  // namespace
 
-Mesh mesh_of(const supernormal::Shape& shape, MeshSize size) {
+Polyhedron mesh_of(const supernormal::Shape& shape, MeshSize size) {
   const auto* const body = dynamic_cast<const supernormal::Superellipsoid*>(&shape);
   const auto [delta, epsilon] = body == nullptr ? std::pair(2.0, 2.0) : std::pair(body->delta(), body->epsilon());
   return superellipsoid_mesh(shape.half_extents(), delta, epsilon, 0, size);
@@ -68,7 +73,7 @@ Mesh mesh_of(const supernormal::Shape& shape, MeshSize size) {
 Methods literature_mesh_methods(Motion motion) {
   Methods methods;
   for (const MeshSize size : kLiteratureSizes) {
-    methods.push_back(std::make_unique<OdeMeshes>("dTriMesh", trimesh_maker, size, motion));
+    methods.push_back(std::make_unique<OdeMeshes>("dTriMesh", common::trimesh_maker, size, motion));
   }
   for (const MeshSize size : kLiteratureSizes) methods.push_back(ccd_hull(size));
   return methods;
@@ -77,8 +82,8 @@ Methods literature_mesh_methods(Motion motion) {
 Methods ode_mesh_methods() {
   Methods methods;
   methods.reserve(2 * kSizes.size());
-  for (const MeshSize size : kSizes) methods.push_back(std::make_unique<OdeMeshes>("dConvex", convex_maker, size));
-  for (const MeshSize size : kSizes) methods.push_back(std::make_unique<OdeMeshes>("dTriMesh", trimesh_maker, size));
+  for (const MeshSize size : kSizes) methods.push_back(std::make_unique<OdeMeshes>("dConvex", common::convex_maker, size));
+  for (const MeshSize size : kSizes) methods.push_back(std::make_unique<OdeMeshes>("dTriMesh", common::trimesh_maker, size));
   return methods;
 }
 

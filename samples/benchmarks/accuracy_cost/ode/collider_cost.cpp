@@ -5,14 +5,17 @@
 #include <limits>
 #include <numeric>
 
+#include "common/number_text.hpp"
 #include "ode_timing.hpp"
 #include "report/environment.hpp"
 #include "report/statistics.hpp"
-#include "report/text.hpp"
 #include "supernormal/supernormal.h"
 
 namespace accuracy_cost {
 namespace {
+
+using common::OdeGeom;
+using common::text;
 
 constexpr double kDepth = 0.02 * kSmallestHalfAxis;  // m; depth of the overlap, and gap when apart
 constexpr double kRayShare = 0.5;                    // of the distance at which a ray grazes
@@ -48,7 +51,7 @@ class Meeting {
     for (std::size_t k = 0; k < count; ++k) colliders_.push_back(make_collider(collider, bodies_[k]));
   }
 
-  std::array<Row, kLies.size()> measure(std::size_t poses, falling_particles::Random& random, const Effort& effort) const {
+  std::array<Row, kLies.size()> measure(std::size_t poses, common::Random& random, const Effort& effort) const {
     std::array<Row, kLies.size()> rows;
     for (std::size_t r = 0; r < rows.size(); ++r) rows[r] = {collider_, kLies[r], std::vector<Cell>(bodies_.size())};
     for (std::size_t k = 0; k < poses; ++k) {
@@ -128,7 +131,7 @@ void write_ratios(const std::vector<Row>& rows, std::ostream& out) {
 
 void write_collider_costs(std::size_t poses, std::uint64_t seed, const Effort& effort, std::ostream& out) {
   if (snInit() == 0) throw std::runtime_error(snLastError());
-  falling_particles::Random random(seed);
+  common::Random random(seed);
   std::vector<Row> rows;
   for (const ColliderClass collider : kColliderClasses) {
     for (Row& row : Meeting(collider).measure(poses, random, effort)) rows.push_back(std::move(row));

@@ -5,22 +5,28 @@
 #include <limits>
 #include <stdexcept>
 
-#include "grain_form.hpp"
+#include "common/grain_form.hpp"
+#include "common/number_text.hpp"
 #include "ode_timing.hpp"
 #include "report/statistics.hpp"
-#include "report/text.hpp"
 #include "supernormal/supernormal.h"
 
 namespace accuracy_cost {
 namespace {
 
+using common::FormKind;
+using common::grain_maker;
+using common::GrainForm;
+using common::joined;
+using common::MeasuredTable;
+using common::MeshSize;
+using common::number;
+using common::OdeGeom;
+
 constexpr double kDepth = 0.02 * kSmallestHalfAxis;  // m
 constexpr std::array kColliders = {ColliderClass::Plane, ColliderClass::Box, ColliderClass::Capsule, ColliderClass::Trimesh};
 
-const falling_particles::GrainKind& body() {
-  static const falling_particles::GrainKind kind{"body", {0.5, 0.4, kSmallestHalfAxis}, 4, 4, 0, 1000, "ode_bodies.cpp"};
-  return kind;
-}
+constexpr common::GrainBody kBody{{0.5, 0.4, kSmallestHalfAxis}, 4, 4};  // that of ode_bodies.cpp
 
 /// The name without the number of triangles.
 std::string short_name(ColliderClass collider) {
@@ -29,7 +35,7 @@ std::string short_name(ColliderClass collider) {
 }
 
 struct Contender {
-  Form form;
+  GrainForm form;
   bool is_warm;
   OdeGeom geom;
   std::vector<double> times, errors, contacts;
@@ -38,7 +44,9 @@ struct Contender {
 
 std::vector<Contender> contenders() {
   std::vector<Contender> all;
-  const auto add = [&](const Form& form, bool is_warm) { all.push_back({form, is_warm, grain_maker(form, body())(), {}, {}, {}}); };
+  const auto add = [&](const GrainForm& form, bool is_warm) {
+    all.push_back({form, is_warm, grain_maker(form, kBody)(), {}, {}, {}});
+  };
   for (const bool is_warm : {false, true}) {
     for (int digits = 1; digits <= 12; ++digits) add({FormKind::Smooth, std::pow(10.0, -digits), {}}, is_warm);
   }
@@ -85,8 +93,8 @@ void measure_pose(const Approach& approach, const OdePair& exact, const Effort& 
 
 std::vector<std::string> measure_collider(ColliderClass collider, std::size_t poses, std::uint64_t seed, const Effort& effort) {
   if (snInit() == 0) throw std::runtime_error(snLastError());
-  falling_particles::Random random(seed);
-  const OdeGeom exact = grain_maker({FormKind::Smooth, 1e-14, {}}, body())();
+  common::Random random(seed);
+  const OdeGeom exact = grain_maker({FormKind::Smooth, 1e-14, {}}, kBody)();
   const OdeGeom other = make_collider(collider, {});
   std::vector<Contender> all = contenders();
   for (std::size_t k = 0; k < poses; ++k) {
@@ -108,12 +116,13 @@ std::vector<std::string> measure_collider(ColliderClass collider, std::size_t po
 
 }  // namespace
 
-Part collider_sweep(std::size_t poses, std::uint64_t seed, const Effort& effort) {
-  Part part{"colliders", "collider,method,accuracy,poses,time_s,time_p99_s,depth_error,depth_error_worst,contacts,misses", {}};
+MeasuredTable collider_sweep(std::size_t poses, std::uint64_t seed, const Effort& effort) {
+  MeasuredTable table{
+      "colliders", "collider,method,accuracy,poses,time_s,time_p99_s,depth_error,depth_error_worst,contacts,misses", {}};
   for (const ColliderClass collider : kColliders) {
-    part.tasks.push_back({short_name(collider), [=] { return measure_collider(collider, poses, seed, effort); }});
+    table.tasks.push_back({short_name(collider), [=] { return measure_collider(collider, poses, seed, effort); }});
   }
-  return part;
+  return table;
 }
 
 }  // namespace accuracy_cost

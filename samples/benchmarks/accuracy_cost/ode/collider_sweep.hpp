@@ -3,13 +3,13 @@
 
 #include <cstdint>
 
-#include "atlas.hpp"
+#include "common/measured_tables.hpp"
 #include "measurement.hpp"
 
 namespace accuracy_cost {
 
 /// A superellipsoid overlaps a collider by 2 %: ours at all tolerances, and polyhedra with increasing numbers of vertices. Measures
 /// the time of dCollide and the error of its depth, in one task for each collider, with `poses` poses.
-Part collider_sweep(std::size_t poses, std::uint64_t seed, const Effort& effort);
+common::MeasuredTable collider_sweep(std::size_t poses, std::uint64_t seed, const Effort& effort);
 
 }  // namespace accuracy_cost

@@ -9,18 +9,22 @@
 #include <string>
 #include <vector>
 
-#include "ode_geom.hpp"
+#include "common/number_text.hpp"
+#include "common/ode_geom.hpp"
 #include "ode_poses.hpp"
 #include "random_geometry.hpp"
 #include "report/environment.hpp"
 #include "report/statistics.hpp"
-#include "report/text.hpp"
 #include "supernormal/supernormal.h"
 
 namespace accuracy_cost {
 namespace {
 
-using falling_particles::Random;
+using common::make_trimesh;
+using common::OdeGeom;
+using common::Random;
+using common::terrain;
+using common::text;
 using supernormal::Pose;
 using supernormal::Vector3;
 

@@ -7,6 +7,14 @@
 namespace accuracy_cost {
 namespace {
 
+using common::icosahedron;
+using common::make_convex;
+using common::make_trimesh;
+using common::MeshSize;
+using common::OdeGeom;
+using common::superellipsoid_mesh;
+using common::terrain;
+
 constexpr double kA = 0.5, kB = 0.4, kC = kSmallestHalfAxis;
 constexpr double kExponent = 4;
 constexpr MeshSize kConvexSize{24, 20};  // 960 triangles, 482 vertices

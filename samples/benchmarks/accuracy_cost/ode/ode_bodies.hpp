@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "ode_geom.hpp"
+#include "common/ode_geom.hpp"
 
 namespace accuracy_cost {
 
 /// A body that fits into half-axes 0.5, 0.4, 0.3 m.
 struct OdeBody {
   std::string name;
-  OdeGeom (*make)();
+  common::OdeGeom (*make)();
   bool is_warm;  ///< ours, with a warm start; the other classes have none
 };
 
@@ -33,6 +33,6 @@ inline constexpr std::array kColliderClasses = {ColliderClass::Plane,   Collider
 std::string name_of(ColliderClass collider);
 
 /// A collider of this class. For Itself it is a copy of `body`.
-OdeGeom make_collider(ColliderClass collider, const OdeBody& body);
+common::OdeGeom make_collider(ColliderClass collider, const OdeBody& body);
 
 }  // namespace accuracy_cost

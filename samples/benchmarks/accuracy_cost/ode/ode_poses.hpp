@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "base/random.hpp"
+#include "common/random.hpp"
 #include "ode_bodies.hpp"
 #include "supernormal/proximity/pose.hpp"
 
@@ -29,7 +29,7 @@ struct Approach {
   supernormal::Vector3 ray;  ///< unit; perpendicular to the direction
   supernormal::Pose nudge;   ///< motion of the body between two consecutive poses: 1e-3 m, 1e-3 rad
 
-  static Approach draw(ColliderClass collider, falling_particles::Random& random);
+  static Approach draw(ColliderClass collider, common::Random& random);
   void move_collider(ColliderClass collider, dGeomID geom) const;
   std::array<supernormal::Pose, 2> poses_at(double distance) const;
 };

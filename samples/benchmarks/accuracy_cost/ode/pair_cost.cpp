@@ -6,18 +6,20 @@
 #include <unordered_map>
 #include <vector>
 
+#include "common/number_text.hpp"
+#include "common/ode_geom.hpp"
 #include "methods/method.hpp"
-#include "ode_geom.hpp"
 #include "ode_poses.hpp"
 #include "report/environment.hpp"
 #include "report/statistics.hpp"
-#include "report/text.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/supernormal.h"
 
 namespace accuracy_cost {
 namespace {
 
+using common::OdeGeom;
+using common::text;
 using supernormal::Shape;
 using supernormal::Vector3;
 

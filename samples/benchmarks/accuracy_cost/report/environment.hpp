@@ -1,13 +1,11 @@
 // The hardware and software of a measurement.
 #pragma once
 
-#include <string>
-#include <utility>
-#include <vector>
+#include "common/environment.hpp"
 
 namespace accuracy_cost {
 
-/// Names and values: processor, compiler, flags, versions of the libraries.
-std::vector<std::pair<std::string, std::string>> environment();
+/// That of the build, and the versions of the measured libraries.
+common::Environment environment();
 
 }  // namespace accuracy_cost

@@ -3,13 +3,15 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "common/number_text.hpp"
 #include "environment.hpp"
 #include "statistics.hpp"
-#include "text.hpp"
 
 namespace accuracy_cost {
 namespace {
 
+using common::number;
+using common::text;
 using Group = std::function<bool(const Pair&)>;
 
 Group group_of(BodyClass body_class, Situation situation) {

@@ -5,10 +5,10 @@
 
 namespace granular {
 
-using falling_particles::WallPose;
-using falling_particles::WallVelocity;
+using common::WallPose;
+using common::WallVelocity;
 
-DrivenWall::DrivenWall(falling_particles::Drive drive, const WallPose& start) : drive_(std::move(drive)), axis_(drive_, start) {}
+DrivenWall::DrivenWall(common::Drive drive, const WallPose& start) : drive_(std::move(drive)), axis_(drive_, start) {}
 
 WallPose DrivenWall::pose_on(const WallPose& carrier) const { return axis_.pose_on(carrier, state_.position); }
 

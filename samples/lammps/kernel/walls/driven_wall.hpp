@@ -1,9 +1,9 @@
 // A wall that forces move along an axis, or about it.
 #pragma once
 
+#include "common/drive.hpp"
+#include "common/motion.hpp"
 #include "kernel/body.hpp"
-#include "model/drive.hpp"
-#include "model/motion.hpp"
 
 namespace granular {
 
@@ -23,22 +23,21 @@ class DrivenWall {
   };
 
   /// `start`: the pose of the wall before it moves.
-  DrivenWall(falling_particles::Drive drive, const falling_particles::WallPose& start);
+  DrivenWall(common::Drive drive, const common::WallPose& start);
 
   /// Takes half a step: the speed from the load, the drive and gravity (m/s^2). `now`: s, the middle of this half; `step`: s, the
   /// whole.
-  void kick(const falling_particles::WallPose& carrier, const Vector3& gravity, double now, double step);
+  void kick(const common::WallPose& carrier, const Vector3& gravity, double now, double step);
   /// Moves the wall by a step (s). It stops at the ends of its travel.
   void drift(double step);
   /// Takes the force (N) of the contacts on the wall, and their torque (N m) about the wall's position.
-  void load(const falling_particles::WallPose& carrier, const Vector3& force, const Vector3& torque);
+  void load(const common::WallPose& carrier, const Vector3& force, const Vector3& torque);
 
   /// Of a servo, m^2.
   void set_area(double area) { drive_.servo->area = area; }
 
-  falling_particles::WallPose pose_on(const falling_particles::WallPose& carrier) const;
-  falling_particles::WallVelocity velocity_on(const falling_particles::WallPose& carrier,
-                                              const falling_particles::WallVelocity& velocity) const;
+  common::WallPose pose_on(const common::WallPose& carrier) const;
+  common::WallVelocity velocity_on(const common::WallPose& carrier, const common::WallVelocity& velocity) const;
 
   double stress() const { return drive_.servo ? -state_.load / drive_.servo->area : 0; }  ///< Pa, of the contacts on a servo
   const State& state() const { return state_; }
@@ -47,8 +46,8 @@ class DrivenWall {
  private:
   void stop();
 
-  falling_particles::Drive drive_;
-  falling_particles::DrivenAxis axis_;
+  common::Drive drive_;
+  common::DrivenAxis axis_;
   State state_;
 };
 

@@ -1,0 +1,44 @@
+// The messages of the program about mistakes in its input.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "common/input_error.hpp"
+#include "model/scene.hpp"
+#include "scene_text.hpp"
+#include "support/temporary_folder.hpp"
+
+/// The message from loading the scene, without the name of the temporary folder; "" if it is accepted.
+inline std::string complaint(const std::string& scene, const std::string& catalogue = kCatalogueText,
+                             const std::vector<std::string>& overrides = {}) {
+  const TemporaryFolder folder;
+  folder.write("grains.toml", catalogue);
+  const std::string path = folder.write("scene.toml", scene);
+  try {
+    falling_particles::load_scene(path, overrides);
+  } catch (const falling_particles::InputError& error) {
+    std::string text = error.what();
+    const std::string prefix = folder.path().string() + "/";
+    for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) text.erase(at, prefix.size());
+    return text;
+  }
+  return "";
+}
+
+struct Mistake {
+  const char* from;
+  const char* to;
+  std::vector<const char*> says;  // the place, the value and the valid range
+};
+
+inline void check_says(const std::string& text, const std::vector<const char*>& says) {
+  CAPTURE(text);
+  CHECK(text.find('\n') == std::string::npos);
+  for (const std::string part : says) {
+    CAPTURE(part);
+    CHECK(text.find(part) != std::string::npos);
+  }
+}

@@ -1,0 +1,108 @@
+// Bodies with faces and sides, in any orientation, and a floor.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "common/motion.hpp"
+#include "kernel/walls/plane_wall.hpp"
+#include "kernel/walls/wall_contacts.hpp"
+#include "two_bodies.hpp"
+
+namespace granular::test {
+
+inline const Vector3 kBrick(0.02, 0.015, 0.01);  // m
+
+/// Draws in braces are in their order, which for the arguments of a call each compiler chooses.
+struct Random {
+  std::mt19937 engine;
+  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
+  Vector3 vector(double size) { return {(*this)(-size, size), (*this)(-size, size), (*this)(-size, size)}; }
+  Eigen::Quaterniond attitude() {
+    return Eigen::Quaterniond{(*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1)}.normalized();
+  }
+};
+
+/// A rotation that brings an axis of the body to z.
+inline Eigen::Quaterniond face_up(int axis) { return common::rotation_between(Vector3::Unit(axis), Vector3::UnitZ()); }
+
+/// A small rotation about a horizontal axis after any rotation about z.
+inline Eigen::Quaterniond tilted(double tilt, Random& random) {
+  const double direction = random(0, 2 * std::numbers::pi);
+  return Eigen::Quaterniond(Eigen::AngleAxisd(tilt, Vector3(std::cos(direction), std::sin(direction), 0))) *
+         Eigen::Quaterniond(Eigen::AngleAxisd(random(0, 2 * std::numbers::pi), Vector3::UnitZ()));
+}
+
+/// Lowers the second body on the first one until they touch, and by up to 2e-4 m more. `world` rotates both.
+inline void lower(TwoBodies& pair, const Eigen::Quaterniond& world, const Vector3& aside, Random& random) {
+  const Eigen::Quaterniond attitude1 = pair.first.attitude, attitude2 = pair.second.attitude;
+  pair.first.place(Vector3::Zero(), world * attitude1);
+  double height = 0.06;
+  const auto place = [&] { pair.second.place(world * Vector3(aside + height * Vector3::UnitZ()), world * attitude2); };
+  place();
+  while (pair.find(0).state != PairState::Touching) {
+    height -= 1e-4;
+    place();
+  }
+  height -= random(0, 2e-4);
+  place();
+}
+
+struct Floor {
+  std::shared_ptr<Wall> wall = std::make_shared<PlaneWall>(Vector3::Zero(), Vector3::UnitZ());
+  Body body;
+  WallHistory history;
+  std::vector<WallContact> contacts;
+
+  WallForce find(const Particle& particle, const ContactMaterial& material, double step) {
+    return find_wall_force(*wall, body, *particle.shape, particle.body, material, step, history, contacts);
+  }
+  /// A step with gravity. `last` is the force before and after it.
+  void advance(Particle& particle, const ContactMaterial& material, double step, double gravity, WallForce& last) {
+    const Vector3 weight(0, 0, -particle.mass * gravity);
+    particle.kick(last.force + weight, last.torque, 0.5 * step);
+    particle.drift(step);
+    last = find(particle, material, step);
+    particle.kick(last.force + weight, last.torque, 0.5 * step);
+  }
+};
+
+/// Compares the force of a floor on a body that sinks into it by 1e-4 m with the slopes of the energy. The body starts 0.05 m above
+/// `aside` and falls down.
+inline void check_slopes(Particle& body, Eigen::Quaterniond attitude, const ContactMaterial& material, Floor floor = {},
+                         const Vector3& aside = Vector3::Zero()) {
+  const double scale = material.stiffness * 1e-4;  // N
+  double height = 0.05;
+  const auto place = [&](const Vector3& shift, const Eigen::Quaterniond& turn) {
+    body.place(aside + height * Vector3::UnitZ() + shift, turn * attitude);
+  };
+  const auto still = Eigen::Quaterniond::Identity();
+  place(Vector3::Zero(), still);
+  while (floor.find(body, material, 0).energy == 0) {
+    height -= 5e-5;
+    place(Vector3::Zero(), still);
+  }
+  height -= 1e-4;
+  place(Vector3::Zero(), still);
+  const WallForce force = floor.find(body, material, 0);
+  const auto energy = [&](const Vector3& shift, const Eigen::Quaterniond& turn) {
+    place(shift, turn);
+    return floor.find(body, material, 0).energy;
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto moved = [&](double way) { return energy(way * Vector3::Unit(axis), still); };
+    CHECK(Slopes(moved(-1e-9), force.energy, moved(1e-9), 1e-9).miss(-force.force[axis]) < 1e-4 * scale);
+    const auto turn = [&](double angle) { return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3::Unit(axis))); };
+    const auto turned = [&](double angle) { return energy(Vector3::Zero(), turn(angle)); };
+    CHECK(Slopes(turned(-1e-7), force.energy, turned(1e-7), 1e-7).miss(-force.torque[axis]) < 1e-4 * scale * 0.02);
+  }
+}
+
+inline ContactMaterial sticky(int i) { return prepared({.stiffness = 1e5, .adhesion = i % 2 == 0 ? 0 : 3.0}); }
+
+}  // namespace granular::test

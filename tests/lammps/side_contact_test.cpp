@@ -1,0 +1,295 @@
+// Straight sides on flat ground and on each other: their geometry, the gradient of their energy, and bodies that rest on them.
+#include "kernel/side_contact.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "flat_bodies.hpp"
+#include "support/relative.hpp"
+
+using namespace granular;
+using namespace granular::test;
+using supernormal::test::relative;
+
+TEST_CASE("lammps: bodies have sides where they are flat along one axis") {
+  CHECK(ParticleShape(kBrick, 2, 2).sides.empty());
+  CHECK(ParticleShape(kBrick, 8, 8).sides.empty());
+  CHECK(ParticleShape(kBrick, 2, 20).sides.size() == 1);
+  CHECK(ParticleShape(kBrick, 20, 2).sides.size() == 2);
+  Random random{std::mt19937(8)};
+  for (const auto& [delta, epsilon] :
+       {std::pair(2.0, 20.0), std::pair(3.0, 8.0), std::pair(20.0, 2.0), std::pair(8.0, 3.0), std::pair(1.5, 60.0)}) {
+    const ParticleShape shape(kBrick, delta, epsilon);
+    REQUIRE(!shape.sides.empty());
+    for (const Side& side : shape.sides) {
+      CHECK(side.bulge > 0);
+      CHECK(side.bulge < 3e-3 * kBrick.minCoeff());
+      for (int i = 0; i < 1000; ++i) {
+        // A normal across the side, and tilted.
+        Vector3 normal = random.vector(1);
+        normal[side.along] = 0;
+        if (side.across != side.along) normal[side.across] = std::max(1e-3, std::abs(normal[side.across]));
+        const double tilt = random(-1, 1) * side.tilt;
+        normal[side.along] = std::tan(tilt) * side.part_across(normal);
+        normal.normalize();
+        const Side::End end = side.end(normal, tilt > 0 ? 1 : -1);
+        CHECK(end.point.dot(normal) == relative(end.support).epsilon(1e-12));
+        CHECK(end.point.norm() <= shape.bounding_radius * (1 + 1e-12));
+        CHECK(end.support <= shape.body.support(normal) + side.bulge * (1 + 1e-9));
+        CHECK(end.support >= shape.body.support(normal) * (1 - 1e-12));
+      }
+    }
+  }
+}
+
+TEST_CASE("lammps: forces of a side on a plane are the derivatives of the energy") {
+  Random random{std::mt19937(9)};
+  for (int i = 0; i < 200; ++i) {
+    const bool is_can = i % 4 < 2;
+    Particle body{kBrick, is_can ? random(1.5, 3.5) : random(8, 30), is_can ? random(8, 30) : random(1.5, 3.5)};
+    const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
+    const Eigen::Quaterniond rolled(Eigen::AngleAxisd(random(-3, 3), Vector3::Unit(is_can ? 2 : 1)));
+    check_slopes(body, tilted(random(0, 0.3), random) * lies * rolled, sticky(i));
+  }
+}
+
+TEST_CASE("lammps: a body that drops on its side rests along a line, and rolls if nothing resists") {
+  for (const auto& exponents : {std::pair(2.0, 20.0), std::pair(2.0, 8.0), std::pair(3.0, 60.0)}) {
+    const double delta = exponents.first, epsilon = exponents.second;
+    for (const double rolling_length : {0.0, 1e-3}) {
+      Floor floor;
+      Particle can({0.01, 0.012, 0.02}, delta, epsilon);
+      const ContactMaterial material =
+          prepared({.stiffness = 2e4, .restitution = 0.3, .friction = 0.5, .rolling_length = rolling_length});
+      const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
+      can.place({0, 0, 0.012}, Eigen::Quaterniond(Eigen::AngleAxisd(0.03, Vector3(0.2, 1, 0.2).normalized())) * lies);
+      WallForce last;
+      for (int i = 0; i < 100000; ++i) floor.advance(can, material, 1e-5, 9.81, last);
+      CAPTURE(delta);
+      CAPTURE(epsilon);
+      const double tilt = std::abs(can.body.pose.rotation.col(2).z());
+      if (rolling_length > 0) {
+        CHECK(can.kinetic_energy() < 1e-18);
+        CHECK(last.force.z() == relative(can.mass * 9.81).epsilon(1e-9));
+        CHECK(tilt < 1e-4);  // resistance to rolling also holds a small tilt
+      } else {
+        CHECK(tilt < 1e-10);
+      }
+    }
+  }
+}
+
+TEST_CASE("lammps: a level can has the whole stiffness, and one on its rim half of it") {
+  Floor floor;
+  Particle can({0.01, 0.01, 0.02}, 2, 60);
+  const ContactMaterial material = prepared({.stiffness = 1e5});
+  const auto place = [&](double tilt, double depth) {
+    const double reach = can.shape->sides.at(0).reach;
+    can.place({0, 0, std::cos(tilt) * 0.01 + std::sin(tilt) * reach - depth},
+              Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2 + tilt, Vector3::UnitY())));
+  };
+  place(0, 1e-5);
+  CHECK(floor.find(can, material, 0).force.z() == relative(1).epsilon(1e-9));
+  CHECK(floor.find(can, material, 0).torque.norm() < 1e-12);
+  place(2e-3, 1e-5);
+  CHECK(floor.find(can, material, 0).force.z() == relative(0.5).epsilon(1e-6));
+}
+
+namespace {
+
+const Eigen::Quaterniond kLies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
+
+/// A body with a side: a can, or a body with a boxy outline and a round profile.
+Particle with_side(bool is_can, Random& random) {
+  return {{0.01, 0.012, 0.02}, is_can ? random(1.5, 3.5) : random(8, 30), is_can ? random(8, 30) : random(1.5, 3.5)};
+}
+
+/// A body on its side, on a brick, tilted by up to `tilt` (rad). Its line may hang over. Either may be the first body.
+TwoBodies side_on_face(Random& random, double tilt, const ContactMaterial& material) {
+  const bool is_can = random(0, 1) < 0.5;
+  const Eigen::Quaterniond rolled(Eigen::AngleAxisd(random(-3, 3), Vector3::Unit(is_can ? 2 : 1)));
+  const Eigen::Quaterniond lies = is_can ? Eigen::Quaterniond(kLies * rolled) : rolled;
+  TwoBodies pair{{kBrick, random(6, 30), random(6, 30)}, with_side(is_can, random), prepared(material)};
+  pair.second.place(Vector3::Zero(), tilted(random(0, tilt), random) * lies);
+  const Vector3 aside{random(-0.018, 0.018), random(-0.014, 0.014), 0};
+  lower(pair, random.attitude(), aside, random);
+  return random(0, 1) < 0.5 ? pair : TwoBodies{pair.second, pair.first, pair.material};
+}
+
+/// Two cans whose axes are parallel but for `tilt` (rad), side on side.
+TwoBodies side_on_side(Random& random, double tilt, const ContactMaterial& material) {
+  TwoBodies pair{with_side(true, random), with_side(true, random), prepared(material)};
+  const auto roll = [&] { return Eigen::Quaterniond(Eigen::AngleAxisd(random(-3, 3), Vector3::UnitZ())); };
+  const Eigen::Quaterniond flip(Eigen::AngleAxisd(random(0, 1) < 0.5 ? 0 : std::numbers::pi, Vector3::UnitX()));
+  const Eigen::Quaterniond little(Eigen::AngleAxisd{random(0, tilt), random.vector(1).normalized()});
+  pair.first.place(Vector3::Zero(), kLies * roll());
+  pair.second.place(Vector3::Zero(), little * kLies * flip * roll());
+  const Vector3 aside{random(-0.03, 0.03), random(-0.004, 0.004), 0};
+  lower(pair, random.attitude(), aside, random);
+  return pair;
+}
+
+using Setup = std::function<TwoBodies(Random&, double, const ContactMaterial&)>;
+
+/// Compares forces and torques with the slopes of the energy. Counts the contacts, and those whose share fades.
+void check_pair_slopes(const Setup& setup, double tilt) {
+  Random random{std::mt19937(11)};
+  int meeting = 0, fading = 0;
+  for (int i = 0; i < 400; ++i) {
+    TwoBodies pair = setup(random, tilt, {.stiffness = 1e5, .adhesion = i % 2 == 0 ? 0 : 3.0});
+    const PairContact contact = pair.find(0);
+    const auto line = find_face_contact(pair.first.body, pair.second.body, contact.contact.normal);
+    if (!line) continue;
+    ++meeting;
+    fading += line->share < 1 ? 1 : 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double scale = contact.force.normal + pair.material.adhesion + 1;
+      const TwoBodies::EnergySlopes slopes = pair.energy_slopes(axis, 1e-9, 1e-7);
+      CAPTURE(i);
+      CAPTURE(line->share);
+      CHECK(slopes.along.miss(contact.force.force[axis]) < 1e-4 * scale);
+      CHECK(slopes.about.miss(-contact.torque2()[axis]) < 1e-4 * scale * 0.02);
+    }
+  }
+  CHECK(meeting > 100);
+  CHECK(fading > 20);
+}
+
+void check_exchange(const Setup& setup, double tilt) {
+  Random random{std::mt19937(12)};
+  for (int i = 0; i < 100; ++i) {
+    TwoBodies pair = setup(random, tilt, {.stiffness = 1e5});
+    TwoBodies other{pair.second, pair.first, pair.material};
+    const PairContact there = pair.find(0), back = other.find(0);
+    CHECK(back.force.energy == relative(there.force.energy).epsilon(1e-9));
+    CHECK((back.force.force + there.force.force).norm() < 1e-6 * there.force.force.norm());
+    const Vector3 moment = there.torque1() + there.torque2() +
+                           (pair.first.body.pose.position - pair.second.body.pose.position).cross(there.force.force);
+    CHECK(moment.norm() <= 1e-14 * there.force.force.norm());
+  }
+}
+
+void check_energy(const Setup& setup) {
+  Random random{std::mt19937(13)};
+  for (int i = 0; i < 10; ++i) {
+    TwoBodies pair = setup(random, 0.03, {.stiffness = 1e5});
+    pair.first.set_velocity(Vector3::Zero(), random.vector(1));
+    PairContact last = pair.find(0);
+    const auto energy = [&] { return pair.first.kinetic_energy() + pair.second.kinetic_energy() + last.force.energy; };
+    const double start = energy();
+    for (int step = 0; step < 20000; ++step) pair.advance(5e-7, last);
+    CHECK(energy() == relative(start).epsilon(1e-4));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("lammps: forces of a side on a face are the derivatives of the energy") { check_pair_slopes(side_on_face, 0.15); }
+
+TEST_CASE("lammps: forces of two sides are the derivatives of the energy") { check_pair_slopes(side_on_side, 0.1); }
+
+TEST_CASE("lammps: exchanging two bodies exchanges the forces of their sides, and each has the opposite moment") {
+  check_exchange(side_on_face, 0.05);
+  check_exchange(side_on_side, 0.05);
+}
+
+TEST_CASE("lammps: tumbling cans keep their energy through an impact on a brick or a can") {
+  check_energy(side_on_face);
+  check_energy(side_on_side);
+}
+
+TEST_CASE("lammps: a can on a face or on a can has the force on a plane: all of the stiffness, and half of it on one end") {
+  const ContactMaterial material = prepared({.stiffness = 1e5});
+  Particle can({0.01, 0.01, 0.02}, 2, 60);
+  const double reach = can.shape->sides.at(0).reach, depth = 1e-5;
+  TwoBodies on_brick{{{0.05, 0.05, 0.01}, 60, 60}, can, material}, on_can{{{0.01, 0.01, 0.03}, 2, 60}, can, material};
+  on_can.first.place(Vector3::Zero(), kLies);
+  for (TwoBodies* pair : {&on_brick, &on_can}) {
+    for (const double tilt : {0.0, 2e-3}) {
+      pair->second.place({0, 0, 0.01 + std::cos(tilt) * 0.01 + std::sin(tilt) * reach - depth},
+                         Eigen::Quaterniond(Eigen::AngleAxisd(tilt, Vector3::UnitY())) * kLies);
+      const PairContact contact = pair->find(0);
+      CHECK(contact.force.normal == relative(tilt == 0 ? 1 : 0.5).epsilon(1e-5));
+      CHECK(std::abs(contact.torque2().y()) == doctest::Approx(tilt == 0 ? 0 : 0.5 * reach).epsilon(2e-3));
+    }
+  }
+}
+
+TEST_CASE("lammps: the common line of two cans ends where the first one ends") {
+  const ContactMaterial material = prepared({.stiffness = 1e5});
+  TwoBodies pair{{{0.01, 0.01, 0.02}, 2, 60}, {{0.01, 0.01, 0.03}, 2, 60}, material};
+  pair.first.place(Vector3::Zero(), kLies);
+  pair.second.place({0.02, 0, 0.02 - 1e-5}, kLies);
+  const auto line = find_side_pair_contact(pair.first.body, pair.second.body, Vector3::UnitZ());
+  REQUIRE(line);
+  REQUIRE(line->count == 2);
+  CHECK(line->share == 1);
+  CHECK(line->corners[0].point.x() + line->corners[1].point.x() ==
+        relative(0.02 - pair.second.shape->sides[0].reach + pair.first.shape->sides[0].reach).epsilon(1e-9));
+}
+
+TEST_CASE("lammps: cans that cross touch in a point, and the line fades in between without a jump") {
+  const ContactMaterial material = prepared({.stiffness = 1e5});
+  TwoBodies pair{{{0.01, 0.01, 0.03}, 2, 20}, {{0.01, 0.01, 0.03}, 2, 20}, material};
+  pair.first.place(Vector3::Zero(), kLies);
+  double last_share = 1, last_force = 1;
+  for (int k = 0; k <= 6000; ++k) {
+    pair.second.place({0, 0, 0.02 - 1e-5}, Eigen::Quaterniond(Eigen::AngleAxisd(1e-5 * k, Vector3::UnitZ())) * kLies);
+    const auto line = find_side_pair_contact(pair.first.body, pair.second.body, Vector3::UnitZ());
+    const double share = line ? line->share : 0, force = pair.find(0).force.normal;
+    CHECK(share <= last_share);
+    CHECK(std::abs(force - last_force) < 1e-3);
+    // In between the ends are less deep than the middle.
+    CHECK(force > 0.7);
+    last_share = share;
+    last_force = force;
+  }
+  CHECK(last_share == 0);
+  CHECK(last_force == relative(1).epsilon(1e-3));
+}
+
+TEST_CASE("lammps: a body that stands on the pole of its round sides touches in a point") {
+  const ContactMaterial material = prepared({.stiffness = 1e5});
+  for (const double epsilon : {1.5, 2.0, 3.9}) {
+    Particle pillow(kBrick, 20, epsilon);
+    for (const double tilt : {0.0, 1e-160, 1e-12}) {
+      Floor floor;
+      pillow.place({0, 0, kBrick.z() - 1e-5}, Eigen::Quaterniond(Eigen::AngleAxisd(tilt, Vector3::UnitX())));
+      const WallForce force = floor.find(pillow, material, 0);
+      CHECK(force.force.z() == relative(1).epsilon(1e-6));
+      CHECK(force.torque.norm() < 1e-5);
+      TwoBodies pair{{{0.05, 0.05, 0.01}, 60, 60}, pillow, material};
+      pair.second.place({0, 0, 0.01 + kBrick.z() - 1e-5}, pillow.attitude);
+      CHECK(pair.find(0).force.force.z() == relative(-1).epsilon(1e-6));
+    }
+  }
+}
+
+TEST_CASE("lammps: rolling over a flat spot of its outline, a can beside a border gets a torque without a spike") {
+  for (const double delta : {2.5, 3.0, 3.9}) {
+    const Particle can({0.01, 0.012, 0.02}, delta, 20);
+    const std::array<Vector2, 4> half_plane{Vector2(-1, -1), Vector2(0, -1), Vector2(0, 1), Vector2(-1, 1)};
+    const Patch patch(half_plane);
+    Ground ground = Ground::plane(Vector3::Zero(), Vector3::UnitZ());
+    ground.frame.setIdentity();
+    ground.patches = {&patch, 1};
+    double largest = 0;  // 1/rad
+    for (int k = -1000; k <= 1000; ++k) {
+      Particle rolled = can;
+      rolled.place({0, 0, 0.0119}, Eigen::Quaterniond(Eigen::AngleAxisd(2e-4 * k, Vector3::UnitY())) *
+                                       Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitX())));
+      const auto line = find_side_contact(rolled.body, ground);
+      if (!line) continue;
+      CHECK(line->share_by_turn.allFinite());
+      largest = std::max(largest, std::abs(line->share_by_turn.y()));
+    }
+    CAPTURE(delta);
+    CHECK(largest > 10);
+    CHECK(largest < 1000);
+  }
+}
