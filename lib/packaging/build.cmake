@@ -20,7 +20,7 @@ target_compile_options(
   supernormal_warnings
   INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow $<$<BOOL:${SUPERNORMAL_WERROR}>:-Werror>
             "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow>"
-            # GCC collects garbage less often: a file takes a seventh less time, and up to 2 GiB.
+            # GCC collects garbage less often: a file takes a seventh less time, and up to 1.2 GB.
             $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${SUPERNORMAL_UNITE}>>:--param=ggc-min-heapsize=1000000>)
 
 # supernormal_precompile(target owner [headers...]): parsing Eigen is half of the time that a file takes. The owner, which comes first,
@@ -33,7 +33,7 @@ function(supernormal_precompile target owner)
   endif()
 endfunction()
 
-# supernormal_unite(target [MOST 8] [APART sources...]): compiles the files of a folder together, MOST at once, because most of the time goes to Eigen's
+# supernormal_unite(target [MOST 8] [APART sources...]): compiles the files of a folder together, MOST at once: the time goes to Eigen's
 # templates, which they share. They may then not give two things one name, even where the names are local to a file, nor two functions
 # that take the same numbers.
 function(supernormal_unite target)
