@@ -17,6 +17,8 @@ namespace fx = supernormal::effects;
 inline constexpr double kStep = 5e-4;        ///< s
 inline constexpr double kLongStep = 1e-3;    ///< s
 inline constexpr double kBallRadius = 0.05;  ///< m
+inline constexpr double kRadius = 0.01;      ///< m, of small balls
+inline constexpr double kDensity = 2500;     ///< kg/m^3
 
 /// The force and torque of a joint on the first of its bodies.
 struct Load {

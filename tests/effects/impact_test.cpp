@@ -8,9 +8,6 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr double kRadius = 0.01;   // m
-constexpr double kDensity = 2500;  // kg/m^3
-
 struct Impact {
   double time = 0;     ///< s, in contact
   double overlap = 0;  ///< m, the largest

@@ -8,9 +8,6 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr double kRadius = 0.01;   // m
-constexpr double kDensity = 2500;  // kg/m^3
-
 double height_of(dBodyID body) { return dBodyGetPosition(body)[2]; }
 double speed_up(dBodyID body) { return dBodyGetLinearVel(body)[2]; }
 

@@ -59,6 +59,33 @@ double farthest_beyond(const Shape& shape, const Tessellation& mesh) {
   return farthest;
 }
 
+/// Closed, with its vertices on the boundary and its chords within the error, a fraction of the smallest half-extent.
+void check_meshes(double chord_error) {
+  CAPTURE(chord_error);
+  for (const double exponent : {1.05, 1.5, 2.0, 3.0, 8.0, 30.0, 100.0}) {
+    CAPTURE(exponent);
+    for (const double other : {1.05, 2.0, 100.0}) {
+      CAPTURE(other);
+      for (const Vector3& axes : {Vector3(1, 1, 1), Vector3(1, 0.6, 0.3), Vector3(1, 1, 0.01)}) {
+        CAPTURE(axes.z());
+        const Superellipsoid body(axes, exponent, other);
+        const Tessellation mesh = tessellate(body, chord_error * axes.minCoeff());
+        CHECK(mesh.normals.size() == mesh.points.size());
+        double farthest = 0;  // of a vertex from the boundary
+        for (std::size_t k = 0; k < mesh.points.size(); ++k) {
+          farthest = std::max(farthest, std::abs(mesh.normals[k].dot(mesh.points[k]) - body.support(mesh.normals[k])));
+        }
+        CHECK(farthest <= 1e-12);
+        check_closed(mesh);
+        const double exact = body.mass_properties().volume;
+        CHECK(volume(mesh) <= exact * (1 + 1e-9));
+        CHECK(volume(mesh) >= exact * (1 - 6 * chord_error));
+        CHECK(farthest_beyond(body, mesh) <= chord_error * axes.minCoeff());
+      }
+    }
+  }
+}
+
 }  // namespace
 
 TEST_CASE("a flat face takes few triangles") {
@@ -76,33 +103,8 @@ TEST_CASE("a rounded body's mesh is closed, too") {
   CHECK(farthest_beyond(body, mesh) <= 0.005);
 }
 
-TEST_CASE("a mesh of a body is closed, has its vertices on the boundary and its chords within the error") {
-  for (const double exponent : {1.05, 1.5, 2.0, 3.0, 8.0, 30.0, 100.0}) {
-    for (const double other : {1.05, 2.0, 100.0}) {
-      for (const Vector3& axes : {Vector3(1, 1, 1), Vector3(1, 0.6, 0.3), Vector3(1, 1, 0.01)}) {
-        const Superellipsoid body(axes, exponent, other);
-        for (const double chord_error : {0.05, 0.01}) {
-          CAPTURE(exponent);
-          CAPTURE(other);
-          CAPTURE(axes.z());
-          CAPTURE(chord_error);
-          const Tessellation mesh = tessellate(body, chord_error * axes.minCoeff());
-          CHECK(mesh.normals.size() == mesh.points.size());
-          double farthest = 0;  // of a vertex from the boundary
-          for (std::size_t k = 0; k < mesh.points.size(); ++k) {
-            farthest = std::max(farthest, std::abs(mesh.normals[k].dot(mesh.points[k]) - body.support(mesh.normals[k])));
-          }
-          CHECK(farthest <= 1e-12);
-          check_closed(mesh);
-          const double exact = body.mass_properties().volume;
-          CHECK(volume(mesh) <= exact * (1 + 1e-9));
-          CHECK(volume(mesh) >= exact * (1 - 6 * chord_error));
-          CHECK(farthest_beyond(body, mesh) <= chord_error * axes.minCoeff());
-        }
-      }
-    }
-  }
-}
+TEST_CASE("a mesh of a body is closed, has its vertices on the boundary and its chords within the error") { check_meshes(0.05); }
+TEST_CASE("a fine mesh of a body, too") { check_meshes(0.01); }
 
 TEST_CASE("bodies with faces, edges and vertices: closed, and within the chord error") {
   const std::vector<std::shared_ptr<Shape>> bodies = {std::make_shared<Box>(Vector3(1, 0.7, 0.2)),

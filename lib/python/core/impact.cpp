@@ -67,7 +67,8 @@ Raises ValueError when a number exceeds 1e75 in magnitude.)";
 
 constexpr const char* kImpactDoc = "The first impact of two moving bodies, or the proof that there is none.";
 
-constexpr const char* kFindDoc = R"(The first time in [0, horizon] at which two bodies in steady motion meet, to the tolerance.
+constexpr const char* kFindImpactDoc =
+    R"(The first time in [0, horizon] at which two bodies in steady motion meet, to the tolerance.
 
 No impact is missed, however fast the bodies rotate: it is proved that they are apart before. Bodies that touch at time 0 hit at 0,
 unless they separate.
@@ -79,7 +80,7 @@ first_normal: (3,), in the frame of body 1, any length but 0: the start of the f
 Raises ValueError when an argument is out of range, when a body rotates by more than 1e75 rad, or when a shape returns a number
 that is not finite.)";
 
-constexpr const char* kPlaneDoc =
+constexpr const char* kPlaneImpactDoc =
     R"(find_time_of_impact() for a body and the half-space plane_normal . x <= plane_offset, which is at rest.
 
 plane_normal: (3,), world frame, out of the half-space, any length but 0; it is normalised.
@@ -133,10 +134,10 @@ void bind_impact(py::module_& m) {
         return Impact{of[0].cast<ImpactStatus>(), of[1].cast<double>(), of[2].cast<double>(), of[3].cast<Proximity>(),
                       of[4].cast<int>()};
       });
-  m.def("find_time_of_impact", &time_of_impact, kFindDoc, py::arg("shape1"), py::arg("motion1"), py::arg("shape2"),
+  m.def("find_time_of_impact", &time_of_impact, kFindImpactDoc, py::arg("shape1"), py::arg("motion1"), py::arg("shape2"),
         py::arg("motion2"), py::arg("horizon"), py::arg("settings") = Settings(), py::arg("first_normal") = py::none());
-  m.def("find_plane_time_of_impact", &plane_time_of_impact, kPlaneDoc, py::arg("shape"), py::arg("motion"), py::arg("plane_normal"),
-        py::arg("plane_offset"), py::arg("horizon"), py::arg("settings") = Settings());
+  m.def("find_plane_time_of_impact", &plane_time_of_impact, kPlaneImpactDoc, py::arg("shape"), py::arg("motion"),
+        py::arg("plane_normal"), py::arg("plane_offset"), py::arg("horizon"), py::arg("settings") = Settings());
 }
 
 }  // namespace supernormal::python

@@ -12,7 +12,7 @@ namespace fit {
 namespace {
 
 // Relative to the size of the body: the accuracy of distances, and the level below which residuals are patterned rounding errors.
-constexpr double kExact = 1e-12, kRounding = 1e-9;
+constexpr double kExact = 1e-12, kExactFit = 1e-9;
 
 /// The F statistic of the test for lack of fit: the mean square of the patch means over the mean square within the patches (Draper
 /// and Smith, Applied Regression Analysis, section 2.1). A patch is the surface around one of 100 directions from the centre.
@@ -91,7 +91,7 @@ Uncertainty find_uncertainty(const Body& body, std::span<const Witness> witnesse
   const int parameters = parameter_count(body.family);
   const double freedom = std::max(1.0, static_cast<double>(residuals.size()) - parameters);
   result.sigma = std::max(std::sqrt(square / freedom), kExact * size);
-  if (result.sigma > kRounding * size) test_lack_of_fit(body, witnesses, residuals, result);
+  if (result.sigma > kExactFit * size) test_lack_of_fit(body, witnesses, residuals, result);
 
   const Eigen::MatrixXd reduced = all.topLeftCorner(parameters, parameters);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced);

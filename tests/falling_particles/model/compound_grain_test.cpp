@@ -62,7 +62,7 @@ Scene scene_with(GrainKind kind, Container container = Box{{0.1, 0.1}}) {
   return scene_of(std::move(container), {{std::move(kind), 1}});
 }
 
-Component ball(double radius, double density, double x) { return {{{radius, radius, radius}}, density, {x, 0, 0}}; }
+Component ball_at(double radius, double density, double x) { return {{{radius, radius, radius}}, density, {x, 0, 0}}; }
 
 /// Mass and inertia about the centre of mass, by ODE's own sums over the components.
 dMass assembled(const GrainKind& kind) {
@@ -125,7 +125,7 @@ TEST_CASE("compounds: volume that components share counts once, with the density
   constexpr double kRadius = 3e-3, kDistance = 4e-3;
   const double sphere = 4 * std::numbers::pi / 3 * std::pow(kRadius, 3);
   const double lens = std::numbers::pi / 12 * std::pow(2 * kRadius - kDistance, 2) * (kDistance + 4 * kRadius);
-  const GrainKind pair = make_compound("pair", {ball(kRadius, 1000, 0), ball(kRadius, 1000, kDistance)}, "test");
+  const GrainKind pair = make_compound("pair", {ball_at(kRadius, 1000, 0), ball_at(kRadius, 1000, kDistance)}, "test");
   CHECK(pair.compound_mass->mass == relative(1000 * (2 * sphere - lens)).epsilon(1e-5));
   CHECK(pair.density == relative(1000).epsilon(1e-12));
   CHECK(pair.components[0].position[0] == relative(-kDistance / 2).epsilon(1e-5));
@@ -135,12 +135,13 @@ TEST_CASE("compounds: volume that components share counts once, with the density
   const double expected = 1000 * (2 * 0.4 * sphere * kRadius * kRadius - caps);
   CHECK(pair.compound_mass->inertia[0][0] == relative(expected).epsilon(1e-5));
   // A ball within another one is not there, but the other way round it is a core of another density.
-  const GrainKind hidden = make_compound("hidden", {ball(3e-3, 1000, 0), ball(1e-3, 5000, 0)}, "test");
+  const GrainKind hidden = make_compound("hidden", {ball_at(3e-3, 1000, 0), ball_at(1e-3, 5000, 0)}, "test");
   CHECK(hidden.compound_mass->mass == relative(1000 * sphere).epsilon(1e-5));
-  const GrainKind core = make_compound("core", {ball(1e-3, 5000, 0), ball(3e-3, 1000, 0)}, "test");
+  const GrainKind core = make_compound("core", {ball_at(1e-3, 5000, 0), ball_at(3e-3, 1000, 0)}, "test");
   CHECK(core.compound_mass->mass == relative(1000 * sphere * (1 + 4.0 / 27)).epsilon(1e-4));
   // Three in one place count once.
-  const GrainKind thrice = make_compound("thrice", {ball(3e-3, 1000, 0), ball(3e-3, 1000, 0), ball(3e-3, 1000, 0)}, "test");
+  const GrainKind thrice =
+      make_compound("thrice", {ball_at(3e-3, 1000, 0), ball_at(3e-3, 1000, 0), ball_at(3e-3, 1000, 0)}, "test");
   CHECK(thrice.compound_mass->mass == relative(1000 * sphere).epsilon(1e-3));
 }
 

@@ -16,8 +16,8 @@ namespace fx = supernormal::effects;
 
 namespace {
 
-constexpr double kGravity = 9.81;
-constexpr double kStep = 2e-4;
+constexpr double kFall = 9.81;
+constexpr double kStepOfWalls = 2e-4;
 
 GrainKind light_ball() { return {"ball", {5e-3, 5e-3, 5e-3}, 2, 2, 0, 2000, "test"}; }
 GrainKind brick() { return {"brick", {0.01, 0.01, 4e-3}, 20, 20, 0, 2000, "test"}; }
@@ -29,8 +29,8 @@ Scene scene_on(std::vector<Wall> walls, const GrainKind& kind, std::vector<fx::E
   Scene scene = scene_of(Open{{{-0.1, -0.1, 0}, {0.2, 0.2, 1}}, {{-1, -1, -1}, {2, 2, 3}}}, {{kind, 1}});
   scene.walls = std::move(walls);
   scene.effects = std::move(effects);
-  scene.effects.emplace_back(fx::Gravity{{0, 0, -kGravity}});
-  scene.time = {2, kStep, 0.1};
+  scene.effects.emplace_back(fx::Gravity{{0, 0, -kFall}});
+  scene.time = {2, kStepOfWalls, 0.1};
   return scene;
 }
 
@@ -53,12 +53,12 @@ GrainFlight fly(double amplitude, double frequency, double duration) {
   World world(scene, {at(5e-3)});
   Stepper stepper(world, scene);
   GrainFlight flight;
-  for (int step = 1; step * kStep < duration; ++step) {
+  for (int step = 1; step * kStepOfWalls < duration; ++step) {
     stepper.step();
     const bool touches = stepper.contacts() > 0;
-    if (!touches && std::isnan(flight.start)) flight.start = step * kStep;
+    if (!touches && std::isnan(flight.start)) flight.start = step * kStepOfWalls;
     if (touches && !std::isnan(flight.start)) {
-      flight.end = step * kStep;
+      flight.end = step * kStepOfWalls;
       break;
     }
   }
@@ -74,22 +74,22 @@ TEST_CASE(
   const double omega = 2 * std::numbers::pi * kFrequency;
   for (const double throw_number : {1.5, 2.5}) {
     CAPTURE(throw_number);
-    const double amplitude = throw_number * kGravity / (omega * omega);
+    const double amplitude = throw_number * kFall / (omega * omega);
     const double take_off = std::asin(1 / throw_number) / omega;
     const double z0 = amplitude * std::sin(omega * take_off);
     const double v0 = amplitude * omega * std::cos(omega * take_off);
     const auto above = [&](double t) {
       const double s = t - take_off;
-      return z0 + v0 * s - kGravity / 2 * s * s - amplitude * std::sin(omega * t);
+      return z0 + v0 * s - kFall / 2 * s * s - amplitude * std::sin(omega * t);
     };
     double low = take_off + 1e-3;
     double high = take_off + 1 / kFrequency;
     while (high - low > 1e-9) (above((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
     const GrainFlight flight = fly(amplitude, kFrequency, 0.3);
-    CHECK(std::abs(flight.start - take_off) < 3 * kStep);
+    CHECK(std::abs(flight.start - take_off) < 3 * kStepOfWalls);
     CHECK(flight.end == relative(low).epsilon(0.01));
   }
-  CHECK(std::isnan(fly(0.98 * kGravity / (omega * omega), kFrequency, 0.5).start));
+  CHECK(std::isnan(fly(0.98 * kFall / (omega * omega), kFrequency, 0.5).start));
 }
 
 TEST_CASE("a brick on a conveyor has its speed after v / (mu g), and the conveyor stands") {
@@ -108,9 +108,9 @@ TEST_CASE("a brick on a conveyor has its speed after v / (mu g), and the conveyo
     double time = 0;
     while (speed(world, 0) < 0.999 * kSpeed && time < 1) {
       stepper.step();
-      time += kStep;
+      time += kStepOfWalls;
     }
-    CHECK(time == relative(kSpeed / (mu * kGravity)).epsilon(0.01));
+    CHECK(time == relative(kSpeed / (mu * kFall)).epsilon(0.01));
     for (int i = 0; i < 500; ++i) stepper.step();
     CHECK(speed(world, 0) == relative(kSpeed).epsilon(1e-3));
     CHECK(world.walls().state(0).pose.position == belt.start.position);
@@ -160,9 +160,9 @@ TEST_CASE("a plate that begins to move wakes a sleeping grain; a plate that stan
   const Scene scene = scene_on({plane({later})}, light_ball(), {fx::AutoDisable{0.01, 1, 0, 10}, fx::SurfaceLayer{1e-5}});
   const World world(scene, {at(5e-3)});
   Stepper stepper(world, scene);
-  for (int i = 0; i * kStep < 0.299; ++i) stepper.step();
+  for (int i = 0; i * kStepOfWalls < 0.299; ++i) stepper.step();
   CHECK(dBodyIsEnabled(world.grains()[0].body) == 0);
-  for (int i = 0; i * kStep < 0.2; ++i) stepper.step();
+  for (int i = 0; i * kStepOfWalls < 0.2; ++i) stepper.step();
   CHECK(speed(world, 2) == relative(0.05).epsilon(1e-3));
   CHECK(height(world) == relative(5e-3 + 0.05 * 0.199).epsilon(0.01));
 }
@@ -286,9 +286,9 @@ TEST_CASE("the floor below a piston carries the weights and the force") {
   const World world(scene, {at(5e-3)});
   Stepper stepper(world, scene);
   for (int i = 0; i < 2000; ++i) stepper.step();
-  const double grain = world.grains()[0].mass.mass * kGravity;
-  CHECK(load_on(world, stepper, world.walls().geoms()[0], 200) == relative(grain + 3 + 0.25 * kGravity).epsilon(1e-3));
-  CHECK(load_on(world, stepper, world.walls().geoms()[1], 200) == relative(-3 - 0.25 * kGravity).epsilon(1e-3));
+  const double grain = world.grains()[0].mass.mass * kFall;
+  CHECK(load_on(world, stepper, world.walls().geoms()[0], 200) == relative(grain + 3 + 0.25 * kFall).epsilon(1e-3));
+  CHECK(load_on(world, stepper, world.walls().geoms()[1], 200) == relative(-3 - 0.25 * kFall).epsilon(1e-3));
   const WallState state = world.walls().state(1);
   CHECK(state.pose.position.head<2>().norm() < 1e-15);
   CHECK(state.pose.rotation.angularDistance(Eigen::Quaterniond::Identity()) == 0);
@@ -304,12 +304,12 @@ TEST_CASE("a piston is held until its time, falls with its damping, and stops wh
   const World world(scene, {at(5e-3)});
   Stepper stepper(world, scene);
   const auto run = [&](double seconds) {
-    for (int i = 0; i < std::lround(seconds / kStep); ++i) stepper.step();
+    for (int i = 0; i < std::lround(seconds / kStepOfWalls); ++i) stepper.step();
     return world.walls().state(1);
   };
   CHECK(run(0.1).pose.position.z() == 0.5);
   // v = F / c (1 - exp(-c t / m)), with the weight in F.
-  const double speed = (3 + 0.25 * kGravity) / 5 * (1 - std::exp(-5 * 0.05 / 0.25));
+  const double speed = (3 + 0.25 * kFall) / 5 * (1 - std::exp(-5 * 0.05 / 0.25));
   CHECK(run(0.05).velocity.linear.z() == relative(-speed).epsilon(0.01));
   CHECK(run(1.5).pose.position.z() == relative(0.3).epsilon(1e-3));
 }

@@ -124,18 +124,18 @@ std::vector<Row> rows() {
           {"heightfields", lay_heightfields}};
 }
 
-enum class Kind { Ball, Ellipsoid, Brick, Can };
+enum class Faller { Ball, Ellipsoid, Brick, Can };
 
-dGeomID make_body(Kind kind) {
-  if (kind == Kind::Ball) return snCreateEllipsoid(nullptr, dReal(0.1), dReal(0.1), dReal(0.1));
-  if (kind == Kind::Ellipsoid) return snCreateEllipsoid(nullptr, dReal(0.13), dReal(0.09), dReal(0.06));
-  if (kind == Kind::Brick) return snCreateSuperellipsoid(nullptr, dReal(0.12), dReal(0.1), dReal(0.05), 60, 60);
+dGeomID make_body(Faller kind) {
+  if (kind == Faller::Ball) return snCreateEllipsoid(nullptr, dReal(0.1), dReal(0.1), dReal(0.1));
+  if (kind == Faller::Ellipsoid) return snCreateEllipsoid(nullptr, dReal(0.13), dReal(0.09), dReal(0.06));
+  if (kind == Faller::Brick) return snCreateSuperellipsoid(nullptr, dReal(0.12), dReal(0.1), dReal(0.05), 60, 60);
   return snCreateSuperellipsoid(nullptr, dReal(0.07), dReal(0.07), dReal(0.1), 2, 60);
 }
 
-double height_of(Kind kind) {
-  if (kind == Kind::Brick) return 0.05;
-  return kind == Kind::Ellipsoid ? 0.06 : 0.1;
+double height_of(Faller kind) {
+  if (kind == Faller::Brick) return 0.05;
+  return kind == Faller::Ellipsoid ? 0.06 : 0.1;
 }
 
 /// Rotates the body so that its z axis is the floor's normal.
@@ -201,7 +201,7 @@ TEST_CASE("a body anywhere on a floor with seams has the normal and the depth of
   for (const Row& row : rows()) {
     CAPTURE(row.name);
     const Floor floor = row.lay();
-    for (const Kind kind : {Kind::Ball, Kind::Ellipsoid, Kind::Brick, Kind::Can}) {
+    for (const Faller kind : {Faller::Ball, Faller::Ellipsoid, Faller::Brick, Faller::Can}) {
       CAPTURE(static_cast<int>(kind));
       const Geom body(make_body(kind));
       stand_on(floor, body);
@@ -240,7 +240,7 @@ TEST_CASE("a body slides over seams as it slides over a plane" * doctest::skip(k
   for (const Row& row : rows()) {
     CAPTURE(row.name);
     const Floor floor = row.lay();
-    for (const Kind kind : {Kind::Ball, Kind::Ellipsoid, Kind::Brick, Kind::Can}) {
+    for (const Faller kind : {Faller::Ball, Faller::Ellipsoid, Faller::Brick, Faller::Can}) {
       CAPTURE(static_cast<int>(kind));
       const Vec velocity = 1.3 * floor.along + 1.1 * floor.across;
       SlideOverSeams slide(floor, make_body(kind), height_of(kind), velocity);
@@ -260,7 +260,7 @@ TEST_CASE("a body slides over seams as it slides over a plane" * doctest::skip(k
 TEST_CASE("an overhanging body stays on the border of a sheet, and falls when its middle is beyond the border") {
   const OdeSession session;
   for (const double beyond : {-0.02, 0.02}) {
-    for (const Kind kind : {Kind::Ball, Kind::Brick, Kind::Can}) {
+    for (const Faller kind : {Faller::Ball, Faller::Brick, Faller::Can}) {
       CAPTURE(beyond);
       CAPTURE(static_cast<int>(kind));
       World world;
