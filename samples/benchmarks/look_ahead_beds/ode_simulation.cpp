@@ -1,11 +1,9 @@
-#include <ode/ode.h>
-#include <supernormal/supernormal.h>
-
 #include <array>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
 
+#include "common/ode_world.hpp"
 #include "simulation.hpp"
 
 namespace look_ahead_beds {
@@ -19,17 +17,13 @@ class OdeSimulation final : public Simulation {
  public:
   OdeSimulation(const Bed& bed, const Settings& settings, bool looks_ahead) : settings_(settings) {
     const auto step = static_cast<dReal>(settings.step);
-    dWorldSetGravity(world_, 0, 0, static_cast<dReal>(-kGravity));
-    dWorldSetQuickStepNumIterations(world_, settings.iterations);
-    dWorldSetContactMaxCorrectingVel(world_, static_cast<dReal>(kCorrectingVelocity));
+    dWorldSetGravity(world_.id(), 0, 0, static_cast<dReal>(-kGravity));
+    dWorldSetQuickStepNumIterations(world_.id(), settings.iterations);
+    dWorldSetContactMaxCorrectingVel(world_.id(), static_cast<dReal>(kCorrectingVelocity));
     dRandSetSeed(1);
     for (const Grain& grain : bed.grains) {
-      const dGeomID geom = create_geom(grains_, bed, grain);
-      dMass mass;
-      if (snMassSet(&mass, static_cast<dReal>(kDensity), geom) == 0) throw std::runtime_error(snLastError());
-      const dBodyID body = dBodyCreate(world_);
-      dBodySetMass(body, &mass);
-      dGeomSetBody(geom, body);
+      const dGeomID geom = create_geom(world_.space(), bed, grain);
+      const dBodyID body = world_.add(geom, kDensity);
       const Pose& start = grain.start;
       dBodySetPosition(body, static_cast<dReal>(start.position[0]), static_cast<dReal>(start.position[1]),
                        static_cast<dReal>(start.position[2]));
@@ -44,12 +38,7 @@ class OdeSimulation final : public Simulation {
     }
   }
 
-  ~OdeSimulation() override {
-    dJointGroupDestroy(joints_);
-    dSpaceDestroy(grains_);
-    dSpaceDestroy(walls_);
-    dWorldDestroy(world_);
-  }
+  ~OdeSimulation() override { dSpaceDestroy(walls_); }
 
   OdeSimulation(const OdeSimulation&) = delete;
   OdeSimulation(OdeSimulation&&) = delete;
@@ -59,12 +48,11 @@ class OdeSimulation final : public Simulation {
   void step() override {
     snResetStatistics();
     const double start = processor_time();
-    dSpaceCollide(grains_, this, near_callback);
-    const auto to_geom = [](dSpaceID space) { return reinterpret_cast<dGeomID>(space); };
-    dSpaceCollide2(to_geom(grains_), to_geom(walls_), this, near_callback);
+    const auto near = [this](dGeomID o1, dGeomID o2) { add_contacts(o1, o2); };
+    world_.collide(near);
+    world_.collide_with(walls_, near);
     const double found = processor_time();
-    dWorldQuickStep(world_, static_cast<dReal>(settings_.step));
-    dJointGroupEmpty(joints_);
+    world_.step(settings_.step);
     spent().finding += found - start;
     spent().solving += processor_time() - found;
     snStatistics statistics;
@@ -89,25 +77,22 @@ class OdeSimulation final : public Simulation {
   }
 
  private:
-  static void near_callback(void* self, dGeomID o1, dGeomID o2) {
-    OdeSimulation& world = *static_cast<OdeSimulation*>(self);
+  void add_contacts(dGeomID o1, dGeomID o2) {
     std::array<dContact, kMaxContacts> found;
     const int count = dCollide(o1, o2, kMaxContacts, &found[0].geom, sizeof(dContact));
     for (int i = 0; i < count; ++i) {
       dContact& contact = found[static_cast<std::size_t>(i)];
       contact.surface.mode = dContactApprox1;
       contact.surface.mu = static_cast<dReal>(kFriction);
-      snContactLookAhead(&contact, static_cast<dReal>(world.settings_.step));
-      dJointAttach(dJointCreateContact(world.world_, world.joints_, &contact), dGeomGetBody(o1), dGeomGetBody(o2));
+      snContactLookAhead(&contact, static_cast<dReal>(settings_.step));
+      world_.join(contact);
     }
-    world.spent().rows += kRowsOfContact * count * world.settings_.iterations;
+    spent().rows += kRowsOfContact * count * settings_.iterations;
   }
 
   Settings settings_;
-  dWorldID world_ = dWorldCreate();
-  dSpaceID grains_ = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
+  common::OdeWorld world_{dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ)};
   dSpaceID walls_ = dSimpleSpaceCreate(nullptr);
-  dJointGroupID joints_ = dJointGroupCreate(0);
   std::vector<dBodyID> bodies_;
 };
 

@@ -44,9 +44,9 @@ Vector3 vector_of(const dReal* v) { return {double{v[0]}, double{v[1]}, double{v
 }  // namespace
 
 Throw::Throw(const Setup& setup, bool is_disturbed) : setup_(setup) {
-  dWorldSetQuickStepNumIterations(world_, kIterations);
-  dWorldSetERP(world_, setup.has_friction ? kErrorReduction : 0);
-  if (setup.has_friction) dWorldSetGravity(world_, 0, 0, -kGravity);
+  dWorldSetQuickStepNumIterations(world_.id(), kIterations);
+  dWorldSetERP(world_.id(), setup.has_friction ? kErrorReduction : 0);
+  if (setup.has_friction) dWorldSetGravity(world_.id(), 0, 0, -kGravity);
   dRandSetSeed(1);
   place_bodies(is_disturbed);
   for (std::size_t body = 0; body < bodies(); ++body) {
@@ -56,12 +56,7 @@ Throw::Throw(const Setup& setup, bool is_disturbed) : setup_(setup) {
   }
 }
 
-Throw::~Throw() {
-  dJointGroupDestroy(joints_);
-  dSpaceDestroy(space_);
-  dSpaceDestroy(walls_);
-  dWorldDestroy(world_);
-}
+Throw::~Throw() { dSpaceDestroy(walls_); }
 
 void Throw::place_bodies(bool is_disturbed) {
   common::Random random(setup_.seed);
@@ -103,12 +98,8 @@ void Throw::place_bodies(bool is_disturbed) {
     } while (!is_free());
     poses.push_back(pose);
 
-    const dGeomID geom = create_geom(space_, *shapes_.back());
-    const dBodyID body = dBodyCreate(world_);
-    dMass mass;
-    if (snMassSet(&mass, kDensity, geom) == 0) throw std::runtime_error(snLastError());
-    dBodySetMass(body, &mass);
-    dGeomSetBody(geom, body);
+    const dGeomID geom = create_geom(world_.space(), *shapes_.back());
+    const dBodyID body = world_.add(geom, kDensity);
     numbers_.push_back(bodies_.size());
     dGeomSetData(geom, &numbers_.back());
     const Eigen::Quaterniond q(pose.rotation);
@@ -128,16 +119,13 @@ void Throw::place_bodies(bool is_disturbed) {
 
 const std::vector<Neighbours>& Throw::neighbours() {
   neighbours_.clear();
-  dSpaceCollide(space_, this, neighbour_callback);
+  const auto number = [](dGeomID geom) { return *static_cast<std::size_t*>(dGeomGetData(geom)); };
+  world_.collide([&](dGeomID geom1, dGeomID geom2) {
+    neighbours_.push_back({std::min(number(geom1), number(geom2)), std::max(number(geom1), number(geom2))});
+  });
   // In an order that does not depend on the broad phase.
   std::ranges::sort(neighbours_, {}, [](const Neighbours& pair) { return std::pair(pair.body1, pair.body2); });
   return neighbours_;
-}
-
-void Throw::neighbour_callback(void* self, dGeomID geom1, dGeomID geom2) {
-  const std::size_t body1 = *static_cast<std::size_t*>(dGeomGetData(geom1)),
-                    body2 = *static_cast<std::size_t*>(dGeomGetData(geom2));
-  static_cast<Throw*>(self)->neighbours_.push_back({std::min(body1, body2), std::max(body1, body2)});
 }
 
 void Throw::add_contact(dContact& contact, dBodyID body1, dBodyID body2) {
@@ -145,15 +133,14 @@ void Throw::add_contact(dContact& contact, dBodyID body1, dBodyID body2) {
   contact.surface.mu = setup_.has_friction ? kFriction : 0;
   contact.surface.bounce = 1;
   contact.surface.bounce_vel = 0;
-  dJointAttach(dJointCreateContact(world_, joints_, &contact), body1, body2);
+  world_.join(contact, body1, body2);
 }
 
-void Throw::wall_callback(void* self, dGeomID geom1, dGeomID geom2) {
-  Throw& world = *static_cast<Throw*>(self);
+void Throw::add_wall_contact(dGeomID geom1, dGeomID geom2) {
   dContact contact{};
   if (dCollide(geom1, geom2, 1, &contact.geom, sizeof contact) == 0) return;
-  world.touches_wall_ = true;
-  world.add_contact(contact, dGeomGetBody(geom1), dGeomGetBody(geom2));
+  touches_wall_ = true;
+  add_contact(contact, dGeomGetBody(geom1), dGeomGetBody(geom2));
 }
 
 void Throw::step(const std::vector<Touch>& touches) {
@@ -169,10 +156,8 @@ void Throw::step(const std::vector<Touch>& touches) {
     add_contact(contact, bodies_[neighbours_[k].body1], bodies_[neighbours_[k].body2]);
   }
   touches_wall_ = false;
-  const auto to_geom = [](dSpaceID space) { return reinterpret_cast<dGeomID>(space); };
-  dSpaceCollide2(to_geom(space_), to_geom(walls_), this, wall_callback);
-  dWorldQuickStep(world_, dReal(setup_.step));
-  dJointGroupEmpty(joints_);
+  world_.collide_with(walls_, [this](dGeomID geom1, dGeomID geom2) { add_wall_contact(geom1, geom2); });
+  world_.step(setup_.step);
   if (!touches_wall_ && !setup_.has_friction) momentum_drift_ = std::max(momentum_drift_, (momentum() - before).norm());
 }
 

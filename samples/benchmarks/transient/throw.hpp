@@ -1,13 +1,12 @@
 // Superellipsoids thrown into each other and into a box, in a world of ODE with any method for the pairs of bodies.
 #pragma once
 
-#include <ode/ode.h>
-
 #include <cstdint>
 #include <deque>
 #include <memory>
 #include <vector>
 
+#include "common/ode_world.hpp"
 #include "pairs.hpp"
 
 namespace transient {
@@ -59,17 +58,14 @@ class Throw {
   double momentum_scale() const { return momentum_scale_; }  ///< kg m/s; the sum over all bodies at the start
 
  private:
-  static void neighbour_callback(void* self, dGeomID geom1, dGeomID geom2);
-  static void wall_callback(void* self, dGeomID geom1, dGeomID geom2);
+  void add_wall_contact(dGeomID geom1, dGeomID geom2);
   void place_bodies(bool is_disturbed);
   void add_contact(dContact& contact, dBodyID body1, dBodyID body2);
   Vector3 momentum() const;
 
   Setup setup_;
-  dWorldID world_ = dWorldCreate();
-  dSpaceID space_ = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
+  common::OdeWorld world_{dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ)};
   dSpaceID walls_ = dSimpleSpaceCreate(nullptr);
-  dJointGroupID joints_ = dJointGroupCreate(0);
   std::vector<std::shared_ptr<const supernormal::Shape>> shapes_;
   std::vector<dBodyID> bodies_;
   std::deque<std::size_t> numbers_;  // numbers of the bodies; geoms refer to them

@@ -1,10 +1,7 @@
 #include "scenes.hpp"
 
-#include <supernormal/supernormal.h>
-
 #include <cmath>
 #include <random>
-#include <stdexcept>
 
 namespace quickstep_settings {
 namespace {
@@ -14,28 +11,19 @@ constexpr double kBoxy = 20;       // exponent
 
 }  // namespace
 
-Scene::Scene(double size) : size_(size), world_(dWorldCreate()), space_(dHashSpaceCreate(nullptr)) {
+Scene::Scene(double size) : size_(size), world_(dHashSpaceCreate(nullptr)) {
   const int level = static_cast<int>(std::ceil(std::log2(4 * size)));
-  dHashSpaceSetLevels(space_, level - 1, level + 1);
-  dWorldSetGravity(world_, 0, 0, dReal(-9.81));
-  dCreatePlane(space_, 0, 0, 1, 0);
+  dHashSpaceSetLevels(world_.space(), level - 1, level + 1);
+  dWorldSetGravity(world_.id(), 0, 0, dReal(-9.81));
+  dCreatePlane(world_.space(), 0, 0, 1, 0);
   dRandSetSeed(1);
-}
-
-Scene::~Scene() {
-  dSpaceDestroy(space_);
-  dWorldDestroy(world_);
 }
 
 void Scene::add(double exponent, double density, std::array<double, 3> position, std::array<double, 4> quaternion) {
   const auto [x, y, z] = position;
   const dGeomID geom =
-      snCreateSuperellipsoid(space_, dReal(2 * size_), dReal(1.4 * size_), dReal(size_), dReal(exponent), dReal(exponent));
-  dMass mass;
-  if (geom == nullptr || snMassSet(&mass, dReal(density), geom) == 0) throw std::runtime_error(snLastError());
-  const dBodyID body = dBodyCreate(world_);
-  dBodySetMass(body, &mass);
-  dGeomSetBody(geom, body);
+      snCreateSuperellipsoid(world_.space(), dReal(2 * size_), dReal(1.4 * size_), dReal(size_), dReal(exponent), dReal(exponent));
+  const dBodyID body = world_.add(geom, density);
   dBodySetPosition(body, dReal(size_ * x), dReal(size_ * y), dReal(size_ * z));
   dQuaternion q = {dReal(quaternion[0]), dReal(quaternion[1]), dReal(quaternion[2]), dReal(quaternion[3])};
   dNormalize4(q);
@@ -45,8 +33,8 @@ void Scene::add(double exponent, double density, std::array<double, 3> position,
 
 void Scene::add_walls(double half_width) {
   for (const double side : {-1.0, 1.0}) {
-    dCreatePlane(space_, dReal(-side), 0, 0, dReal(-half_width * size_));
-    dCreatePlane(space_, 0, dReal(-side), 0, dReal(-half_width * size_));
+    dCreatePlane(world_.space(), dReal(-side), 0, 0, dReal(-half_width * size_));
+    dCreatePlane(world_.space(), 0, dReal(-side), 0, dReal(-half_width * size_));
   }
 }
 

@@ -1,10 +1,10 @@
 // Small worlds for the settings.
 #pragma once
 
-#include <ode/ode.h>
-
 #include <array>
 #include <vector>
+
+#include "common/ode_world.hpp"
 
 namespace quickstep_settings {
 
@@ -13,26 +13,19 @@ class Scene {
  public:
   /// `size` is the smallest half-axis of the bodies, m.
   explicit Scene(double size);
-  ~Scene();
-  Scene(const Scene&) = delete;
-  Scene(Scene&&) = delete;
-  Scene& operator=(const Scene&) = delete;
-  Scene& operator=(Scene&&) = delete;
 
   /// A body with half-axes 2, 1.4 and 1 times the size, and equal exponents. Position in sizes, density in kg/m^3.
   void add(double exponent, double density, std::array<double, 3> position, std::array<double, 4> quaternion = {1, 0, 0, 0});
   void add_walls(double half_width);  ///< in sizes
 
-  dWorldID world() const { return world_; }
-  dSpaceID space() const { return space_; }
+  common::OdeWorld& world() { return world_; }
   const std::vector<dBodyID>& bodies() const { return bodies_; }
   double size() const { return size_; }
   double mass() const;  ///< kg, of the first body
 
  private:
   double size_;
-  dWorldID world_;
-  dSpaceID space_;
+  common::OdeWorld world_;
   std::vector<dBodyID> bodies_;
 };
 

@@ -1,7 +1,5 @@
 #include "trial.hpp"
 
-#include <supernormal/supernormal.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,8 +9,8 @@ namespace {
 
 constexpr int kContactsPerPair = 5;
 
-void apply(const Settings& s, const Scene& scene) {
-  const dWorldID world = scene.world();
+void apply(const Settings& s, Scene& scene) {
+  const dWorldID world = scene.world().id();
   dWorldSetQuickStepNumIterations(world, s.iterations);
   dWorldSetERP(world, dReal(s.erp));
   if (s.softness > 0) dWorldSetCFM(world, dReal(s.softness * s.step / scene.mass()));
@@ -28,31 +26,20 @@ void apply(const Settings& s, const Scene& scene) {
   }
 }
 
-struct Contacts {
-  dWorldID world;
-  dJointGroupID joints = dJointGroupCreate(0);
+/// Adds the contacts of a pair. Returns the depth of the deepest, m.
+double add_contacts(common::OdeWorld& world, dGeomID o1, dGeomID o2) {
+  std::array<dContact, kContactsPerPair> found;
+  const int count = dCollide(o1, o2, kContactsPerPair, &found[0].geom, sizeof(dContact));
   double deepest = 0;
-
-  explicit Contacts(dWorldID id) : world(id) {}
-  ~Contacts() { dJointGroupDestroy(joints); }
-  Contacts(const Contacts&) = delete;
-  Contacts(Contacts&&) = delete;
-  Contacts& operator=(const Contacts&) = delete;
-  Contacts& operator=(Contacts&&) = delete;
-
-  static void near_callback(void* self, dGeomID o1, dGeomID o2) {
-    Contacts& contacts = *static_cast<Contacts*>(self);
-    std::array<dContact, kContactsPerPair> found;
-    const int count = dCollide(o1, o2, kContactsPerPair, &found[0].geom, sizeof(dContact));
-    for (int i = 0; i < count; ++i) {
-      dContact& contact = found[static_cast<std::size_t>(i)];
-      contact.surface.mode = dContactApprox1;
-      contact.surface.mu = dReal(0.5);
-      contacts.deepest = std::max(contacts.deepest, double{contact.geom.depth});
-      dJointAttach(dJointCreateContact(contacts.world, contacts.joints, &contact), dGeomGetBody(o1), dGeomGetBody(o2));
-    }
+  for (int i = 0; i < count; ++i) {
+    dContact& contact = found[static_cast<std::size_t>(i)];
+    contact.surface.mode = dContactApprox1;
+    contact.surface.mu = dReal(0.5);
+    deepest = std::max(deepest, double{contact.geom.depth});
+    world.join(contact);
   }
-};
+  return deepest;
+}
 
 double mean_square_speed(const Scene& scene) {
   double sum = 0;
@@ -75,7 +62,6 @@ bool all_asleep(const Scene& scene) {
 
 Outcome run(Scene& scene, const Settings& settings, double time) {
   apply(settings, scene);
-  Contacts contacts(scene.world());
   std::vector<double> start;
   for (const dBodyID body : scene.bodies()) start.push_back(dBodyGetPosition(body)[2]);
   Outcome outcome{0, 0, -1, 0};
@@ -83,10 +69,9 @@ Outcome run(Scene& scene, const Settings& settings, double time) {
   int watched = 0;
   const int steps = static_cast<int>(std::lround(time / settings.step));
   for (int step = 1; step <= steps; ++step) {
-    contacts.deepest = 0;
-    dSpaceCollide(scene.space(), &contacts, Contacts::near_callback);
-    dWorldQuickStep(scene.world(), dReal(settings.step));
-    dJointGroupEmpty(contacts.joints);
+    double deepest = 0;  // m
+    scene.world().collide([&](dGeomID o1, dGeomID o2) { deepest = std::max(deepest, add_contacts(scene.world(), o1, o2)); });
+    scene.world().step(settings.step);
     for (std::size_t i = 0; i < start.size(); ++i) {
       outcome.rise = std::max(outcome.rise, (dBodyGetPosition(scene.bodies()[i])[2] - start[i]) / scene.size());
     }
@@ -98,7 +83,7 @@ Outcome run(Scene& scene, const Settings& settings, double time) {
     if (2 * step <= steps) continue;
     ++watched;
     squares += mean_square_speed(scene);
-    outcome.overlap = std::max(outcome.overlap, contacts.deepest / scene.size());
+    outcome.overlap = std::max(outcome.overlap, deepest / scene.size());
   }
   if (watched > 0) outcome.speed = std::sqrt(squares / watched);
   return outcome;

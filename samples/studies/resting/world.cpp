@@ -1,7 +1,5 @@
 #include "world.hpp"
 
-#include <supernormal/supernormal.h>
-
 #include <algorithm>
 #include <stdexcept>
 
@@ -15,15 +13,9 @@ constexpr int kMostRoom = 8;       // contacts
 }  // namespace
 
 World::World(dSpaceID space, double step, int room, bool looks_ahead)
-    : space_(space), step_(step), room_(room), looks_ahead_(looks_ahead) {
-  dWorldSetGravity(world_, 0, 0, static_cast<dReal>(-kGravity));
-  dWorldSetAutoDisableFlag(world_, 1);
-}
-
-World::~World() {
-  dJointGroupDestroy(joints_);
-  dSpaceDestroy(space_);
-  dWorldDestroy(world_);
+    : world_(space), step_(step), room_(room), looks_ahead_(looks_ahead) {
+  dWorldSetGravity(id(), 0, 0, static_cast<dReal>(-kGravity));
+  dWorldSetAutoDisableFlag(id(), 1);
 }
 
 dBodyID World::add(double exponent, const std::array<double, 3>& half_axes) {
@@ -33,42 +25,38 @@ dBodyID World::add(double exponent, const std::array<double, 3>& half_axes) {
   dMass mass;
   dGeomID geom = nullptr;
   if (exponent > 0) {
-    geom = snCreateSuperellipsoid(space_, a, b, c, static_cast<dReal>(exponent), static_cast<dReal>(exponent));
+    geom = snCreateSuperellipsoid(space(), a, b, c, static_cast<dReal>(exponent), static_cast<dReal>(exponent));
     if (geom == nullptr || snMassSet(&mass, static_cast<dReal>(kDensity), geom) == 0) throw std::runtime_error(snLastError());
   } else {
-    geom = dCreateBox(space_, 2 * a, 2 * b, 2 * c);
+    geom = dCreateBox(space(), 2 * a, 2 * b, 2 * c);
     dMassSetBox(&mass, static_cast<dReal>(kDensity), 2 * a, 2 * b, 2 * c);
   }
   return add(geom, mass);
 }
 
 dBodyID World::add(dGeomID geom, const dMass& mass) {
-  const dBodyID body = dBodyCreate(world_);
-  dBodySetMass(body, &mass);
-  dGeomSetBody(geom, body);
+  const dBodyID body = world_.add(geom, mass);
   if (looks_ahead_ && dGeomGetClass(geom) == snGeomClass()) snGeomSetLookAhead(geom, static_cast<dReal>(step_));
   return body;
 }
 
 void World::step(int number) {
   overlap_ = 0;
-  dSpaceCollide(space_, this, near_callback);
+  world_.collide([this](dGeomID o1, dGeomID o2) { add_contacts(o1, o2); });
   dRandSetSeed(static_cast<unsigned long>(number));
-  dWorldQuickStep(world_, static_cast<dReal>(step_));
-  dJointGroupEmpty(joints_);
+  world_.step(step_);
 }
 
-void World::near_callback(void* self, dGeomID o1, dGeomID o2) {
-  World& world = *static_cast<World*>(self);
+void World::add_contacts(dGeomID o1, dGeomID o2) {
   std::array<dContact, kMostRoom> found;
-  const int count = dCollide(o1, o2, world.room_, &found[0].geom, sizeof(dContact));
+  const int count = dCollide(o1, o2, room_, &found[0].geom, sizeof(dContact));
   for (int i = 0; i < count; ++i) {
     dContact& contact = found[static_cast<std::size_t>(i)];
     contact.surface.mode = dContactApprox1;
     contact.surface.mu = static_cast<dReal>(0.5);
-    world.overlap_ = std::max(world.overlap_, double{contact.geom.depth});
-    snContactLookAhead(&contact, static_cast<dReal>(world.step_));
-    dJointAttach(dJointCreateContact(world.world_, world.joints_, &contact), dGeomGetBody(o1), dGeomGetBody(o2));
+    overlap_ = std::max(overlap_, double{contact.geom.depth});
+    snContactLookAhead(&contact, static_cast<dReal>(step_));
+    world_.join(contact);
   }
 }
 

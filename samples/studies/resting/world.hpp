@@ -1,9 +1,9 @@
 // A world of falling bodies, set up as in a first program with ODE.
 #pragma once
 
-#include <ode/ode.h>
-
 #include <array>
+
+#include "common/ode_world.hpp"
 
 namespace resting {
 
@@ -13,14 +13,9 @@ class World {
   /// `space` is destroyed with the world. `step`: s. `room`: max_contacts, 1 to 8. With `looks_ahead` the bodies of Supernormal
   /// have contacts before they overlap.
   World(dSpaceID space, double step, int room, bool looks_ahead);
-  ~World();
-  World(const World&) = delete;
-  World(World&&) = delete;
-  World& operator=(const World&) = delete;
-  World& operator=(World&&) = delete;
 
-  dWorldID id() const { return world_; }
-  dSpaceID space() const { return space_; }
+  dWorldID id() const { return world_.id(); }
+  dSpaceID space() const { return world_.space(); }
 
   /// Adds a superellipsoid with this exponent in both sections, or a dBox if it is 0. Half-axes in m. Throws std::runtime_error.
   dBodyID add(double exponent, const std::array<double, 3>& half_axes);
@@ -35,11 +30,9 @@ class World {
   double overlap() const { return overlap_; }
 
  private:
-  static void near_callback(void* self, dGeomID o1, dGeomID o2);
+  void add_contacts(dGeomID o1, dGeomID o2);
 
-  dWorldID world_ = dWorldCreate();
-  dSpaceID space_;
-  dJointGroupID joints_ = dJointGroupCreate(0);
+  common::OdeWorld world_;
   double step_;
   int room_;
   bool looks_ahead_;

@@ -20,22 +20,12 @@ dMass mass_properties(dBodyID body) {
 }  // namespace
 
 Lab::Lab(const std::vector<fx::Effect>& effects, double step)
-    : step_(step),
-      world_(dWorldCreate()),
-      space_(dHashSpaceCreate(nullptr)),
-      joints_(dJointGroupCreate(0)),
-      effects_(effects, step) {
+    : step_(step), world_(dHashSpaceCreate(nullptr)), effects_(effects, step) {
   dRandSetSeed(1);  // quickstep shuffles its rows with ODE's global generator
-  effects_.set_up(world_);
+  effects_.set_up(world());
 }
 
-Lab::~Lab() {
-  dJointGroupDestroy(joints_);
-  dSpaceDestroy(space_);
-  dWorldDestroy(world_);
-}
-
-void Lab::add_floor() { dCreatePlane(space_, 0, 0, 1, 0); }
+void Lab::add_floor() { dCreatePlane(space(), 0, 0, 1, 0); }
 
 dBodyID Lab::add(dGeomID geom, double density) {
   dMass mass;
@@ -44,30 +34,22 @@ dBodyID Lab::add(dGeomID geom, double density) {
 }
 
 dBodyID Lab::add(dGeomID geom, const dMass& mass) {
-  const dBodyID body = dBodyCreate(world_);
-  dBodySetMass(body, &mass);
-  dGeomSetBody(geom, body);
+  const dBodyID body = world_.add(geom, mass);
   effects_.add_body(body);
   return body;
 }
 
 void Lab::step() {
-  dSpaceCollide(space_, this, near_callback);
+  world_.collide([this](dGeomID g1, dGeomID g2) { add_contacts(g1, g2); });
   effects_.apply_forces();
-  dWorldQuickStep(world_, real(step_));
-  dJointGroupEmpty(joints_);
+  world_.step(step_);
 }
 
-void Lab::near_callback(void* self, dGeomID g1, dGeomID g2) {
-  Lab& lab = *static_cast<Lab*>(self);
+void Lab::add_contacts(dGeomID g1, dGeomID g2) {
   std::array<dContact, kContactsPerPair> contacts;
   int count = dCollide(g1, g2, kContactsPerPair, &contacts[0].geom, sizeof(dContact));
-  count = lab.effects_.set_up_contacts(std::span(contacts).first(static_cast<std::size_t>(count)));
-  for (int i = 0; i < count; ++i) {
-    const dContact& contact = contacts[static_cast<std::size_t>(i)];
-    dJointAttach(dJointCreateContact(lab.world_, lab.joints_, &contact), dGeomGetBody(contact.geom.g1),
-                 dGeomGetBody(contact.geom.g2));
-  }
+  count = effects_.set_up_contacts(std::span(contacts).first(static_cast<std::size_t>(count)));
+  for (int i = 0; i < count; ++i) world_.join(contacts[static_cast<std::size_t>(i)]);
 }
 
 Vector3 position(dBodyID body) { return vector(dBodyGetPosition(body)); }

@@ -1,12 +1,12 @@
 // A plane, a few bodies and the effects of an experiment.
 #pragma once
 
-#include <supernormal/supernormal.h>
-
 #include <numbers>
 #include <string>
 #include <supernormal/effects.hpp>
 #include <vector>
+
+#include "common/ode_world.hpp"
 
 namespace single_bodies {
 
@@ -19,14 +19,9 @@ constexpr double kDegree = std::numbers::pi / 180;
 class Lab {
  public:
   Lab(const std::vector<fx::Effect>& effects, double step);
-  ~Lab();
-  Lab(const Lab&) = delete;
-  Lab(Lab&&) = delete;
-  Lab& operator=(const Lab&) = delete;
-  Lab& operator=(Lab&&) = delete;
 
-  dWorldID world() const { return world_; }
-  dSpaceID space() const { return space_; }
+  dWorldID world() const { return world_.id(); }
+  dSpaceID space() const { return world_.space(); }
   double step_length() const { return step_; }
 
   /// Adds the plane z = 0, with the friction of the effects.
@@ -37,12 +32,10 @@ class Lab {
   void step();
 
  private:
-  static void near_callback(void* self, dGeomID g1, dGeomID g2);
+  void add_contacts(dGeomID g1, dGeomID g2);
 
   double step_;
-  dWorldID world_;
-  dSpaceID space_;
-  dJointGroupID joints_;
+  common::OdeWorld world_;
   fx::Effects effects_;
 };
 

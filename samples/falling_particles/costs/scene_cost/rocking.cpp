@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "supernormal/supernormal.h"
+#include "common/ode_world.hpp"
 
 namespace scene_cost {
 namespace {
@@ -29,8 +29,8 @@ class Rocking {
  public:
   explicit Rocking(const GrainForm& form) : geom_(grain_maker(form, kEllipsoid)()), floor_(dCreateBox(nullptr, 2, 2, 1)) {
     dGeomSetPosition(floor_.id(), 0, 0, -0.5);
-    dWorldSetGravity(world_, 0, 0, -kGravity);
-    dWorldSetERP(world_, 0.8);  // the constraint acts on velocities: without ERP the centre lags behind the rising support
+    dWorldSetGravity(world_.id(), 0, 0, -kGravity);
+    dWorldSetERP(world_.id(), 0.8);  // the constraint acts on velocities: without ERP the centre lags behind the rising support
     const OdeGeom exact = grain_maker({}, kEllipsoid)();
     dMass mass;
     snMassSet(&mass, kDensity, exact.id());
@@ -41,12 +41,6 @@ class Rocking {
     dBodySetQuaternion(body_, orientation);
     dBodySetPosition(body_, 0, 0, std::hypot(kA * std::sin(kTilt), kC * std::cos(kTilt)));  // touching
   }
-  ~Rocking() {
-    dJointGroupDestroy(joints_);
-    dWorldDestroy(world_);
-  }
-  Rocking(const Rocking&) = delete;
-  Rocking& operator=(const Rocking&) = delete;
 
   /// Steps the world. Returns the angle about y, rad.
   double step() {
@@ -58,18 +52,16 @@ class Rocking {
       dContact contact{};
       contact.geom = found[static_cast<std::size_t>(k)];
       if (!(std::abs(dCalcVectorLength3(contact.geom.normal) - 1) < 1e-6)) continue;  // libccd makes such contacts
-      dJointAttach(dJointCreateContact(world_, joints_, &contact), dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
+      world_.join(contact);
     }
-    dWorldQuickStep(world_, kStep);
-    dJointGroupEmpty(joints_);
+    world_.step(kStep);
     const dReal* const q = dBodyGetQuaternion(body_);
     return 2 * std::atan2(q[2], q[0]);
   }
 
  private:
-  dWorldID world_ = dWorldCreate();
-  dBodyID body_ = dBodyCreate(world_);
-  dJointGroupID joints_ = dJointGroupCreate(0);
+  common::OdeWorld world_{nullptr};
+  dBodyID body_ = dBodyCreate(world_.id());
   OdeGeom geom_, floor_;
 };
 
