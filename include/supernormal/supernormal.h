@@ -199,7 +199,7 @@ SUPERNORMAL_ODE_API void snSetWarmStart(int on);
  *
  * dCollide takes velocities and forces from the bodies of the geoms (dGeomGetBody). A geom without a body stands still. dCollide
  * moves both without rotation to where they meet, and takes the normals there. So a body that flies past another has no contact
- * with it. A pair must come near enough: rotation, gravity, forces and one hundredth of the smallest half-extent increase the
+ * with it. A contact leaves a motion as it is in which gravity, forces and rotation keep the bodies apart. A pair must come near enough: rotation, gravity, forces and one hundredth of the smallest half-extent increase the
  * distance that counts as near. A pair uses the larger time of its two geoms. All classes except dRay have contacts ahead. On a
  * dTriMesh or dHeightfield the body slides from face to face.
  *

@@ -39,9 +39,9 @@ struct MotionAhead {
   Vector3 centre = Vector3::Zero();            ///< m; the centre of mass, in the frame that the pose refers to
   Matrix3 turning = Matrix3::Zero();           ///< 1/m^2; the mass times the inverse of the inertia tensor, in the same frame
   Vector3 angular_velocity = Vector3::Zero();  ///< rad/s; in the same frame
-  double arm = 0;           ///< m; an upper bound on the distance of the body's points from the centre of rotation
-  double acceleration = 0;  ///< m/s^2; an upper bound on the acceleration by gravity and known forces
-  double mobility = 0;      ///< 1/kg; the inverse of the mass; 0 for a body that does not move under a force
+  Vector3 acceleration = Vector3::Zero();      ///< m/s^2; by gravity and known forces
+  double arm = 0;       ///< m; an upper bound on the distance of the body's points from the centre of rotation
+  double mobility = 0;  ///< 1/kg; the inverse of the mass; 0 for a body that does not move under a force
 };
 
 /// m; how much nearer to another body a body may come within `time` (s) than its velocity predicts. Rotation and forces contribute,
@@ -66,6 +66,10 @@ struct BodyAhead {
 /// and transforms the gaps and places back to the present poses. So a body that flies past an edge has no contact with it, even if
 /// the present tangent planes are in its way. `now` is the proximity of the two bodies at their poses, with settings that do not
 /// stop when the bodies are apart. lib/contact/README.md has the construction.
+///
+/// Gravity bends the path of a body, and rotation the paths of its points. If such a contact would hold back bodies that do not
+/// meet within the time, by their velocities after the accelerations and by their rotation, the contacts are those at the end of
+/// this motion. They leave it as it is.
 ///
 /// An impact might rotate a body by a large angle within the time. Such a contact is moved towards the line through the centre of
 /// mass, so that the rotation is small. The reason is that contacts are linear in the motion: a contact at the end of a body would

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/ahead/free_motion.hpp"
 #include "contact/ahead/meeting.hpp"
 #include "contact/ahead/nearness.hpp"
 #include "contact/ahead/small_rotation.hpp"
@@ -70,7 +71,7 @@ ContactManifold find_contacts_ahead(const BodyAhead& body1, const BodyAhead& bod
   if (body1.motion.mobility > 0 && body2.motion.mobility > 0) {
     act_between_centres(body1, body2, time, share, meeting.time, manifold);
   }
-  return manifold;
+  return find_contacts_after_free_motion(body1, body2, time, share, settings, now, manifold).value_or(manifold);
 }
 
 // The tangent plane does not depend on the position of the body, and its gap shrinks linearly: no impact search is needed.
@@ -84,7 +85,7 @@ ContactManifold find_plane_contacts_ahead(const BodyAhead& body, double time, co
   ContactManifold manifold = find_plane_manifold_of_gaps(body.shape, body.pose, now, tilt);
   manifold.reach = reach;
   limit_rotation(body, {body.shape, body.pose, {}}, time, 1, manifold);
-  return manifold;
+  return find_plane_contacts_after_free_motion(body, time, now, manifold).value_or(manifold);
 }
 
 }  // namespace supernormal

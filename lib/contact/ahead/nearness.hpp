@@ -19,17 +19,21 @@ inline double shift_by_rotation(const MotionAhead& motion, double time) {
   return motion.arm * std::min(2.0, motion.angular_velocity.norm() * time);
 }
 
+/// How much faster two bodies may approach after `time`, m/s. One of two falling bodies may be held by others.
+inline double gained_speed(const MotionAhead& motion1, const MotionAhead& motion2, double time) {
+  return time * std::max(motion1.acceleration.norm(), motion2.acceleration.norm());
+}
+
 /// How much more than by their velocities two bodies may approach within `time`, m.
 inline double nearness_of_both(const MotionAhead& motion1, const MotionAhead& motion2, double time, double size) {
-  const double acceleration = std::max(motion1.acceleration, motion2.acceleration);
-  return shift_by_rotation(motion1, time) + shift_by_rotation(motion2, time) + acceleration * time * time + kSlack * size;
+  return shift_by_rotation(motion1, time) + shift_by_rotation(motion2, time) + gained_speed(motion1, motion2, time) * time +
+         kSlack * size;
 }
 
 /// How far two bodies would overlap after `time` without contact forces, along the unit normal from body 1 to body 2, m. Negative:
 /// they stay apart.
 inline double approach_of(const MotionAhead& motion1, const MotionAhead& motion2, double time, const Vector3& normal, double gap) {
-  const double gained = time * std::max(motion1.acceleration, motion2.acceleration);
-  return (normal.dot(motion1.velocity - motion2.velocity) + gained) * time - gap;
+  return (normal.dot(motion1.velocity - motion2.velocity) + gained_speed(motion1, motion2, time)) * time - gap;
 }
 
 /// The tilt of the manifold points on which the bodies may land within `time`, rad. An impulse that stops an `approach` (m) at one
@@ -42,7 +46,7 @@ inline double tilt_ahead(const MotionAhead& motion1, const MotionAhead& motion2,
 
 inline bool is_finite(const MotionAhead& motion) {
   return motion.velocity.allFinite() && motion.centre.allFinite() && motion.turning.allFinite() &&
-         motion.angular_velocity.allFinite() && std::isfinite(motion.arm) && std::isfinite(motion.acceleration) &&
+         motion.angular_velocity.allFinite() && motion.acceleration.allFinite() && std::isfinite(motion.arm) &&
          std::isfinite(motion.mobility);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/ahead/nearness.hpp"
 #include "contact/manifold/convex_polygon.hpp"
 #include "proximity/tangent_plane.hpp"
 #include "supernormal/contact/body_box.hpp"
@@ -60,7 +61,7 @@ class LeverLimit {
         time_(time),
         normal_(contact.normal),
         gap_(std::max(0.0, contact.gap)),
-        gained_(time * std::max(body1.motion.acceleration, body2.motion.acceleration)),
+        gained_(gained_speed(body1.motion, body2.motion, time)),
         centre_(share * body1.motion.centre + (1 - share) * body2.motion.centre),
         turning_(share * body1.motion.turning + (1 - share) * body2.motion.turning),
         rotation_(time * (share * body1.motion.angular_velocity - (1 - share) * body2.motion.angular_velocity)),

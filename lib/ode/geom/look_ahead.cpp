@@ -31,7 +31,7 @@ void require_in_range(const MotionAhead& motion, dGeomID geom) {
   };
   within("angular velocity", motion.angular_velocity, "rad/s");
   within("velocity", motion.velocity, "m/s");
-  within("acceleration", Vector3::Constant(motion.acceleration), "m/s^2");
+  within("acceleration", motion.acceleration, "m/s^2");
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius) 
   const Vector3 from_centre = origin - motion.centre;
   motion.velocity = to_vector(dBodyGetLinearVel(body)) + motion.angular_velocity.cross(from_centre);
   motion.arm = radius + 2 * from_centre.norm();
-  if (motion.mobility > 0) motion.acceleration = acceleration_of(body, mass).norm();
+  if (motion.mobility > 0) motion.acceleration = acceleration_of(body, mass);
   require_in_range(motion, geom);
   return motion;
 }

@@ -56,6 +56,28 @@ bool has_contact(const ContactManifold& manifold) {
   return manifold.deepest.status != Status::Apart && manifold.deepest.gap <= manifold.reach;
 }
 
+/// How much of the motion without contact forces the contacts of a body with a wall at rest take away, m.
+double taken_away(const BodyAhead& body, const ContactManifold& manifold) {
+  if (!has_contact(manifold)) return 0;
+  double most = 0;
+  const auto look_at = [&](const Vector3& place, double gap) {
+    const Vector3 turning = body.motion.angular_velocity.cross(place - body.motion.centre);
+    const Vector3 velocity = body.motion.velocity + turning + kTime * body.motion.acceleration;
+    most = std::max(most, kTime * velocity.dot(manifold.deepest.normal) - gap);
+  };
+  if (manifold.corner_count == 0) look_at(manifold.deepest.contact, manifold.deepest.gap);
+  for (int k = 0; k < manifold.corner_count; ++k) {
+    const ManifoldCorner& corner = manifold.corners[static_cast<std::size_t>(k)];
+    look_at(corner.point, -corner.depth);
+  }
+  return most;
+}
+
+/// The contacts with the half-space z <= 0.
+ContactManifold find_on_plane(const BodyAhead& body) {
+  return find_plane_contacts_ahead(body, kTime, find_plane_proximity(body.shape, body.pose, Vector3::UnitZ(), 0));
+}
+
 }  // namespace
 
 TEST_CASE("a ball that flies at a wall has one contact on the ball, with the present gap and the wall's normal") {
@@ -159,6 +181,83 @@ TEST_CASE("a fast impact at one end acts nearer to the centre of mass") {
     CHECK(lever <= before + 1e-12);
     CHECK(before - lever < 0.1 * free);
     before = lever;
+  }
+}
+
+TEST_CASE("a blade that turns beside a wall and does not reach it is free, and one that reaches it is not") {
+  constexpr double kLength = 0.2;  // m
+  const Ellipsoid round(Vector3(kLength, 0.02, 0.05));
+  const Superellipsoid flat(Vector3(kLength, 0.02, 0.05), 8, 8);
+  const Box block(Vector3(1, 1, 0.5));
+  const BodyAhead wall = standing(block, {Vector3(0, 0, -0.5), Matrix3::Identity()});
+  Random random(3);
+  for (const Shape* shape : {static_cast<const Shape*>(&round), static_cast<const Shape*>(&flat)}) {
+    double longest = 0;
+    for (int k = 0; k < 1000; ++k) {
+      const Vector3 down(std::cos(1e-3 * k), std::sin(1e-3 * k), 0);
+      longest = std::max(longest, shape->support(down));
+    }
+    int held = 0;
+    for (int draw = 0; draw < 500; ++draw) {
+      const double clearance = longest * std::pow(10, uniform(random, -4, -1));
+      const double turn = std::pow(10, uniform(random, -2, 0));
+      const double angle = uniform(random, 0.5, 2.5);
+      // The blade turns about the y axis of the world, its thin axis lies in the plane of the rotation.
+      Matrix3 axes;
+      axes << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+      const Matrix3 rotation = Eigen::AngleAxisd(angle, Vector3::UnitY()).toRotationMatrix() * axes;
+      BodyAhead body = moving(*shape, {Vector3(0, 0, longest + clearance), rotation}, Vector3::Zero());
+      body.motion.angular_velocity = Vector3(0, turn / kTime, 0);
+      body.motion.arm = shape->bounding_radius();
+      CHECK(taken_away(body, find_on_plane(body)) < 1e-9 * longest);
+      CHECK(taken_away(body, find(body, wall)) < 1e-9 * longest);
+      body.pose.position.z() = body.motion.centre.z() = 0.7 * longest;
+      held += taken_away(body, find_on_plane(body)) > 0 && taken_away(body, find(body, wall)) > 0 ? 1 : 0;
+    }
+    CHECK(held > 50);
+  }
+}
+
+TEST_CASE("a ball that falls past an edge is free, and one that falls on it is not") {
+  for (const double size : {0.001, 0.003, 0.01, 0.1}) {
+    const Ellipsoid ball(Vector3::Constant(size));
+    const Box block(Vector3::Constant(2 * size));
+    const BodyAhead ledge = standing(block, {Vector3(-2 * size, 0, -2 * size), Matrix3::Identity()});  // its edge is x = z = 0
+    int held = 0;
+    for (int height = 0; height < 60; ++height) {
+      for (const double speed : {0.0, 0.3, 1.0}) {
+        const auto falling = [&](double beside) {
+          BodyAhead body = moving(ball, {Vector3(beside, 0, 0.05 * height * size), Matrix3::Identity()}, Vector3(0, 0, -speed));
+          body.motion.acceleration = Vector3(0, 0, -9.81);
+          return body;
+        };
+        const BodyAhead past = falling(1.001 * size);
+        CHECK(taken_away(past, find(past, ledge)) < 1e-9 * size);
+        const BodyAhead on = falling(0.7 * size);
+        held += taken_away(on, find(on, ledge)) > 0 ? 1 : 0;
+      }
+    }
+    CHECK(held > 5);
+  }
+}
+
+TEST_CASE("a ball that rolls or spins is borne under its centre") {
+  const Ellipsoid ball(Vector3::Constant(0.05));
+  const Box block(Vector3(1, 1, 0.5));
+  const BodyAhead floor = standing(block, {Vector3(0, 0, -0.5), Matrix3::Identity()});
+  for (const double gap : {0.0, 1e-9, 1e-6}) {
+    for (const double turn : {0.1, 1.2, 6.0}) {
+      BodyAhead body = moving(ball, {Vector3(0, 0, 0.05 + gap), Matrix3::Identity()}, Vector3(0.05 * turn / kTime, 0, 0));
+      body.motion.acceleration = Vector3(0, 0, -9.81);
+      body.motion.angular_velocity = Vector3(0, turn / kTime, 0);
+      body.motion.arm = 0.05;
+      for (const ContactManifold& manifold : {find_on_plane(body), find(body, floor)}) {
+        REQUIRE(has_contact(manifold));
+        CHECK((manifold.deepest.normal + Vector3::UnitZ()).norm() < 1e-6);
+        CHECK(manifold.deepest.contact.head<2>().norm() < 1e-7);
+        CHECK(manifold.deepest.gap == doctest::Approx(gap).epsilon(1e-6).scale(1e-3));
+      }
+    }
   }
 }
 

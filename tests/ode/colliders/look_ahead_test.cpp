@@ -270,6 +270,53 @@ TEST_CASE("bodies that fly by with a clearance of a thousandth of the size keep 
   }
 }
 
+TEST_CASE("a blade that turns beside a wall it does not reach keeps its speed, on a hinge and free") {
+  OdeSession session;
+  constexpr double kLength = 0.2;  // m
+  for (const bool on_hinge : {true, false}) {
+    for (const double clearance : {0.001, 0.01}) {
+      for (const double step : {0.005, 0.02}) {
+        CAPTURE(on_hinge);
+        CAPTURE(clearance);
+        CAPTURE(step);
+        World world;
+        dWorldSetGravity(world.id(), 0, 0, 0);
+        dCreatePlane(world.space(), -1, 0, 0, dReal(-kLength - clearance));
+        const dGeomID geom = snCreateEllipsoid(world.space(), kLength, 0.02, 0.05);
+        const dBodyID body = world.add(geom, 7800);
+        if (on_hinge) {
+          const dJointID hinge = dJointCreateHinge(world.id(), nullptr);
+          dJointAttach(hinge, body, nullptr);
+          dJointSetHingeAxis(hinge, 0, 0, 1);
+        }
+        constexpr double kSpeed = 31.4;  // rad/s
+        dBodySetAngularVel(body, 0, 0, kSpeed);
+        REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
+        for (double time = 0; time < 0.5; time += step) world.quick_step(step);
+        CHECK(std::abs(double{dBodyGetAngularVel(body)[2]} / kSpeed - 1) < within_rounding(1e-6, 1));
+      }
+    }
+  }
+}
+
+TEST_CASE("a ball that falls past an edge is not thrown aside, at steps in which it falls by its size") {
+  OdeSession session;
+  for (const double size : {0.001, 0.01, 0.1}) {
+    for (const double step : {0.005, 0.01, 0.02, 0.05}) {
+      for (int height = 0; height < 40; height += 3) {
+        World world;
+        dCreateBox(world.space(), dReal(2 * size), dReal(4 * size), dReal(2 * size));
+        const dGeomID geom = snCreateEllipsoid(world.space(), dReal(size), dReal(size), dReal(size));
+        const dBodyID body = world.add(geom, 2500);
+        dBodySetPosition(body, dReal(2.01 * size), 0, dReal(size * (2.2 + 0.1 * height)));
+        REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
+        for (int k = 0; k < 200 && dBodyGetPosition(body)[2] > -3 * size; ++k) world.quick_step(step);
+        CHECK(std::abs(double{dBodyGetLinearVel(body)[0]}) < 1e-9);
+      }
+    }
+  }
+}
+
 TEST_CASE("bodies dropped on a plane, a box and a sheet rest at their height at steps of 2 to 100 ms") {
   OdeSession session;
   for (const Wall wall : {Wall::Plane, Wall::Box, Wall::Mesh}) {

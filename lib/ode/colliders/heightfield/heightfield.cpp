@@ -141,6 +141,8 @@ MotionAhead in_frame(MotionAhead world, const Pose& frame) {
   world.velocity = to_frame * world.velocity;
   world.centre = to_frame * (world.centre - frame.position);
   world.turning = to_frame * world.turning * frame.rotation;
+  world.angular_velocity = to_frame * world.angular_velocity;
+  world.acceleration = to_frame * world.acceleration;
   return world;
 }
 
