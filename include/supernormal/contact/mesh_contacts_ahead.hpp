@@ -47,6 +47,8 @@ class SUPERNORMAL_API MeshContactsAhead {
   struct Search;
 
   SUPERNORMAL_LOCAL bool holds_back(const Vector3& velocity) const;
+  SUPERNORMAL_LOCAL void leave_free_motion(const Search& search);
+  SUPERNORMAL_LOCAL bool is_in_surface(const Search& search, const Pose& pose, const Vector3& normal);
   SUPERNORMAL_LOCAL void add_overlaps(const Search& search);
   SUPERNORMAL_LOCAL void add_contacts(const Search& search, const Vector3& way);
   SUPERNORMAL_LOCAL bool is_apart_now(const Search& search, std::span<const MeshContact> of_sweep);

@@ -11,80 +11,55 @@
 #include "supernormal/proximity/solve.hpp"
 
 namespace supernormal {
-namespace {
 
-/// The motions of two bodies without contact forces. A step of ODE moves a body with the velocity that it has after the step.
-class FreeMotion {
- public:
-  FreeMotion(const BodyAhead& body1, const BodyAhead& body2, double time)
-      : time_(time), start1_(body1.pose.position), start2_(body2.pose.position), motion1_(of(body1)), motion2_(of(body2)) {}
-
-  const Motion& motion1() const { return motion1_; }
-  const Motion& motion2() const { return motion2_; }
-  Pose end1() const { return pose_at(motion1_, time_); }
-  Pose end2() const { return pose_at(motion2_, time_); }
-
-  /// How much the bodies approach at `place`, linear in the motion as a row of contact forces is, m.
-  double closed_at(const Vector3& place, const Vector3& normal) const {
-    const Vector3 displacement1 = motion1_.velocity + motion1_.angular_velocity.cross(place - centre1());
-    const Vector3 displacement2 = motion2_.velocity + motion2_.angular_velocity.cross(place - centre2());
-    return time_ * normal.dot(displacement1 - displacement2);
-  }
-
-  /// Whether a contact takes more than `negligible` (m) away.
-  bool is_restricted_by(const ContactManifold& contacts, double negligible) const {
-    const Vector3& normal = contacts.deepest.normal;
-    const auto restricts = [&](const Vector3& place, double gap) { return closed_at(place, normal) - gap > negligible; };
-    if (contacts.corner_count == 0) return restricts(contacts.deepest.contact, contacts.deepest.gap);
-    const auto end = contacts.corners.begin() + contacts.corner_count;
-    return std::any_of(contacts.corners.begin(), end, [&](const ManifoldCorner& it) { return restricts(it.point, -it.depth); });
-  }
-
-  /// Moves contacts at the end of the motion back to the present poses. Their lever arms stay: so a ball that rolls bears its
-  /// weight under its centre.
-  void take_back(double share, ContactManifold& contacts) const {
-    const Vector3 displacement = time_ * (share * motion1_.velocity + (1 - share) * motion2_.velocity);
-    Proximity& deepest = contacts.deepest;
-    const auto gap_now = [&](const Vector3& place, double gap) { return std::max(0.0, gap + closed_at(place, deepest.normal)); };
-    deepest.point1 -= time_ * motion1_.velocity;
-    deepest.point2 -= time_ * motion2_.velocity;
-    deepest.contact -= displacement;
-    deepest.gap = gap_now(deepest.contact, deepest.gap);
-    for (ManifoldCorner& corner : contacts.corners) {
-      corner.point -= displacement;
-      corner.depth = -gap_now(corner.point, -corner.depth);
-    }
-  }
-
- private:
-  Motion of(const BodyAhead& body) const {
-    const MotionAhead& motion = body.motion;
-    const Vector3 to_centre = motion.centre - body.pose.position;
-    return {body.pose, motion.velocity + time_ * motion.acceleration + motion.angular_velocity.cross(to_centre),
-            motion.angular_velocity, body.pose.rotation.transpose() * to_centre};
-  }
-
-  Vector3 centre1() const { return start1_ + motion1_.pose.rotation * motion1_.centre; }
-  Vector3 centre2() const { return start2_ + motion2_.pose.rotation * motion2_.centre; }
-
-  double time_;  // s
-  Vector3 start1_, start2_;
-  Motion motion1_, motion2_;
-};
-
-/// Whether the free motion differs from a motion along the velocities.
-bool bends(const MotionAhead& motion1, const MotionAhead& motion2) {
-  return motion1.acceleration != motion2.acceleration || !motion1.angular_velocity.isZero(0) || !motion2.angular_velocity.isZero(0);
+FreeMotion::FreeMotion(const BodyAhead& body1, const BodyAhead& body2, double time)
+    : time_(time), centre1_(body1.motion.centre), centre2_(body2.motion.centre), motion1_(of(body1)), motion2_(of(body2)) {
+  const bool rotates = !body1.motion.angular_velocity.isZero(0) || !body2.motion.angular_velocity.isZero(0);
+  bends_ = rotates || body1.motion.acceleration != body2.motion.acceleration;
 }
 
-}  // namespace
+Motion FreeMotion::of(const BodyAhead& body) const {
+  const MotionAhead& motion = body.motion;
+  const Vector3 to_centre = motion.centre - body.pose.position;
+  return {body.pose, motion.velocity + time_ * motion.acceleration + motion.angular_velocity.cross(to_centre),
+          motion.angular_velocity, body.pose.rotation.transpose() * to_centre};
+}
+
+double FreeMotion::closed_at(const Vector3& place, const Vector3& normal) const {
+  const Vector3 velocity1 = motion1_.velocity + motion1_.angular_velocity.cross(place - centre1_);
+  const Vector3 velocity2 = motion2_.velocity + motion2_.angular_velocity.cross(place - centre2_);
+  return time_ * normal.dot(velocity1 - velocity2);
+}
+
+bool FreeMotion::is_held_back_by(const ContactManifold& contacts, double negligible) const {
+  if (!bends_) return false;
+  const Vector3& normal = contacts.deepest.normal;
+  const auto holds = [&](const Vector3& place, double gap) { return closed_at(place, normal) - gap > negligible; };
+  if (contacts.corner_count == 0) return holds(contacts.deepest.contact, contacts.deepest.gap);
+  const auto end = contacts.corners.begin() + contacts.corner_count;
+  return std::any_of(contacts.corners.begin(), end, [&](const ManifoldCorner& it) { return holds(it.point, -it.depth); });
+}
+
+void FreeMotion::take_back(double share, ContactManifold& contacts) const {
+  const Vector3 displacement = time_ * (share * motion1_.velocity + (1 - share) * motion2_.velocity);
+  Proximity& deepest = contacts.deepest;
+  const auto gap_now = [&](const Vector3& place, double gap) { return std::max(0.0, gap + closed_at(place, deepest.normal)); };
+  deepest.point1 -= time_ * motion1_.velocity;
+  deepest.point2 -= time_ * motion2_.velocity;
+  deepest.contact -= displacement;
+  deepest.gap = gap_now(deepest.contact, deepest.gap);
+  for (ManifoldCorner& corner : contacts.corners) {
+    corner.point -= displacement;
+    corner.depth = -gap_now(corner.point, -corner.depth);
+  }
+}
 
 std::optional<ContactManifold> find_contacts_after_free_motion(const BodyAhead& body1, const BodyAhead& body2, double time,
                                                                double share, const Settings& settings, const Proximity& now,
                                                                const ContactManifold& ahead) {
-  if (!(now.gap > 0) || !bends(body1.motion, body2.motion)) return std::nullopt;
+  if (!(now.gap > 0)) return std::nullopt;
   const FreeMotion free(body1, body2, time);
-  if (!free.is_restricted_by(ahead, now.error)) return std::nullopt;
+  if (!free.is_held_back_by(ahead, now.error)) return std::nullopt;
   const Pose end1 = free.end1(), end2 = free.end2();
   const Vector3 normal = end1.rotation.transpose() * ahead.deepest.normal;
   const Proximity there = find_proximity(body1.shape, end1, body2.shape, end2, settings, &normal);
@@ -103,7 +78,7 @@ std::optional<ContactManifold> find_plane_contacts_after_free_motion(const BodyA
                                                                      const ContactManifold& ahead) {
   if (!(now.gap > 0) || body.motion.angular_velocity.isZero(0)) return std::nullopt;
   const FreeMotion free(body, {body.shape, body.pose, {}}, time);
-  if (!free.is_restricted_by(ahead, now.error)) return std::nullopt;
+  if (!free.is_held_back_by(ahead, now.error)) return std::nullopt;
   const Vector3 upwards = -now.normal;
   const double offset = upwards.dot(now.point2);
   const Pose end = free.end1();

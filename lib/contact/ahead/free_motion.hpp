@@ -4,8 +4,39 @@
 #include <optional>
 
 #include "supernormal/contact/contacts_ahead.hpp"
+#include "supernormal/impact/motion.hpp"
 
 namespace supernormal {
+
+/// The motions of two bodies within a step without contact forces. A step of ODE moves a body with the velocity that it has after
+/// the step.
+class FreeMotion {
+ public:
+  FreeMotion(const BodyAhead& body1, const BodyAhead& body2, double time);
+
+  const Motion& motion1() const { return motion1_; }
+  const Motion& motion2() const { return motion2_; }
+  Pose end1() const { return pose_at(motion1_, time_); }
+  Pose end2() const { return pose_at(motion2_, time_); }
+
+  /// Whether a contact takes more than `negligible` (m) of the approach away, although the paths are not those of the velocities.
+  bool is_held_back_by(const ContactManifold& contacts, double negligible) const;
+
+  /// Moves contacts at the end of the motion back to the present poses, with gaps of which the motion leaves what it leaves. Their
+  /// lever arms stay: so a ball that rolls bears its weight under its centre. `share` is the share of body 1 in the mobilities.
+  void take_back(double share, ContactManifold& contacts) const;
+
+ private:
+  Motion of(const BodyAhead& body) const;
+
+  /// How much the bodies approach at `place`, linear in the motion as a row of contact forces is, m.
+  double closed_at(const Vector3& place, const Vector3& normal) const;
+
+  double time_;  // s
+  Vector3 centre1_, centre2_;
+  Motion motion1_, motion2_;
+  bool bends_;  // whether it differs from the motion along the velocities
+};
 
 /// The contacts at the end of the free motion, the motion within `time` (s) without contact forces. Empty if the contacts `ahead`
 /// leave this motion as it is, or if the bodies meet during it. `share` is the share of body 1 in the mobilities.

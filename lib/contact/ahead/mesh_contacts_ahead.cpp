@@ -5,10 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/ahead/free_motion.hpp"
 #include "contact/ahead/meeting.hpp"
 #include "contact/ahead/nearness.hpp"
 #include "contact/ahead/small_rotation.hpp"
 #include "contact/mesh/mesh_triangle.hpp"
+#include "supernormal/impact/mesh_time_of_impact.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/rounded.hpp"
@@ -184,6 +186,7 @@ std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, con
       if (gap_there <= 0) there.motion.velocity = along_wall(there.motion.velocity, manifold.deepest.normal);
     }
   }
+  leave_free_motion(search);
   std::sort(found_.begin(), found_.end(), [](const MeshManifold& one, const MeshManifold& other) {
     const double gap1 = one.manifold.deepest.gap, gap2 = other.manifold.deepest.gap;
     return gap1 != gap2 ? gap1 < gap2 : one.triangle < other.triangle;
@@ -196,6 +199,52 @@ bool MeshContactsAhead::holds_back(const Vector3& velocity) const {
   return std::any_of(found_.begin(), found_.end(), [&](const MeshManifold& found) {
     return found.manifold.deepest.normal.dot(velocity) > kAlong * velocity.norm();
   });
+}
+
+/// Replaces the contacts that take something away from the free motion by the contact at its end, if the body does not meet the
+/// surface.
+void MeshContactsAhead::leave_free_motion(const Search& search) {
+  const BodyAhead& body = search.now;
+  const FreeMotion free(body, {body.shape, body.pose, search.surface}, search.time);
+  const double negligible = search.settings.tolerance * search.size;
+  const auto holds_back = [&](const MeshManifold& found) { return free.is_held_back_by(found.manifold, negligible); };
+  if (std::none_of(found_.begin(), found_.end(), holds_back)) return;
+  const Motion surface{{}, free.motion2().velocity, free.motion2().angular_velocity, search.surface.centre};
+  const Pose frame = pose_at(surface, search.time);  // of the surface, at the end
+  const Pose end = free.end1();
+  const Pose there{frame.rotation.transpose() * (end.position - frame.position), frame.rotation.transpose() * end.rotation};
+  for (const MeshManifold& found : found_) {
+    if (!holds_back(found)) continue;
+    if (found.manifold.deepest.gap <= 0 || is_in_surface(search, there, found.manifold.deepest.normal)) return;
+  }
+  MeshContact nearest = find_nearest_triangle(body.shape, there, search.triangles, search.settings);
+  evaluations_ += nearest.proximity.evaluations;
+  if (nearest.proximity.status == Status::InvalidInput || !(nearest.proximity.gap > 0)) return;
+  const Impact impact =
+      find_mesh_time_of_impact(body.shape, free.motion1(), search.triangles, surface, search.time, search.settings).impact;
+  evaluations_ += impact.evaluations;
+  if (impact.may_hit()) return;
+  std::erase_if(found_, holds_back);
+  nearest.proximity.contact += (0.5 - search.share) * nearest.proximity.gap * nearest.proximity.normal;
+  ContactManifold manifold = find_plane_manifold_of_gaps(body.shape, there, nearest.proximity);
+  draw_in_corners(manifold, search.triangles);
+  const auto to_end = [&](Vector3& place) { place = frame.rotation * place + frame.position; };
+  manifold.deepest.normal = frame.rotation * manifold.deepest.normal;
+  for (Vector3* place : {&manifold.deepest.point1, &manifold.deepest.point2, &manifold.deepest.contact}) to_end(*place);
+  for (ManifoldCorner& corner : manifold.corners) to_end(corner.point);
+  free.take_back(search.share, manifold);
+  manifold.reach = search.reach;
+  found_.push_back({manifold, nearest.triangle});
+}
+
+/// Whether a triangle is between the deepest and the highest point of the body: a proof of an overlap.
+bool MeshContactsAhead::is_in_surface(const Search& search, const Pose& pose, const Vector3& normal) {
+  const Vector3 downwards = pose.rotation.transpose() * normal;
+  const Vector3 deepest = pose.position + pose.rotation * search.body.shape.point(downwards);
+  const Vector3 highest = pose.position + pose.rotation * search.body.shape.point(-downwards);
+  evaluations_ += 2;
+  return std::any_of(search.triangles.begin(), search.triangles.end(),
+                     [&](const MeshTriangle& triangle) { return is_between(triangle, deepest, highest); });
 }
 
 /// A body that already overlaps the surface keeps its present contacts, at any motion.
@@ -234,14 +283,7 @@ bool MeshContactsAhead::is_apart_now(const Search& search, std::span<const MeshC
     if (contact.proximity.gap >= -search.near) continue;
     overlaps = true;
     // A resting body overlaps by rounding. A triangle between its deepest and its highest point proves the overlap at once.
-    const Vector3 normal = pose.rotation.transpose() * contact.proximity.normal;
-    const Vector3 deepest = pose.position + pose.rotation * shape.point(normal);
-    const Vector3 highest = pose.position + pose.rotation * shape.point(-normal);
-    evaluations_ += 2;
-    if (std::any_of(search.triangles.begin(), search.triangles.end(),
-                    [&](const MeshTriangle& triangle) { return is_between(triangle, deepest, highest); })) {
-      return false;
-    }
+    if (is_in_surface(search, pose, contact.proximity.normal)) return false;
   }
   if (!overlaps) return false;
   const Proximity nearest = find_nearest_triangle(shape, pose, search.triangles, search.settings).proximity;

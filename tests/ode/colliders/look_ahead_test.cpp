@@ -2,7 +2,10 @@
 // velocity.
 #include <doctest/doctest.h>
 
+#include <optional>
+
 #include "ode/colliders/fly_bys.hpp"
+#include "ode/mesh_fixture.hpp"
 #include "support/ode_world.hpp"
 
 using namespace supernormal::test;
@@ -273,45 +276,58 @@ TEST_CASE("bodies that fly by with a clearance of a thousandth of the size keep 
 TEST_CASE("a blade that turns beside a wall it does not reach keeps its speed, on a hinge and free") {
   OdeSession session;
   constexpr double kLength = 0.2;  // m
-  for (const bool on_hinge : {true, false}) {
-    for (const double clearance : {0.001, 0.01}) {
-      for (const double step : {0.005, 0.02}) {
-        CAPTURE(on_hinge);
-        CAPTURE(clearance);
-        CAPTURE(step);
-        World world;
-        dWorldSetGravity(world.id(), 0, 0, 0);
-        dCreatePlane(world.space(), -1, 0, 0, dReal(-kLength - clearance));
-        const dGeomID geom = snCreateEllipsoid(world.space(), kLength, 0.02, 0.05);
-        const dBodyID body = world.add(geom, 7800);
-        if (on_hinge) {
-          const dJointID hinge = dJointCreateHinge(world.id(), nullptr);
-          dJointAttach(hinge, body, nullptr);
-          dJointSetHingeAxis(hinge, 0, 0, 1);
+  for (const Wall wall : kWalls) {
+    CAPTURE(static_cast<int>(wall));
+    for (const bool on_hinge : {true, false}) {
+      for (const double clearance : {0.001, 0.01}) {
+        for (const double step : {0.005, 0.02}) {
+          CAPTURE(on_hinge);
+          CAPTURE(clearance);
+          CAPTURE(step);
+          World world;
+          dWorldSetGravity(world.id(), 0, 0, 0);
+          const Front front(world.space(), wall, 0.1);
+          const dGeomID geom = snCreateEllipsoid(world.space(), kLength, 0.05, 0.02);
+          const dBodyID body = world.add(geom, 7800);
+          dBodySetPosition(body, dReal(0.3), dReal(0.2), dReal(kLength + clearance));
+          if (on_hinge) {
+            const dJointID hinge = dJointCreateHinge(world.id(), nullptr);
+            dJointAttach(hinge, body, nullptr);
+            dJointSetHingeAnchor(hinge, dReal(0.3), dReal(0.2), dReal(kLength + clearance));
+            dJointSetHingeAxis(hinge, 0, 1, 0);
+          }
+          constexpr double kSpeed = 31.4;  // rad/s
+          dBodySetAngularVel(body, 0, kSpeed, 0);
+          REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
+          for (double time = 0; time < 0.5; time += step) world.quick_step(step);
+          CHECK(std::abs(double{dBodyGetAngularVel(body)[1]} / kSpeed - 1) < within_rounding(1e-6, 1));
         }
-        constexpr double kSpeed = 31.4;  // rad/s
-        dBodySetAngularVel(body, 0, 0, kSpeed);
-        REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
-        for (double time = 0; time < 0.5; time += step) world.quick_step(step);
-        CHECK(std::abs(double{dBodyGetAngularVel(body)[2]} / kSpeed - 1) < within_rounding(1e-6, 1));
       }
     }
   }
 }
 
-TEST_CASE("a ball that falls past an edge is not thrown aside, at steps in which it falls by its size") {
+TEST_CASE("a ball that falls past the edge of a box or a mesh is not thrown aside, at steps in which it falls by its size") {
   OdeSession session;
-  for (const double size : {0.001, 0.01, 0.1}) {
-    for (const double step : {0.005, 0.01, 0.02, 0.05}) {
-      for (int height = 0; height < 40; height += 3) {
-        World world;
-        dCreateBox(world.space(), dReal(2 * size), dReal(4 * size), dReal(2 * size));
-        const dGeomID geom = snCreateEllipsoid(world.space(), dReal(size), dReal(size), dReal(size));
-        const dBodyID body = world.add(geom, 2500);
-        dBodySetPosition(body, dReal(2.01 * size), 0, dReal(size * (2.2 + 0.1 * height)));
-        REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
-        for (int k = 0; k < 200 && dBodyGetPosition(body)[2] > -3 * size; ++k) world.quick_step(step);
-        CHECK(std::abs(double{dBodyGetLinearVel(body)[0]}) < 1e-9);
+  for (const bool is_mesh : {false, true}) {
+    CAPTURE(is_mesh);
+    for (const double size : {0.001, 0.01, 0.1}) {
+      for (const double step : {0.005, 0.01, 0.02, 0.05}) {
+        for (int height = 0; height < 40; height += 3) {
+          World world;
+          std::optional<MeshGeom> block;
+          if (is_mesh) {
+            block.emplace(box_arrays(size, 2 * size, size), world.space());
+          } else {
+            dCreateBox(world.space(), dReal(2 * size), dReal(4 * size), dReal(2 * size));
+          }
+          const dGeomID geom = snCreateEllipsoid(world.space(), dReal(size), dReal(size), dReal(size));
+          const dBodyID body = world.add(geom, 2500);
+          dBodySetPosition(body, dReal(2.01 * size), 0, dReal(size * (2.2 + 0.1 * height)));
+          REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
+          for (int k = 0; k < 200 && dBodyGetPosition(body)[2] > -3 * size; ++k) world.quick_step(step);
+          CHECK(std::abs(double{dBodyGetLinearVel(body)[0]}) < 1e-9);
+        }
       }
     }
   }
