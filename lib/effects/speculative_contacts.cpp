@@ -103,14 +103,33 @@ double inverse_mass(dBodyID body) {
   return 1 / double{mass.mass};
 }
 
+/// Whether a joint corrects where its bodies are. A contact allows more distance; an angular motor and a ball joint with ERP 0 tie
+/// velocities only, as the images of periodic grains.
+bool holds_place(dJointID joint) {
+  if (dJointIsEnabled(joint) == 0) return false;
+  const dJointType type = dJointGetType(joint);
+  if (type == dJointTypeBall) return dJointGetBallParam(joint, dParamERP) > 0;
+  return type != dJointTypeContact && type != dJointTypeAMotor;
+}
+
+/// Whether a joint holds the body in place. Moved alone, it would violate the joint.
+bool is_attached(dBodyID body) {
+  if (body == nullptr) return false;
+  for (int k = 0; k < dBodyGetNumJoints(body); ++k) {
+    if (holds_place(dBodyGetJoint(body, k))) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 /// Plans the displacements of both bodies until `first` touches, `time` (s) from now, and moves the contacts with them. Returns
-/// zero displacements if one of the bodies has a planned one, or if neither can move.
+/// zero displacements if one of the bodies has a planned one or is attached to others, or if neither can move.
 SpeculativeSetup::Displacements SpeculativeSetup::bring_to_touch(const dContact& first, double time, Patch& ahead) {
   const double inverse1 = inverse_mass(ahead.body1);
   const double inverse2 = inverse_mass(ahead.body2);
   if (!is_free(ahead.body1) || !is_free(ahead.body2) || !(inverse1 + inverse2 > 0)) return {};
+  if (is_attached(ahead.body1) || is_attached(ahead.body2)) return {};
   const Vector3 n = ode::to_vector(first.geom.normal);
   Vector3 displacement = double{first.geom.depth} * n;
   if (inverse1 > 0 && inverse2 > 0) {
