@@ -283,6 +283,12 @@ bool Surface::touches(const Face& face, const Vector3& point) const {
   return true;
 }
 
+bool Surface::is_on_face_at(int corner, const Vector3& point) const {
+  return std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
+    return std::find(face.corner.begin(), face.corner.end(), corner) != face.corner.end() && touches(face, point);
+  });
+}
+
 // Whether `point` is behind a face that touches `at`, and not in its plane up to a seam.
 bool Surface::is_behind(const Face& face, const Vector3& at, const Vector3& point) const {
   const Vector3 reach = point - at;

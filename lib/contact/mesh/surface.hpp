@@ -63,6 +63,9 @@ class Surface {
   /// Whether the point's projection into the face's plane is in the face or an adjacent crack, up to rounding.
   bool is_over(const Face& face, const Vector3& point) const;
 
+  /// Whether the point touches a face at the vertex `corner`.
+  bool is_on_face_at(int corner, const Vector3& point) const;
+
   /// The point of the patch's rim nearest to `point`, with its face and edge. `point` must not be over a face of the patch.
   Vector3 nearest_on_rim(const CoplanarPatch& patch, const Vector3& point, int& face, int& side) const;
 

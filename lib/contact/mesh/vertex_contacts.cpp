@@ -42,11 +42,13 @@ void MeshContactSearch::find_on_vertex(SupportProbe& probe, int f, int k, const 
 }
 
 // The normal does not decide between a vertex and its edges: a body with a side nearly parallel to the edge has nearly the same
-// normal at both. The contact belongs to the vertex if the edge has none.
+// normal at both. The contact belongs to the vertex if the edge has none. The hull also bridges a valley between two edges at the
+// vertex, where the surface has no face. Such a contact is beside the surface.
 void MeshContactSearch::add_near_edges(SupportProbe& probe) {
   for (const VertexContact& contact : near_edges_) {
     const int corner = surface_.faces()[at(contact.face)].corner[at(contact.k)];
     if (settled_[at(corner)] != 0 || is_found_beside(corner, -contact.found.normal, contact.found.gap)) continue;
+    if (!surface_.is_on_face_at(corner, contact.found.contact + 0.5 * contact.found.gap * contact.found.normal)) continue;
     settled_[at(corner)] = add_at_vertex(probe, contact.face, contact.k, contact.found) ? 1 : 0;
   }
   near_edges_.clear();

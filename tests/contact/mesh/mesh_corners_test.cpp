@@ -106,3 +106,29 @@ TEST_CASE("a body in a finely divided bowl gets a few contacts") {
     CHECK(contacts.size() <= 12);
   }
 }
+
+TEST_CASE("a ball above a valley that ends at a vertex is as deep as its centre is near") {
+  // A valley between two edges that meet at the vertex (4, 1.5, 5). Their hull bridges it. y is up, as on a heightfield.
+  const auto height = [](int i, int j) { return i < 4 || i > 5 || j < 4 || j > 5 ? 0 : i == 4 && j == 5 ? 1.5 : 2.0; };
+  const auto vertex = [&](int i, int j) { return Vector3(i, height(i, j), j); };
+  std::vector<MeshTriangle> terrain;
+  for (int i = 0; i < 7; ++i) {
+    for (int j = 0; j < 7; ++j) {
+      terrain.push_back({{vertex(i, j), vertex(i, j + 1), vertex(i + 1, j)}, 2 * (7 * i + j)});
+      terrain.push_back({{vertex(i + 1, j + 1), vertex(i + 1, j), vertex(i, j + 1)}, 2 * (7 * i + j) + 1});
+    }
+  }
+  Draw draw(9);
+  for (int i = 0; i < 2000; ++i) {
+    CAPTURE(i);
+    const double radius = draw.uniform(0.6, 0.9);
+    const Ellipsoid ball(Vector3::Constant(radius));
+    const Vector3 centre = Vector3(4.04, 2.17, 4.94) + draw.in_box({0.2, 0.15, 0.2});
+    const Pose pose{centre, Matrix3::Identity()};
+    const std::vector<MeshContact> contacts = contacts_of(ball, pose, terrain);
+    const double nearest = find_nearest_triangle(Ellipsoid(Vector3::Constant(1e-3)), pose, terrain).proximity.gap + 1e-3;
+    if (nearest > radius) continue;
+    REQUIRE(!contacts.empty());
+    CHECK(contacts[0].proximity.gap == doctest::Approx(nearest - radius).epsilon(1e-6));
+  }
+}
