@@ -97,7 +97,7 @@ bool MeshContactSearch::drop_below(SupportProbe& probe, SurfaceContact& contact)
   if (!below.hit || !below.from_inside) return false;
   contact.gap = -below.distance;
   contact.error = below.distance_error;
-  contact.body_point = below.point;
+  contact.body_point = contact.place = below.point;
   contact.surface_point = contact.feature_point;
   contact.status = below.status;
   return true;

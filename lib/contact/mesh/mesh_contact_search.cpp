@@ -164,7 +164,7 @@ void MeshContactSearch::find_on_arc(SupportProbe& probe, int f, int side, const 
   contact.crease = surface_.corner_count() + 3 * f + side;
   contact.surface_point = arc.edge_point + share * edge;
   contact.feature_point = arc.edge_point + std::clamp(share, 0.0, 1.0) * edge;
-  contact.place = contact.feature_point + contact.gap * contact.normal;
+  contact.place = contact.surface_point + contact.gap * contact.normal;
   const bool is_beyond_end = (contact.feature_point - contact.surface_point).norm() > surface_.rounding();
   if (is_beyond_end && surface_.find_wall(top.normal, contact.feature_point, contact.surface_point) < 0) {
     find_on_vertex(probe, f, share < 0 ? side : next_corner(side), top.normal);
