@@ -51,6 +51,7 @@ class SUPERNORMAL_API MeshContactsAhead {
   SUPERNORMAL_LOCAL bool is_in_surface(const Search& search, const Pose& pose, const Vector3& normal);
   SUPERNORMAL_LOCAL void add_overlaps(const Search& search);
   SUPERNORMAL_LOCAL void add_contacts(const Search& search, const Vector3& way);
+  SUPERNORMAL_LOCAL void add_continued(const Search& search, const Vector3& way);
   SUPERNORMAL_LOCAL bool is_apart_now(const Search& search, std::span<const MeshContact> of_sweep);
   SUPERNORMAL_LOCAL void add(const Search& search, const Proximity& there, int triangle, const Vector3& way);
 

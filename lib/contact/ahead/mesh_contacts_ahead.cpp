@@ -29,11 +29,15 @@ constexpr double kAlong = 1e-9;
 constexpr double kSameNormal = 1e-6;
 constexpr double kSameGap = 1e-3;
 
+/// Whether the contact with a lone triangle is one with the surface. The edges of the triangle need not be edges of the surface.
+bool is_of_surface(const Proximity& there, const MeshContacts& surface) { return surface.has_normal(-there.normal, there.point2); }
+
 /// The first impact of a body on triangles that it hits from outside.
 class FirstImpact {
  public:
-  FirstImpact(const BodyAhead& body, double time, double size, const Settings& settings)
-      : body_(&body), size_(size), settings_(&settings), time_(time) {}
+  /// `passed`: if not null, nothing holds the body back at its place. These are its contacts there.
+  FirstImpact(const BodyAhead& body, double time, double size, const MeshContacts* passed, const Settings& settings)
+      : body_(&body), size_(size), passed_(passed), settings_(&settings), time_(time) {}
 
   void look_at(const MeshTriangle& triangle) {
     if (!is_usable(triangle)) return;
@@ -67,14 +71,17 @@ class FirstImpact {
     const Meeting meeting = find_meeting(*body_, there, time_, size_, *settings_, now);
     evaluations_ += meeting.evaluations - now.evaluations;
     if (!meeting.hits) return false;
+    if (passed_ != nullptr && meeting.time == 0 && !is_of_surface(meeting.there, *passed_)) return false;
     hits_ = true;
     time_ = meeting.time;
     there_ = meeting.there;
+    there_.contact -= 0.5 * there_.gap * there_.normal;  // on the body
     return true;
   }
 
   const BodyAhead* body_;
   double size_;
+  const MeshContacts* passed_;
   const Settings* settings_;
   double time_;
   bool hits_ = false;
@@ -170,8 +177,9 @@ std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, con
                       kGraze * size};
   add_overlaps(search);
   double left = time;
+  const MeshContacts* passed = nullptr;
   for (int impact = 0; impact < kMostImpacts; ++impact) {
-    FirstImpact first(there, left, size, settings);
+    FirstImpact first(there, left, size, passed, settings);
     for (const MeshTriangle& triangle : triangles) first.look_at(triangle);
     evaluations_ += first.evaluations();
     left -= first.time();
@@ -179,7 +187,11 @@ std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, con
     const Vector3 way = there.pose.position - body.pose.position;
     add_contacts(search, way);
     if (!first.hits()) break;
-    if (!holds_back(there.motion.velocity)) add(search, first.there(), first.triangle(), way);
+    if (!holds_back(there.motion.velocity)) add_continued(search, way);
+    if (!holds_back(there.motion.velocity) && is_of_surface(first.there(), contacts_)) {
+      add(search, first.there(), first.triangle(), way);
+    }
+    passed = holds_back(there.motion.velocity) ? nullptr : &contacts_;
     for (const MeshManifold& found : found_) {
       const ContactManifold& manifold = found.manifold;
       const double gap_there = manifold.deepest.gap - manifold.deepest.normal.dot(way);
@@ -271,6 +283,15 @@ void MeshContactsAhead::add_contacts(const Search& search, const Vector3& way) {
     if (is_apart && there.gap <= -search.graze) continue;
     if (is_apart) there.gap = std::max(there.gap, 0.0);
     add(search, there, contact.triangle, way);
+  }
+}
+
+/// In a valley the body overlaps one side, but the face at the other side holds it back.
+void MeshContactsAhead::add_continued(const Search& search, const Vector3& way) {
+  const Vector3& velocity = search.body.motion.velocity;
+  for (const MeshContact& contact : contacts_.continued()) {
+    const Proximity there = without_sweep(contact.proximity, search.near);
+    if (there.gap <= 0 && there.normal.dot(velocity) > kAlong * velocity.norm()) add(search, there, contact.triangle, way);
   }
 }
 

@@ -27,6 +27,7 @@ constexpr double kBoxMargin = 1e-9;  // of the length unit
 std::span<const MeshContact> MeshContactSearch::find(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
                                                      const Settings& settings) {
   contacts_.clear();
+  continued_.clear();
   evaluations_ = 0;
   if (triangles.empty() || !is_usable(pose)) return contacts_;
   settings_ = settings;
@@ -46,10 +47,12 @@ std::span<const MeshContact> MeshContactSearch::find(const Shape& shape, const P
   if (found_.contacts().empty()) find_shortest_exit(probe);
   found_.keep_shortest_separations();
   evaluations_ = probe.evaluations();
-  return to_world(pose.position);
+  for (const SurfaceContact& found : found_.contacts()) contacts_.push_back(to_world(found));
+  return contacts_;
 }
 
 void MeshContactSearch::prepare(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles) {
+  origin_ = pose.position;
   box_ = BodyBox::of(shape);
   length_unit_ = box_.half_lengths.minCoeff();
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -208,7 +211,11 @@ void MeshContactSearch::find_beyond_rim(SupportProbe& probe, std::size_t p) {
 void MeshContactSearch::add_beyond_rim() {
   beyond_rim_.sort();
   for (const SurfaceContact& contact : beyond_rim_.contacts()) {
-    if (!found_.has_similar(contact.normal, contact.body_point)) found_.add(contact);
+    if (found_.has_similar(contact.normal, contact.body_point)) {
+      continued_.push_back(to_world(contact));
+    } else {
+      found_.add(contact);
+    }
   }
 }
 
@@ -263,20 +270,21 @@ void MeshContactSearch::find_shortest_exit(SupportProbe& probe) {
   if (shortest) found_.add(*shortest);
 }
 
-std::span<const MeshContact> MeshContactSearch::to_world(const Vector3& origin) {
-  for (const SurfaceContact& found : found_.contacts()) {
-    Proximity out;
-    out.gap = found.gap;
-    out.error = found.error;
-    out.normal = -found.normal;
-    out.point1 = origin + found.body_point;
-    out.point2 = out.point1 - found.gap * found.normal;
-    out.contact = origin + found.place;
-    out.evaluations = found.evaluations;
-    out.status = found.status;
-    contacts_.push_back({out, surface_.faces()[at(found.face)].triangle});
-  }
-  return contacts_;
+bool MeshContactSearch::has_normal(const Vector3& normal, const Vector3& point) const {
+  return !surface_.violates_normal_cone(normal, point - origin_, point - origin_);
+}
+
+MeshContact MeshContactSearch::to_world(const SurfaceContact& found) const {
+  Proximity out;
+  out.gap = found.gap;
+  out.error = found.error;
+  out.normal = -found.normal;
+  out.point1 = origin_ + found.body_point;
+  out.point2 = out.point1 - found.gap * found.normal;
+  out.contact = origin_ + found.place;
+  out.evaluations = found.evaluations;
+  out.status = found.status;
+  return {out, surface_.faces()[at(found.face)].triangle};
 }
 
 }  // namespace supernormal

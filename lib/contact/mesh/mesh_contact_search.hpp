@@ -23,6 +23,8 @@ class MeshContactSearch {
   std::span<const MeshContact> find(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
                                     const Settings& settings);
 
+  std::span<const MeshContact> continued() const { return continued_; }
+  bool has_normal(const Vector3& normal, const Vector3& point) const;
   int evaluations() const { return evaluations_; }
 
  private:
@@ -74,8 +76,9 @@ class MeshContactSearch {
   bool overlaps(const Proximity& found, double gap) const;
   Proximity meet_face(SupportProbe& probe, const Face& face) const;
   void find_shortest_exit(SupportProbe& probe);
-  std::span<const MeshContact> to_world(const Vector3& origin);
+  MeshContact to_world(const SurfaceContact& found) const;
 
+  Vector3 origin_ = Vector3::Zero();  // of the frame of the surface, m
   BodyBox box_;
   std::vector<MeshTriangle> near_;
   double length_unit_ = 1;
@@ -88,6 +91,7 @@ class MeshContactSearch {
   DistinctContacts found_;
   DistinctContacts beyond_rim_;  // candidates for contacts beyond the rim of a patch
   std::vector<MeshContact> contacts_;
+  std::vector<MeshContact> continued_;  // contacts beyond a rim that a similar one makes redundant
   int evaluations_ = 0;
 };
 

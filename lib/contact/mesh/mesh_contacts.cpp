@@ -14,6 +14,10 @@ std::span<const MeshContact> MeshContacts::find(const Shape& shape, const Pose& 
   return search_->find(shape, pose, triangles, settings);
 }
 
+std::span<const MeshContact> MeshContacts::continued() const { return search_->continued(); }
+
+bool MeshContacts::has_normal(const Vector3& normal, const Vector3& point) const { return search_->has_normal(normal, point); }
+
 int MeshContacts::evaluations() const { return search_->evaluations(); }
 
 }  // namespace supernormal

@@ -9,8 +9,10 @@
 
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/mesh_samples.hpp"
 
 using namespace supernormal;
+using namespace supernormal::test;
 
 namespace {
 
@@ -119,5 +121,62 @@ TEST_CASE("a brick that lands on a sheet has four manifold points, none beyond t
       right = std::max(right, corner.point.x());
     }
     CHECK(std::abs(right) < 1e-3);
+  }
+}
+
+TEST_CASE("a body that moves towards the other side of a valley has the normals of both sides and no other") {
+  // The edge between the sides is no edge of the surface, although each of its triangles has it.
+  const Vector3 a(-5, -5, 0), b(-5, 5, 0), c(0, -5, 0), d(0, 5, 0), e(5, -5, 0.25), f(5, 5, 0.25);
+  const std::vector<MeshTriangle> valley = {{{a, c, b}, 0}, {{b, c, d}, 1}, {{c, e, d}, 2}, {{d, e, f}, 3}};
+  const Vector3 sides[] = {Vector3::UnitZ(), Vector3(-0.05, 0, 1).normalized()};
+  const Ellipsoid pebble(Vector3(0.1, 0.1, 0.05));
+  const Superellipsoid brick({0.1, 0.1, 0.05}, 60, 60);
+  MeshContactsAhead ahead;
+  Draw draw(55);
+  int of_far_side = 0;
+  for (int i = 0; i < 3000; ++i) {
+    CAPTURE(i);
+    const Shape& body = i % 2 == 0 ? static_cast<const Shape&>(pebble) : brick;
+    // Up to 2 mm deep in the floor, where the body overlaps the triangles of the other side by their edge first.
+    const Vector3 velocity = draw.in_box({3, 3, 0.2});
+    BodyAhead moving = flying(body, Vector3(draw.uniform(-0.3, 0), 0.3, 0.05 + draw.uniform(-0.002, 0.002)), velocity);
+    moving.motion.arm = body.bounding_radius();
+    moving.pose.rotation = Eigen::AngleAxisd(draw.uniform(0, 6.28), Vector3::UnitZ()).toRotationMatrix();
+    for (const MeshManifold& found : ahead.find(moving, {}, 0.02, valley)) {
+      const Vector3 normal = -found.manifold.deepest.normal;
+      CHECK(std::min((normal - sides[0]).norm(), (normal - sides[1]).norm()) < 1e-9);
+      of_far_side += (normal - sides[1]).norm() < 1e-9 ? 1 : 0;
+    }
+  }
+  CHECK(of_far_side > 300);
+}
+
+TEST_CASE("a ball over waves has contacts on its surface, at rest, sliding and rolling") {
+  TriangleMesh waves = floor_mesh(20, 0.2);
+  for (Vector3& vertex : waves.vertices) vertex.z() = 0.02 * std::sin(3.5 * vertex.x()) * std::cos(2.5 * vertex.y());
+  const std::vector<MeshTriangle> triangles = waves.placed();
+  const double radius = 0.1;
+  const Ellipsoid ball(Vector3(radius, radius, radius));
+  MeshContacts contacts;
+  MeshContactsAhead ahead;
+  Draw draw(56);
+  for (int i = 0; i < 3000; ++i) {
+    CAPTURE(i);
+    Vector3 centre = draw.in_box({1, 1, 0}) + Vector3(0, 0, 0.3);
+    for (int step = 0; step < 6; ++step)
+      centre.z() -= find_nearest_triangle(ball, {centre, Matrix3::Identity()}, triangles).proximity.gap;
+    centre.z() += draw.uniform(-5e-4, 5e-4);
+    const double heading = draw.uniform(0, 6.28);
+    BodyAhead moving =
+        flying(ball, centre, i % 3 == 0 ? Vector3::Zero() : Vector3(3 * std::cos(heading), 3 * std::sin(heading), 0));
+    moving.motion.arm = radius;
+    if (i % 3 == 1) moving.motion.angular_velocity = Vector3::UnitZ().cross(moving.motion.velocity) / radius;
+    for (const MeshContact& found : contacts.find(ball, moving.pose, triangles)) {
+      CHECK(std::abs((found.proximity.contact - centre).norm() - radius) < 1e-6 * radius);
+    }
+    for (const MeshManifold& found : ahead.find(moving, {}, 0.02, triangles)) {
+      const Proximity& contact = found.manifold.deepest;
+      CHECK((contact.contact - (centre + radius * contact.normal)).norm() < 1e-6 * radius);
+    }
   }
 }
