@@ -215,7 +215,9 @@ SUPERNORMAL_ODE_API int snSetDefaultLookAhead(dReal time);
 
 /** Turns a contact with depth < 0 into a constraint of ODE that lets the gap close within `step`, and no more. `step` is in s, >
  * 0: the next dWorldStep's or dWorldQuickStep's. The contact's depth becomes 0, its surface gets dContactMotionN, and -gap/step
- * is added to the motionN that it has by this flag. Other contacts stay unchanged. Call it after setting contact->surface.
+ * is added to the motionN that it has by this flag. A contact of geoms that look ahead gets a dContactSoftERP of 0.8, if it has none:
+ * it corrects 0.8 of its overlap in a step, whatever the world's ERP. Other contacts stay unchanged. Call it after setting
+ * contact->surface.
  * dContactBounce does not suit a contact ahead, because ODE would throw the body back before it touches. Set dContactApprox1:
  * without it mu is a force, which acts before the bodies touch. With a step that is refused (snLastError), or NULL, nothing is
  * changed. */

@@ -14,8 +14,11 @@ constexpr double kLayer = 1e-4;  // the depth at which rigid contacts stick, rel
 void keep_in_touch(Patch& patch) {
   const double layer = kLayer * std::min(mean_half_extent(patch.geom1()), mean_half_extent(patch.geom2()));
   const dBodyID body = patch.body1 != nullptr ? patch.body1 : patch.body2;
-  const double rate = dWorldGetERP(dBodyGetWorld(body)) / patch.step;
-  for (dContact& contact : patch.contacts) contact.surface.motionN = ode::to_real(-rate * layer);
+  const double erp_of_world = dWorldGetERP(dBodyGetWorld(body));
+  for (dContact& contact : patch.contacts) {
+    const double erp = (contact.surface.mode & dContactSoftERP) != 0 ? double{contact.surface.soft_erp} : erp_of_world;
+    contact.surface.motionN = ode::to_real(-erp / patch.step * layer);
+  }
 }
 
 }  // namespace

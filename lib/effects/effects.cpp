@@ -13,6 +13,7 @@
 #include "effects/validate.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
+#include "ode/geom/look_ahead.hpp"
 #include "ode/support/require.hpp"
 #include "supernormal/supernormal.h"
 
@@ -163,7 +164,9 @@ int Effects::set_up_contacts(std::span<dContact> contacts, Material material1, M
 
 int Effects::set_up_contacts(std::span<dContact> contacts, const Side& side1, const Side& side2) {
   PairMaterial& pair = state_->pair_materials.of(side1.material, side2.material);
-  for (dContact& contact : contacts) contact.surface = pair.surface;
+  dSurfaceParameters surface = pair.surface;
+  if (pair.is_speculative && !contacts.empty() && ode::looks_ahead(contacts.front().geom)) ode::correct_leftover(surface);
+  for (dContact& contact : contacts) contact.surface = surface;
   const std::span<dContact> touching = contacts.first(put_ahead_last(contacts));
   const std::span<dContact> ahead = contacts.subspan(touching.size());
   int kept = pair.passes.empty() ? static_cast<int>(touching.size()) : state_->run_passes(pair, touching, side1.body, side2.body);

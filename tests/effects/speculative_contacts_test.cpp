@@ -308,6 +308,26 @@ TEST_CASE("speculative contacts: without the effect contacts ahead are ignored, 
   }
 }
 
+TEST_CASE("speculative contacts: added bodies lose four fifths of an overlap in a step, and no other pair does") {
+  OdeSession session;
+  for (const bool is_added : {true, false}) {
+    fx::Effects effects({fx::SpeculativeContacts{}}, 0.01);
+    World world;
+    const dGeomID wall = dCreatePlane(world.space(), 0, 0, 1, 0);
+    const dGeomID geom = snCreateEllipsoid(world.space(), 1, 1, 1);
+    const dBodyID body = world.add(geom, 1000);
+    if (is_added) effects.add_body(body);
+    dContact contact{};
+    contact.geom.g1 = geom;
+    contact.geom.g2 = wall;
+    contact.geom.normal[2] = 1;
+    contact.geom.depth = dReal(0.1);
+    REQUIRE(effects.set_up_contacts({&contact, 1}) == 1);
+    CHECK((contact.surface.mode & dContactSoftERP) == (is_added ? dContactSoftERP : 0));
+    if (is_added) CHECK(contact.surface.soft_erp == relative(0.8).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("speculative contacts: adhesion pulls from touch on and holds the body") {
   OdeSession session;
   const double step = 5e-3;

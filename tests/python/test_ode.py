@@ -368,7 +368,9 @@ def test_contacts_before_overlap(look_ahead):
     contact.setMu(0.25)
     so.contactLookAhead(contact, 0.02)
     assert contact.getContactGeomParams()[2] == 0
-    assert contact.getMode() == pyode.ContactApprox1 | 0x080 and contact.getMu() == 0.25  # dContactMotionN, of which PyODE knows nothing
+    # dContactMotionN, of which PyODE knows nothing, and the ERP of contacts that look ahead
+    assert contact.getMode() == pyode.ContactApprox1 | 0x080 | pyode.ContactSoftERP and contact.getMu() == 0.25
+    assert contact.getSoftERP() == pytest.approx(0.8)
 
 
 def test_refusals_of_contacts_before_overlap():

@@ -59,6 +59,7 @@ extern "C" void snContactLookAhead(dContact* contact, dReal step) {
   guarded("snContactLookAhead", 0, [&] {
     require_not_null("contact", contact);
     to_motion_constraint(*contact, require_positive("step", step, "s"));
+    if (looks_ahead(contact->geom)) correct_leftover(contact->surface);
     return 1;
   });
 }

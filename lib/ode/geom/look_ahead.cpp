@@ -5,6 +5,7 @@
 #include <atomic>
 #include <string>
 
+#include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/geom/geom_class.hpp"
 #include "shapes/finite.hpp"
@@ -13,6 +14,10 @@
 
 namespace supernormal::ode {
 namespace {
+
+// The fraction of an overlap that a step corrects. The overlap that remains is the solver's residual velocity times step / ERP. So
+// beds of 80 grains at 2 ms overlap by 0.3 of what they do with ODE's 0.2. From 1 on, the correction would overshoot.
+constexpr double kErp = 0.8;
 
 std::atomic<double> default_time{0};
 
@@ -39,6 +44,20 @@ void require_in_range(const MotionAhead& motion, dGeomID geom) {
 double default_look_ahead() { return default_time.load(std::memory_order_relaxed); }
 
 void set_default_look_ahead(double time) { default_time.store(time, std::memory_order_relaxed); }
+
+bool looks_ahead(const dContactGeom& contact) {
+  const auto looks = [](dGeomID geom) {
+    const Body* const body = find_body(geom);
+    return body != nullptr && body->look_ahead() > 0;
+  };
+  return looks(contact.g1) || looks(contact.g2);
+}
+
+void correct_leftover(dSurfaceParameters& surface) {
+  if ((surface.mode & dContactSoftERP) != 0) return;
+  surface.mode |= dContactSoftERP;
+  surface.soft_erp = to_real(kErp);
+}
 
 Vector3 acceleration_of(dBodyID body, const dMass& mass) {
   Vector3 acceleration = to_vector(dBodyGetForce(body)) / mass.mass;

@@ -18,4 +18,11 @@ Vector3 acceleration_of(dBodyID body, const dMass& mass);
 /// body rests, and so does one with a disabled body.
 MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius);
 
+/// Whether a geom of the contact is ours and looks ahead.
+bool looks_ahead(const dContactGeom& contact);
+
+/// Lets a contact correct most of its overlap in each step, if the program has not chosen its ERP. Contacts of geoms that look
+/// ahead overlap by what the solver left over, so the correction throws nothing apart.
+void correct_leftover(dSurfaceParameters& surface);
+
 }  // namespace supernormal::ode
