@@ -1,7 +1,9 @@
 // Tests on an inclined plane. Bodies that are not round rest up to a limit. Round bodies roll down as fast as their inertia allows.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "support/ode_world.hpp"
@@ -34,6 +36,43 @@ double turned_on_incline(double exponent, double incline) {
     turned += 1e-3 * std::abs(double{dBodyGetAngularVel(body)[1]});
   }
   return turned;
+}
+
+/// The greatest angle (rad) between a normal of the body and its contact point, in the plane of x and z: the greatest incline on
+/// which it rests.
+double greatest_incline(dGeomID geom) {
+  double greatest = 0;
+  for (double tilt = 1e-9; tilt < 1; tilt *= 1.01) {
+    const dVector3 direction = {dReal(tilt), 0, 1};
+    dVector3 point;
+    REQUIRE(snGeomSupport(geom, direction, point) == 1);
+    greatest = std::max(greatest, std::atan2(double{point[0]}, double{point[2]}) - std::atan(tilt));
+  }
+  return greatest;
+}
+
+/// Whether a body of this exponent that looks ahead stands for four seconds on an incline that differs from its greatest by `more`
+/// (rad).
+bool stands_ahead(double exponent, double height, double more, double step) {
+  OdeSession session;
+  World world;
+  world.add_plane();
+  world.surface.mode = dContactApprox1;
+  world.surface.mu = 5;
+  dWorldSetQuickStepNumIterations(world.id(), 100);
+  const dGeomID geom =
+      snCreateSuperellipsoid(world.space(), dReal(0.1), dReal(0.1), dReal(height), dReal(exponent), dReal(exponent));
+  const double incline = greatest_incline(geom) + more;
+  dWorldSetGravity(world.id(), dReal(kGravity * std::sin(incline)), 0, dReal(-kGravity * std::cos(incline)));
+  const dBodyID body = world.add(geom, 1000);
+  dBodySetPosition(body, 0, 0, dReal(height));
+  REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
+  bool stands = true;
+  for (int k = 0; k < 4 / step && stands; ++k) {
+    world.quick_step(step);
+    stands = dBodyGetRotation(body)[10] > dReal(0.7);
+  }
+  return stands;
 }
 
 /// The acceleration a / (g sin theta) of a superellipsoid whose circular equator rolls down an incline.
@@ -108,6 +147,20 @@ TEST_CASE("a superellipsoid rests on an incline exactly up to the limit of its s
     const double margin = 0.1;
     CHECK(turned_on_incline(c.exponent, (c.limit - margin) * kDegree) < 45 * kDegree);
     CHECK(turned_on_incline(c.exponent, (c.limit + margin) * kDegree) > 180 * kDegree);
+  }
+}
+
+TEST_CASE("a body that looks ahead stands on inclines up to the greatest of its body to 1.2 degrees, at every step") {
+  for (const double exponent : {6.0, 8.0, 12.0, 20.0, 60.0}) {
+    for (const double height : {0.1, 0.15}) {
+      for (const double step : {0.002, 0.01, 0.033}) {
+        CAPTURE(exponent);
+        CAPTURE(height);
+        CAPTURE(step);
+        CHECK(stands_ahead(exponent, height, -1.2 * kDegree, step));
+        CHECK(!stands_ahead(exponent, height, 1.0 * kDegree, step));
+      }
+    }
   }
 }
 

@@ -40,9 +40,8 @@ struct ContactManifold {
   int corner_count = 0;                               ///< 0 or 4; some may be at the same place, see reduced_to()
   double same_place = 0;                              ///< m; manifold points that are nearer to each other count as one contact
   double margin = 0;                                  ///< m; at a manifold point the bodies are apart by at most this
-  /// m; a point with a larger gap is no contact. 0 except for contacts ahead (contacts_ahead.hpp).
-  double reach = 0;
-  /// m; a point this much above the deepest has the least weight when two are merged. 0: the depth of the overlap.
+  double reach = 0;                                   ///< m; a point with a larger gap is no contact
+  /// m; a point this much above the deepest, or as far above it as the overlap is deep, has the least weight when two are merged
   double shallow = 0;
   int evaluations = 0;  ///< number of boundary points of one body that were evaluated for the manifold points
 };

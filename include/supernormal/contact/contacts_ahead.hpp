@@ -8,18 +8,14 @@
 
 namespace supernormal {
 
-/// rad; the tilt of the support polygons of bodies that hardly rotate. With values from 0.05 to 0.2 bodies rest alike. With 0.02
-/// coins topple, because they come down outside of their support polygon.
-inline constexpr double kLeastTilt = 0.1;
-
 /// The manifold of two bodies that are apart, touch or overlap slightly. Its points span the region on which the bodies would rest.
 /// Each has the gap that is left there.
 ///
-/// `tilt` (rad, > 0) determines the support polygons, whatever the gap. Their vertices are the points in which a body touches
-/// planes that are tilted by `tilt`. A body that rotates by less comes down between these vertices. The manifold points are in the
-/// intersection of the polygons, where the faces count as flat. The gap of a point is the bodies' gap plus the separation of the
-/// tilted faces. A point far above the floor is no false support, if the solver for the forces knows its gap: the gap may close,
-/// and no more.
+/// `approach` (m) is the overlap that would form in the step without contact forces. The manifold points are those of an overlap of
+/// this depth, find_contact_manifold(). Bodies that do not move bear on them, on inclines as steep as their closed forms say. The
+/// more they move, the farther out they may land. The faces count as flat between the manifold points. The gap of a point is the
+/// bodies' gap plus the separation of the tilted faces. A point far above the floor is no false support, if the solver for the
+/// forces knows its gap: the gap may close, and no more.
 ///
 /// The depth of a point is minus its gap, which is negative where the bodies are apart. `share` in [0, 1] sets the place of the
 /// contacts along the normal, between the two boundaries: 1 is on body 1, 0 on body 2. Use body 1's fraction of the motion, the
@@ -27,11 +23,11 @@ inline constexpr double kLeastTilt = 0.1;
 /// have when the bodies touch. The result is symmetric under swapping the bodies. reduced_to() sorts the points by increasing gap.
 SUPERNORMAL_API ContactManifold find_manifold_of_gaps(const Shape& shape1, const Pose& pose1, const Shape& shape2,
                                                       const Pose& pose2, const Proximity& proximity, double share,
-                                                      double tilt = kLeastTilt);
+                                                      double approach = 0);
 
 /// The same for a body and a plane; `proximity` comes from find_plane_proximity(). The contacts are points of the body.
 SUPERNORMAL_API ContactManifold find_plane_manifold_of_gaps(const Shape& shape, const Pose& pose, const Proximity& proximity,
-                                                            double tilt = kLeastTilt);
+                                                            double approach = 0);
 
 /// The expected motion of a body.
 struct MotionAhead {

@@ -60,10 +60,11 @@ ContactManifold find_contacts_ahead(const BodyAhead& body1, const BodyAhead& bod
   if (!meeting.hits && meeting.time > 0 && meeting.there.gap > near) return none(now, meeting.evaluations);
   const BodyAhead there1 = moved(body1, meeting.time);
   const BodyAhead there2 = moved(body2, meeting.time);
-  const double approach = approach_of(body1.motion, body2.motion, time, meeting.there.normal, now.gap);
-  const double tilt = tilt_ahead(body1.motion, body2.motion, time, approach, size);
-  ContactManifold manifold =
-      find_manifold_of_gaps(there1.shape, there1.pose, there2.shape, there2.pose, meeting.there, share, tilt);
+  const Proximity& there = meeting.there;
+  const double overlap = approach_of(body1.motion, body2.motion, time, there.normal, now.gap) +
+                         growth_by_rotation(there1, there.normal, there.point1, time) +
+                         growth_by_rotation(there2, -there.normal, there.point2, time);
+  ContactManifold manifold = find_manifold_of_gaps(there1.shape, there1.pose, there2.shape, there2.pose, there, share, overlap);
   take_back(manifold, body1, body2, meeting.time, share, now.gap);
   manifold.deepest.evaluations = meeting.evaluations;
   manifold.reach = reach;
@@ -81,8 +82,9 @@ ContactManifold find_plane_contacts_ahead(const BodyAhead& body, double time, co
   const double size = body.shape.half_extents().minCoeff();
   const double reach = reach_towards(body.motion, now.normal, time, size);
   if (now.gap > reach) return none(now, now.evaluations);
-  const double tilt = tilt_ahead(body.motion, {}, time, approach_of(body.motion, {}, time, now.normal, now.gap), size);
-  ContactManifold manifold = find_plane_manifold_of_gaps(body.shape, body.pose, now, tilt);
+  const double overlap =
+      approach_of(body.motion, {}, time, now.normal, now.gap) + growth_by_rotation(body, now.normal, now.point1, time);
+  ContactManifold manifold = find_plane_manifold_of_gaps(body.shape, body.pose, now, overlap);
   manifold.reach = reach;
   limit_rotation(body, {body.shape, body.pose, {}}, time, 1, manifold);
   return find_plane_contacts_after_free_motion(body, time, now, manifold).value_or(manifold);

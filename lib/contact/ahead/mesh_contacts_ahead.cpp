@@ -314,9 +314,9 @@ bool MeshContactsAhead::is_apart_now(const Search& search, std::span<const MeshC
 
 void MeshContactsAhead::add(const Search& search, const Proximity& there, int triangle, const Vector3& way) {
   const MotionAhead& motion = search.now.motion;
-  const double approach = approach_of(motion, search.surface, search.time, there.normal, there.gap + there.normal.dot(way));
-  const double tilt = tilt_ahead(motion, search.surface, search.time, approach, search.size);
-  ContactManifold manifold = find_plane_manifold_of_gaps(search.body.shape, search.body.pose, there, tilt);
+  const double overlap = approach_of(motion, search.surface, search.time, there.normal, there.gap + there.normal.dot(way)) +
+                         growth_by_rotation(search.body, there.normal, there.point1, search.time);
+  ContactManifold manifold = find_plane_manifold_of_gaps(search.body.shape, search.body.pose, there, overlap);
   draw_in_corners(manifold, search.triangles);
   take_back(manifold, way, search.share);
   manifold.reach = search.reach;

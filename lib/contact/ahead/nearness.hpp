@@ -1,6 +1,7 @@
 // Which bodies are near enough for a contact, and how the motion is shared between them.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +11,6 @@ namespace supernormal {
 
 // A push within the same step may close a gap up to this fraction of the smaller half-extent.
 inline constexpr double kSlack = 0.01;
-
-// rad; after a larger rotation the body may land on any side.
-inline constexpr double kLargestTilt = 0.5;
 
 /// The farthest that rotation moves a point of the body within `time`, m: at most to the other side.
 inline double shift_by_rotation(const MotionAhead& motion, double time) {
@@ -30,18 +28,19 @@ inline double nearness_of_both(const MotionAhead& motion1, const MotionAhead& mo
          kSlack * size;
 }
 
-/// How far two bodies would overlap after `time` without contact forces, along the unit normal from body 1 to body 2, m. Negative:
-/// they stay apart.
+/// How far two bodies would overlap after `time` at their velocities, along the unit normal from body 1 to body 2, m. Negative:
+/// they stay apart. The weight of a body that rests does not count: it turns nothing over.
 inline double approach_of(const MotionAhead& motion1, const MotionAhead& motion2, double time, const Vector3& normal, double gap) {
-  return (normal.dot(motion1.velocity - motion2.velocity) + gained_speed(motion1, motion2, time)) * time - gap;
+  return normal.dot(motion1.velocity - motion2.velocity) * time - gap;
 }
 
-/// The tilt of the manifold points on which the bodies may land within `time`, rad. An impulse that stops an `approach` (m) at one
-/// end of a body of half-extent `size` (m) rotates it by approach / size. The present rotation adds to this.
-inline double tilt_ahead(const MotionAhead& motion1, const MotionAhead& motion2, double time, double approach, double size) {
-  const double rotation =
-      (motion1.angular_velocity.norm() + motion2.angular_velocity.norm()) * time + std::max(0.0, approach) / size;
-  return std::clamp(rotation, kLeastTilt, kLargestTilt);
+/// How much farther along `direction` (unit) a body extends after it has turned for `time`, m. `point`: where it extends farthest
+/// now.
+inline double growth_by_rotation(const BodyAhead& body, const Vector3& direction, const Vector3& point, double time) {
+  const Vector3 turn = time * body.motion.angular_velocity.cross(direction);
+  if (turn.isZero(0)) return 0;
+  const double extent = body.shape.support(body.pose.rotation.transpose() * (direction - turn).normalized());
+  return std::clamp(extent - direction.dot(point - body.pose.position), 0.0, turn.norm() * body.motion.arm);
 }
 
 inline bool is_finite(const MotionAhead& motion) {

@@ -12,9 +12,9 @@
 namespace supernormal {
 namespace {
 
-// Largest rotation of a body by an impact, rad. Manifold points are valid for such rotations (manifold/manifold_of_gaps.cpp). It is
-// smaller if the middle of the body is farther from the centre of mass than the body is thick. Then the rotation moves the middle
-// by at most this fraction of the thickness.
+// Largest rotation of a body by an impact, rad. The manifold points cover such rotations (manifold/support_polygon.cpp). It
+// is smaller if the middle of the body is farther from the centre of mass than the body is thick. Then the rotation moves the
+// middle by at most this fraction of the thickness.
 constexpr double kLargestRotation = 0.1;
 
 // At this multiple of the largest rotation the lever arm has its limit. Below it the arm is interpolated, so no force jumps.

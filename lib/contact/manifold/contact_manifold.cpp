@@ -8,6 +8,7 @@
 #include "contact/manifold/common_corners.hpp"
 #include "contact/manifold/corner_depth.hpp"
 #include "contact/manifold/support_polygon.hpp"
+#include "supernormal/contact/contacts_ahead.hpp"
 
 namespace supernormal {
 namespace {
@@ -18,18 +19,19 @@ constexpr double kBelow = 1e-12;
 // Two manifold points nearer than this fraction of same_place differ by rounding only.
 constexpr double kMoved = 0.01;
 
-// Two manifold points are equally deep if their depths differ by less than this fraction.
+// Two manifold points are equally deep if their depths differ by less than this fraction of the distance above the deepest at which
+// a point is shallow.
 constexpr double kSameDepth = 1e-9;
 
-// The weight of a point of depth 0 when two points are merged, as a fraction of the deepest point's depth. With contacts ahead, the
-// weight of a point ContactManifold::shallow above the deepest, as a fraction of `shallow`.
+// The weight of a shallow point (ContactManifold::shallow) when two points are merged, as a fraction of its height above the
+// deepest.
 constexpr double kLeastWeight = 0.01;
 
+// ContactManifold::shallow of points with gaps, as a fraction of same_place: at rest their gaps are rounding.
+constexpr double kShallow = 0.1;
+
 /// At any depth: a resting body has a depth of rounding only, and a body that stands on one point for a step slides.
-bool may_have_corners(const Shape& shape, const Proximity& proximity) {
-  const bool is_answer = proximity.status != Status::InvalidInput && proximity.status != Status::Apart;
-  return is_answer && may_have_corners(shape) && proximity.gap < 0;
-}
+bool overlaps(const Proximity& proximity) { return proximity.status != Status::Apart && proximity.gap < 0; }
 
 /// Moves both points to one place between them, with the depth of the deeper one. So the deepest contact stays as deep as the
 /// overlap. The deeper point has more weight, because its place matters when the body is tilted. Points up to the depth `floor`
@@ -56,9 +58,20 @@ void put_shallowest_pair_first(std::array<ManifoldCorner, ContactManifold::kMaxC
   std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(shallowest), corners.end());
 }
 
+/// Whether two of the points are nearer to each other than `distance`.
+bool are_near(std::span<const ManifoldCorner> corners, double distance) {
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    for (std::size_t other = 0; other < k; ++other) {
+      if ((corners[k].point - corners[other].point).squaredNorm() < distance * distance) return true;
+    }
+  }
+  return false;
+}
+
 /// Moves manifold points that are near each other to their mean, as deep as the deepest. Points at `distance` coincide, points at
 /// twice the distance do not move.
 void move_together(std::span<ManifoldCorner> corners, double distance) {
+  if (!are_near(corners, 2 * distance)) return;
   std::array<ManifoldCorner, ContactManifold::kMaxCorners> drawn;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     Vector3 sum = Vector3::Zero();
@@ -102,7 +115,7 @@ bool is_face(ContactManifold manifold) {
 void put_deepest_first(std::span<ManifoldCorner> corners, double shallow) {
   double depth = corners.front().depth;
   for (const ManifoldCorner& corner : corners) depth = std::max(depth, corner.depth);
-  const double unit = kSameDepth * std::max(depth, shallow);
+  const double unit = kSameDepth * shallow;
   const auto units_above = [&](const ManifoldCorner& corner) { return std::round((depth - corner.depth) / unit); };
   // By insertion: std::stable_sort would allocate memory.
   for (auto next = corners.begin(); next != corners.end(); ++next) {
@@ -113,41 +126,72 @@ void put_deepest_first(std::span<ManifoldCorner> corners, double shallow) {
   }
 }
 
-}  // namespace
+/// Writes the manifold points of polygons whose deepest point has the gap `gap` (m), with their depths.
+using Write = void(const CornerList& corners, double allowed_separation, double gap, ContactManifold& manifold);
 
-ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
-                                      const Proximity& proximity) {
+ContactManifold find_manifold(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
+                              const Proximity& proximity, double approach, Write* write) {
   ContactManifold manifold(proximity);
-  if (!may_have_corners(shape1, proximity) || !may_have_corners(shape2, proximity)) return manifold;
-  const double depth = -proximity.gap;
-  const SupportPolygon polygon1(shape1, pose1, proximity.normal, proximity.point1, depth, shape2.half_extents().minCoeff());
+  if (proximity.status == Status::InvalidInput || !may_have_corners(shape1) || !may_have_corners(shape2)) return manifold;
+  const Vector3& n = proximity.normal;
+  const double depth = std::max({0.0, -proximity.gap, approach});
+  const SupportPolygon polygon1(shape1, pose1, n, proximity.point1, depth, shape2.half_extents().minCoeff());
   manifold.evaluations = polygon1.evaluations();
   if (!polygon1.has_width()) return manifold;
-  const SupportPolygon polygon2(shape2, pose2, -proximity.normal, proximity.point2, depth, shape1.half_extents().minCoeff());
+  const SupportPolygon polygon2(shape2, pose2, -n, proximity.point2, depth, shape1.half_extents().minCoeff());
   manifold.evaluations += polygon2.evaluations();
   if (!polygon2.has_width()) return manifold;
-  const std::optional<CornerList> corners = find_common_corners(polygon1, polygon2, proximity.normal, proximity.contact);
-  if (corners) write_depths(*corners, std::min(allowed_separation(polygon1), allowed_separation(polygon2)), depth, manifold);
+  const std::optional<CornerList> corners = find_common_corners(polygon1, polygon2, n, proximity.contact);
+  if (corners) write(*corners, std::min(allowed_separation(polygon1), allowed_separation(polygon2)), proximity.gap, manifold);
   manifold.same_place = kSamePlace * std::min(polygon1.size(), polygon2.size());
-  manifold.margin = std::max(0.0, polygon1.largest_separation() + polygon2.largest_separation() - depth);
+  manifold.margin = std::max(0.0, polygon1.largest_separation() + polygon2.largest_separation() + proximity.gap);
   return manifold;
 }
 
-ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity) {
+ContactManifold find_plane_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity, double approach,
+                                    Write* write) {
   ContactManifold manifold(proximity);
-  if (!may_have_corners(shape, proximity)) return manifold;
+  if (proximity.status == Status::InvalidInput || !may_have_corners(shape)) return manifold;
   // At the border of a sheet the contact may be beside the point on which the body would stand if the sheet continued.
   const Vector3 support_point = pose.rotation * shape.point(pose.rotation.transpose() * proximity.normal) + pose.position;
   const double below = std::max(0.0, proximity.normal.dot(support_point - proximity.point1));
   const bool is_beside = below > kBelow * shape.half_extents().minCoeff();
   const Vector3& stands_on = is_beside ? support_point : proximity.point1;
-  const double depth = is_beside ? below - proximity.gap : -proximity.gap;
-  const SupportPolygon polygon(shape, pose, proximity.normal, stands_on, depth);
-  manifold.evaluations = polygon.evaluations();
+  const double gap = is_beside ? proximity.gap - below : proximity.gap;
+  const SupportPolygon polygon(shape, pose, proximity.normal, stands_on, std::max({0.0, -gap, approach}));
+  manifold.evaluations = 1 + polygon.evaluations();
   if (!polygon.has_width()) return manifold;
-  write_depths(corners_over_plane(polygon, proximity.normal), allowed_separation(polygon), depth, manifold);
+  write(corners_over_plane(polygon, proximity.normal), allowed_separation(polygon), gap, manifold);
   manifold.same_place = kSamePlace * polygon.size();
-  manifold.margin = std::max(0.0, polygon.largest_separation() - depth);
+  manifold.margin = std::max(0.0, polygon.largest_separation() + gap);
+  return manifold;
+}
+
+}  // namespace
+
+ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
+                                      const Proximity& proximity) {
+  if (!overlaps(proximity)) return proximity;
+  return find_manifold(shape1, pose1, shape2, pose2, proximity, 0, write_depths);
+}
+
+ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity) {
+  if (!overlaps(proximity)) return proximity;
+  return find_plane_manifold(shape, pose, proximity, 0, write_depths);
+}
+
+ContactManifold find_manifold_of_gaps(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
+                                      const Proximity& proximity, double share, double approach) {
+  Proximity placed = proximity;
+  placed.contact += (0.5 - share) * proximity.gap * proximity.normal;
+  ContactManifold manifold = find_manifold(shape1, pose1, shape2, pose2, placed, approach, write_gaps);
+  manifold.shallow = kShallow * manifold.same_place;
+  return manifold;
+}
+
+ContactManifold find_plane_manifold_of_gaps(const Shape& shape, const Pose& pose, const Proximity& proximity, double approach) {
+  ContactManifold manifold = find_plane_manifold(shape, pose, proximity, approach, write_gaps);
+  manifold.shallow = kShallow * manifold.same_place;
   return manifold;
 }
 
@@ -161,8 +205,8 @@ ContactManifold reduced_to(ContactManifold manifold, int max_contacts) {
   if (max_contacts < 2) manifold.corner_count = 0;
   if (manifold.corner_count == 0) return manifold;
   std::array<ManifoldCorner, ContactManifold::kMaxCorners>& corners = manifold.corners;
-  const bool is_ahead = manifold.shallow > 0;
-  if (max_contacts == 2 && is_ahead && is_face(manifold)) {
+  const bool may_arrive = std::max(manifold.reach, manifold.deepest.gap) > 0;
+  if (max_contacts == 2 && may_arrive && is_face(manifold)) {
     manifold.corner_count = 0;
     return manifold;
   }
@@ -174,7 +218,7 @@ ContactManifold reduced_to(ContactManifold manifold, int max_contacts) {
   if (max_contacts < 3) merge(corners[2], corners[3], depth - shallow, least_weight);
   move_together(corners, manifold.same_place);
   remove_repeated(manifold);
-  put_deepest_first({corners.begin(), static_cast<std::size_t>(manifold.corner_count)}, manifold.shallow);
+  put_deepest_first({corners.begin(), static_cast<std::size_t>(manifold.corner_count)}, shallow);
   corners[0].depth = depth;  // equal up to rounding
   return manifold;
 }

@@ -19,7 +19,8 @@ double allowed_separation(const SupportPolygon& polygon) {
   return kAllowedSeparation * polygon.reach() * std::min(1.0, farthest / (kSmallPolygon * polygon.least_extent()));
 }
 
-void write_depths(const CornerList& corners, double allowed_separation, double depth, ContactManifold& manifold) {
+void write_depths(const CornerList& corners, double allowed_separation, double gap, ContactManifold& manifold) {
+  const double depth = -gap;
   const double least = *std::min_element(corners.separations.begin(), corners.separations.end());
   const Vector3& deepest = manifold.deepest.contact;
   const double margin_at_deepest = std::max(0.0, depth + allowed_separation + std::min(0.0, least));
@@ -32,7 +33,7 @@ void write_depths(const CornerList& corners, double allowed_separation, double d
   manifold.corner_count = ContactManifold::kMaxCorners;
 }
 
-void write_gaps(const CornerList& corners, double gap, ContactManifold& manifold) {
+void write_gaps(const CornerList& corners, double /*allowed_separation*/, double gap, ContactManifold& manifold) {
   const double least = *std::min_element(corners.separations.begin(), corners.separations.end());
   for (std::size_t k = 0; k < corners.points.size(); ++k) {
     manifold.corners[k] = {corners.points[k], least - corners.separations[k] - gap};

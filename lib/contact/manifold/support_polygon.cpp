@@ -231,7 +231,11 @@ class SupportPolygon::Tilts {
   SupportPoints ends_;  // without the ball
 };
 
-SupportPolygon::SupportPolygon(const View& view)
+SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth,
+                               double thickness)
+    : SupportPolygon(View(shape, pose, n, support_point), depth, thickness) {}
+
+SupportPolygon::SupportPolygon(const View& view, double depth, double thickness)
     : support_point_(view.support_point_there), axes_({view.pose.rotation * view.axes[0], view.pose.rotation * view.axes[1]}) {
   const Vector3 half_extents = view.shape.half_extents();
   // The extents of the ellipsoid with the body's half-extents.
@@ -240,26 +244,10 @@ SupportPolygon::SupportPolygon(const View& view)
   height_ = extent(view.normal);
   // The height of a tall body does not limit how far it may tilt.
   least_extent_ = std::min({height_, extents_[0], extents_[1]});
-}
-
-SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth,
-                               double thickness)
-    : SupportPolygon(View(shape, pose, n, support_point), depth, thickness) {}
-
-SupportPolygon::SupportPolygon(const View& view, double depth, double thickness) : SupportPolygon(view) {
   const double least = std::min(least_extent_, thickness);
   reach_ = std::max(depth, std::min(kReach * least + kReachOfDepth * depth, kLargestReach * least));
   const double tangent = tangent_of_tilt(reach_, height_);
   find(view, {tangent, tangent});
-}
-
-SupportPolygon SupportPolygon::of_tilt(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point,
-                                       double tilt) {
-  const View view(shape, pose, n, support_point);
-  SupportPolygon polygon(view);
-  polygon.reach_ = HUGE_VAL;
-  polygon.find(view, {tilt * polygon.extents_[0] / polygon.height_, tilt * polygon.extents_[1] / polygon.height_});
-  return polygon;
 }
 
 // `tangents` are the tilts along both axes, in half-heights over half-extents.

@@ -27,14 +27,10 @@ namespace supernormal {
 class SupportPolygon {
  public:
   /// `n`: unit, in the frame that the pose refers to. `support_point`: the body's point with this normal, m. `depth`: the depth of
-  /// the overlap, m. `thickness`: the smallest half-extent of the other body, m. It limits the polygon, because a pebble does not
-  /// stand on what is flat at the scale of a boulder.
+  /// the overlap, or the one that would form in the step without contact forces, m. `thickness`: the smallest half-extent of the
+  /// other body, m. It limits the polygon, because a pebble does not stand on what is flat at the scale of a boulder.
   SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth,
                  double thickness = HUGE_VAL);
-
-  /// The same with one tilt along both axes, whatever the depth: for contacts whose gaps are known. The vertices are the points of
-  /// the tilts, at any distance from the plane. Its reach() is infinite.
-  static SupportPolygon of_tilt(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double tilt);
 
   /// Whether the polygon is more than the support point.
   bool has_width() const { return widths_[0] > 0 || widths_[1] > 0; }
@@ -72,7 +68,6 @@ class SupportPolygon {
   class Tilts;
   struct View;
 
-  explicit SupportPolygon(const View& view);
   SupportPolygon(const View& view, double depth, double thickness);
 
   void find(const View& view, const std::array<double, 2>& tangents);

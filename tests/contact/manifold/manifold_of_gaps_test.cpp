@@ -21,12 +21,14 @@ const Superellipsoid kBrick({0.1, 0.07, 0.05}, 60, 60);
 
 Matrix3 turned(double angle, const Vector3& axis) { return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix(); }
 
+constexpr double kApproach = 1e-3;  // m; the overlap that would form in the step
+
 /// The contacts of a body that is `gap` above the plane z = 0.
-ContactManifold above_floor(const Shape& shape, const Matrix3& rotation, double gap) {
+ContactManifold above_floor(const Shape& shape, const Matrix3& rotation, double gap, double approach = kApproach) {
   Pose pose{Vector3(0.3, -0.2, 0), rotation};
   pose.position.z() = gap - find_plane_proximity(shape, pose, Vector3::UnitZ(), 0).gap;
   const Proximity proximity = find_plane_proximity(shape, pose, Vector3::UnitZ(), 0);
-  return reduced_to(find_plane_manifold_of_gaps(shape, pose, proximity), 8);
+  return reduced_to(find_plane_manifold_of_gaps(shape, pose, proximity, approach), 8);
 }
 
 }  // namespace
@@ -73,14 +75,36 @@ TEST_CASE("round bodies have one contact ahead, a can on its side two, a standin
 
 TEST_CASE("manifold points do not move when the gap passes through 0") {
   for (const double angle : {0.0, 0.03}) {
-    const Matrix3 rotation = turned(angle, Vector3(1, 2, 0));
-    const ContactManifold before = above_floor(kBrick, rotation, 1e-9);
-    const ContactManifold after = above_floor(kBrick, rotation, -1e-9);
-    REQUIRE(before.corner_count == after.corner_count);
-    for (int k = 0; k < before.corner_count; ++k) {
-      const auto index = static_cast<std::size_t>(k);
-      CHECK((before.corners[index].point - after.corners[index].point).norm() < 1e-8);
-      CHECK(std::abs(before.corners[index].depth - after.corners[index].depth) < 1e-8);
+    for (const double approach : {0.0, kApproach}) {
+      const Matrix3 rotation = turned(angle, Vector3(1, 2, 0));
+      const ContactManifold before = above_floor(kBrick, rotation, 1e-12, approach);
+      const ContactManifold after = above_floor(kBrick, rotation, -1e-12, approach);
+      REQUIRE(before.corner_count == after.corner_count);
+      for (int k = 0; k < before.corner_count; ++k) {
+        const auto index = static_cast<std::size_t>(k);
+        CHECK((before.corners[index].point - after.corners[index].point).norm() < 1e-8);
+        CHECK(std::abs(before.corners[index].depth - after.corners[index].depth) < 1e-8);
+      }
+    }
+  }
+}
+
+TEST_CASE("a body that rests has the manifold points of an overlap, and one that lands has them farther out") {
+  for (const double exponent : {6.0, 8.0, 20.0, 60.0}) {
+    const Superellipsoid body({0.1, 0.07, 0.05}, exponent, exponent);
+    const Pose pose{Vector3(0.3, -0.2, 0.05 - 1e-6), Matrix3::Identity()};
+    const Proximity proximity = find_plane_proximity(body, pose, Vector3::UnitZ(), 0);
+    const ContactManifold of_overlap = find_plane_contact_manifold(body, pose, proximity);
+    const ContactManifold of_gaps = find_plane_manifold_of_gaps(body, pose, proximity);
+    const ContactManifold landing = find_plane_manifold_of_gaps(body, pose, proximity, kApproach);
+    REQUIRE(of_overlap.corner_count == 4);
+    REQUIRE(of_gaps.corner_count == 4);
+    REQUIRE(landing.corner_count == 4);
+    for (std::size_t k = 0; k < 4; ++k) {
+      CHECK((of_gaps.corners[k].point - of_overlap.corners[k].point).norm() == 0);
+      CHECK(of_gaps.corners[k].depth == of_overlap.corners[k].depth);
+      CHECK(landing.corners[k].depth == doctest::Approx(1e-6));
+      CHECK((landing.corners[k].point - pose.position).norm() > 1.01 * (of_gaps.corners[k].point - pose.position).norm());
     }
   }
 }
@@ -92,7 +116,7 @@ TEST_CASE("two bodies have manifold points on the intersection of their faces, p
   const Proximity proximity = find_proximity(table, pose1, kBrick, pose2);
   REQUIRE(proximity.gap == doctest::Approx(0.02));
   for (const double share : {0.0, 0.5, 1.0}) {
-    const ContactManifold manifold = reduced_to(find_manifold_of_gaps(table, pose1, kBrick, pose2, proximity, share), 8);
+    const ContactManifold manifold = reduced_to(find_manifold_of_gaps(table, pose1, kBrick, pose2, proximity, share, kApproach), 8);
     REQUIRE(manifold.corner_count == 4);
     double right = 0;
     for (const ManifoldCorner& corner : manifold.corners) {
@@ -102,7 +126,7 @@ TEST_CASE("two bodies have manifold points on the intersection of their faces, p
     }
     CHECK(right == doctest::Approx(0.5));  // the border of the table
     const Proximity other = find_proximity(kBrick, pose2, table, pose1);
-    const ContactManifold swapped = reduced_to(find_manifold_of_gaps(kBrick, pose2, table, pose1, other, 1 - share), 8);
+    const ContactManifold swapped = reduced_to(find_manifold_of_gaps(kBrick, pose2, table, pose1, other, 1 - share, kApproach), 8);
     REQUIRE(swapped.corner_count == 4);
     for (const ManifoldCorner& corner : manifold.corners) {
       const bool has_it = std::any_of(swapped.corners.begin(), swapped.corners.end(), [&](const ManifoldCorner& twin) {
@@ -119,7 +143,7 @@ TEST_CASE("with a smaller max_contacts the nearest manifold point keeps its gap"
   Pose pose{Vector3(0, 0, 0), turned(0.02, Vector3(1, 2, 0))};
   pose.position.z() = 1e-3 - find_plane_proximity(kBrick, pose, Vector3::UnitZ(), 0).gap;
   const Proximity proximity = find_plane_proximity(kBrick, pose, Vector3::UnitZ(), 0);
-  const ContactManifold manifold = find_plane_manifold_of_gaps(kBrick, pose, proximity);
+  const ContactManifold manifold = find_plane_manifold_of_gaps(kBrick, pose, proximity, kApproach);
   for (int room = 1; room <= 5; ++room) {
     const ContactManifold reduced = reduced_to(manifold, room);
     CHECK(reduced.corner_count == (room < 3 ? 0 : std::min(room, 4)));  // two support only a line
@@ -138,7 +162,7 @@ TEST_CASE("with max_contacts 3 a tilted brick is supported around its centre, wh
     Pose pose{Vector3::Zero(), turned(0.05, Vector3(std::cos(direction), std::sin(direction), 0))};
     pose.position.z() = 1e-3 - find_plane_proximity(kBrick, pose, Vector3::UnitZ(), 0).gap;
     const Proximity proximity = find_plane_proximity(kBrick, pose, Vector3::UnitZ(), 0);
-    const ContactManifold three = reduced_to(find_plane_manifold_of_gaps(kBrick, pose, proximity), 3);
+    const ContactManifold three = reduced_to(find_plane_manifold_of_gaps(kBrick, pose, proximity, kApproach), 3);
     REQUIRE(three.corner_count == 3);
     // The parts of a weight at the centre that the three points bear.
     Matrix3 corners;

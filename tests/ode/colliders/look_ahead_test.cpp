@@ -339,6 +339,7 @@ TEST_CASE("bodies dropped on a plane, a box and a sheet rest at their height at 
     for (const Lying& lying : kLying) {
       for (const double step : {0.002, 0.02, 0.1}) {
         World world;
+        dWorldSetQuickStepNumIterations(world.id(), 100);  // converged: the velocity is rounding
         world.surface.mode = dContactApprox1;
         world.surface.mu = dReal(0.5);
         const Front front(world.space(), wall, 1);
@@ -354,7 +355,7 @@ TEST_CASE("bodies dropped on a plane, a box and a sheet rest at their height at 
         CAPTURE(static_cast<int>(wall));
         CHECK(dBodyGetPosition(body)[2] == doctest::Approx(lying.height()).epsilon(0.01));
         CHECK(depth_below(geom) < 0.01 * lying.height());
-        CHECK(norm(to_vec(dBodyGetLinearVel(body))) < 0.01);
+        CHECK(norm(to_vec(dBodyGetLinearVel(body))) < within_rounding(1e-4, 1));
       }
     }
   }
@@ -369,7 +370,8 @@ TEST_CASE("on slopes below the angle of friction no body creeps") {
       for (const double step : {0.002, 0.02}) {
         const double incline = degrees * kDegree;
         World world;
-        dWorldSetQuickStepNumIterations(world.id(), 100);
+        // Converged: with 100 a can twice as high as wide, two of whose points carry a ninth of the others, creeps by 1 um/s.
+        dWorldSetQuickStepNumIterations(world.id(), 400);
         world.surface.mode = dContactApprox1;
         world.surface.mu = dReal(0.5);
         world.add_plane(incline);
