@@ -1,4 +1,4 @@
-// Contacts of bodies whose motion without contact forces does not bring them together.
+// The motion of bodies within a step without contact forces, and the contacts at its end.
 #pragma once
 
 #include <optional>
@@ -19,8 +19,8 @@ class FreeMotion {
   Pose end1() const { return pose_at(motion1_, time_); }
   Pose end2() const { return pose_at(motion2_, time_); }
 
-  /// Whether a contact takes more than `negligible` (m) of the approach away, although the paths are not those of the velocities.
-  bool is_held_back_by(const ContactManifold& contacts, double negligible) const;
+  /// The most that a contact takes away of the approach, m. It is 0 if the paths are those of the velocities.
+  double held_back_by(const ContactManifold& contacts) const;
 
   /// Moves contacts at the end of the motion back to the present poses, with gaps of which the motion leaves what it leaves. Their
   /// lever arms stay: so a ball that rolls bears its weight under its centre. `share` is the share of body 1 in the mobilities.
@@ -39,12 +39,16 @@ class FreeMotion {
 };
 
 /// The contacts at the end of the free motion, the motion within `time` (s) without contact forces. Empty if the contacts `ahead`
-/// leave this motion as it is, or if the bodies meet during it. `share` is the share of body 1 in the mobilities.
+/// are right for this motion. `share` is the share of body 1 in the mobilities.
 ///
 /// A row of contact forces is linear in the motion and has one normal. The free motion bends: gravity bends the path of a body,
 /// and the points of a rotating body move on circles. So contacts along the present velocity may forbid a motion that meets
 /// nothing. At the end of this motion the bodies are apart by a gap. Rows with the normals of this place, and with this gap left
-/// over by the free motion, forbid nothing of it. They keep the bodies apart if other forces change it.
+/// over by the free motion, forbid nothing of it. They keep the bodies apart if other forces change it. If the
+/// bodies meet, these rows do not replace the contacts `ahead`.
+///
+/// A round body that rotates may overlap at the end by more than its one contact takes away: its other end swings in. Then the
+/// manifold has both points, if they have one normal.
 std::optional<ContactManifold> find_contacts_after_free_motion(const BodyAhead& body1, const BodyAhead& body2, double time,
                                                                double share, const Settings& settings, const Proximity& now,
                                                                const ContactManifold& ahead);

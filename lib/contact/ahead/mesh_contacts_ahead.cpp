@@ -219,7 +219,7 @@ void MeshContactsAhead::leave_free_motion(const Search& search) {
   const BodyAhead& body = search.now;
   const FreeMotion free(body, {body.shape, body.pose, search.surface}, search.time);
   const double negligible = search.settings.tolerance * search.size;
-  const auto holds_back = [&](const MeshManifold& found) { return free.is_held_back_by(found.manifold, negligible); };
+  const auto holds_back = [&](const MeshManifold& found) { return free.held_back_by(found.manifold) > negligible; };
   if (std::none_of(found_.begin(), found_.end(), holds_back)) return;
   const Motion surface{{}, free.motion2().velocity, free.motion2().angular_velocity, search.surface.centre};
   const Pose frame = pose_at(surface, search.time);  // of the surface, at the end

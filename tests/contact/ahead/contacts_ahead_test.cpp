@@ -218,6 +218,34 @@ TEST_CASE("a blade that turns beside a wall and does not reach it is free, and o
   }
 }
 
+TEST_CASE("the end of a needle that swings into a floor within a step comes down on it, and no farther") {
+  const Ellipsoid needle(Vector3(0.2, 0.01, 0.01));
+  const Box block(Vector3(1, 1, 0.5));
+  const BodyAhead floor = standing(block, {Vector3(0, 0, -0.5), Matrix3::Identity()});
+  Random random(7);
+  int swung = 0;
+  for (int draw = 0; draw < 500; ++draw) {
+    const double tilt = uniform(random, 0, 0.2);
+    const Matrix3 rotation = Eigen::AngleAxisd(tilt, Vector3::UnitY()).toRotationMatrix();
+    const double turn = -uniform(random, 0.05, 0.3);
+    BodyAhead body = moving(needle, {Vector3::Zero(), rotation}, Vector3::Zero());
+    body.pose.position.z() = needle.support(-rotation.row(2).transpose()) + uniform(random, -1e-3, 1e-3);
+    body.motion.centre = body.pose.position;
+    body.motion.turning = Vector3(1 / 4e-5, 1 / 8e-3, 1 / 8e-3).asDiagonal();
+    body.motion.angular_velocity = Vector3(0, turn / kTime, 0);
+    body.motion.arm = needle.bounding_radius();
+    const Matrix3 end = Eigen::AngleAxisd(turn, Vector3::UnitY()).toRotationMatrix() * rotation;
+    const double overlap = needle.support(-end.row(2).transpose()) - body.pose.position.z();
+    const double known = taken_away(body, find_on_plane({needle, body.pose, body.motion}));
+    if (overlap < 5e-4) continue;
+    CHECK(known > overlap - 1.01e-4);  // a hundredth of the thickness is ignored
+    CHECK(known < overlap + 1e-9);
+    CHECK(taken_away(body, find(body, floor)) == doctest::Approx(known).epsilon(1e-6));
+    ++swung;
+  }
+  CHECK(swung > 100);
+}
+
 TEST_CASE("a ball that falls past an edge is free, and one that falls on it is not") {
   for (const double size : {0.001, 0.003, 0.01, 0.1}) {
     const Ellipsoid ball(Vector3::Constant(size));
