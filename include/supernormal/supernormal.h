@@ -195,13 +195,15 @@ SUPERNORMAL_ODE_API void snSetWarmStart(int on);
  * step of the simulation. With a time > 0 dCollide also returns contacts of pairs that may meet within it. These have depth =
  * -gap < 0; pass them to snContactLookAhead before dJointCreateContact. So a body does not tunnel through what it would hit
  * within a step, and resting bodies hardly overlap, at longer steps. lib/guide.md, "Contacts before overlap", lists the
- * exceptions: bodies of several geoms, and two free bodies that meet off centre and move many sizes in a step.
+ * exceptions: bodies of several geoms, bodies that an impact rotates far in a step, and two free bodies that meet off centre and
+ * move many sizes in a step.
  *
  * dCollide takes velocities and forces from the bodies of the geoms (dGeomGetBody). A geom without a body stands still. dCollide
  * moves both without rotation to where they meet, and takes the normals there. So a body that flies past another has no contact
- * with it. A contact leaves a motion as it is in which gravity, forces and rotation keep the bodies apart. A pair must come near enough: rotation, gravity, forces and one hundredth of the smallest half-extent increase the
- * distance that counts as near. A pair uses the larger time of its two geoms. All classes except dRay have contacts ahead. On a
- * dTriMesh or dHeightfield the body slides from face to face.
+ * with it. A contact leaves a motion as it is in which gravity, forces and rotation keep the bodies apart. A pair must come near
+ * enough: rotation, gravity, forces and one hundredth of the smallest half-extent increase the distance that counts as near. A pair
+ * uses the larger time of its two geoms. All classes except dRay have contacts ahead. On a dTriMesh or dHeightfield the body slides
+ * from face to face.
  *
  * The bounding box covers the motion of the geom's own body within its own time, so that spaces report the pair. A moving dBox
  * or other geom of ODE has its present box, and has contacts ahead when it comes into ours. Inside a dGeomTransform nothing is
@@ -215,12 +217,13 @@ SUPERNORMAL_ODE_API int snSetDefaultLookAhead(dReal time);
 
 /** Turns a contact with depth < 0 into a constraint of ODE that lets the gap close within `step`, and no more. `step` is in s, >
  * 0: the next dWorldStep's or dWorldQuickStep's. The contact's depth becomes 0, its surface gets dContactMotionN, and -gap/step
- * is added to the motionN that it has by this flag. A contact of geoms that look ahead gets a dContactSoftERP of 0.8, if it has none:
- * it corrects 0.8 of its overlap in a step, whatever the world's ERP. Other contacts stay unchanged. Call it after setting
+ * is added to the motionN that it has by this flag. A contact of geoms that look ahead gets a dContactSoftERP of 0.8, if it has
+ * none: it corrects 0.8 of its overlap in a step, whatever the world's ERP. Other contacts stay unchanged. Call it after setting
  * contact->surface.
- * dContactBounce does not suit a contact ahead, because ODE would throw the body back before it touches. Set dContactApprox1:
- * without it mu is a force, which acts before the bodies touch. With a step that is refused (snLastError), or NULL, nothing is
- * changed. */
+ * dContactBounce does not suit a contact ahead, because ODE would throw the body back before it touches. A body that is stopped
+ * ahead has lost its velocity when it touches, and bounces by it no more. Restitution with look-ahead is in the effects of C++; a
+ * C program leaves the time of geoms that shall bounce at 0. Set dContactApprox1: without it mu is a force, which acts before the
+ * bodies touch. With a step that is refused (snLastError), or NULL, nothing is changed. */
 SUPERNORMAL_ODE_API void snContactLookAhead(dContact* contact, dReal step);
 
 /* --- queries of two bodies --------------------------------------------------------------------------------------------- */
