@@ -7,8 +7,7 @@
 #include "contact/ahead/meeting.hpp"
 #include "contact/ahead/nearness.hpp"
 #include "contact/ahead/small_rotation.hpp"
-#include "contact/manifold/corner_depth.hpp"
-#include "contact/manifold/support_polygon.hpp"
+#include "contact/manifold/common_corners.hpp"
 #include "supernormal/impact/motion.hpp"
 #include "supernormal/impact/time_of_impact.hpp"
 #include "supernormal/proximity/gap_function.hpp"
@@ -36,7 +35,7 @@ void add_end(const BodyAhead& body1, const BodyAhead& body2, double time, double
   contacts.corners = {now, now, end, end};
   contacts.corner_count = ContactManifold::kMaxCorners;
   contacts.same_place = kSamePlace * smaller_thickness(body1.shape, body2.shape);
-  contacts.shallow = 0.1 * contacts.same_place;
+  contacts.shallow = kShallow * contacts.same_place;
 }
 
 }  // namespace

@@ -14,6 +14,9 @@ namespace supernormal {
 // separate. In between they move together.
 inline constexpr double kSamePlace = 0.01;
 
+// ContactManifold::shallow of points with gaps, as a fraction of same_place: at rest their gaps are rounding.
+inline constexpr double kShallow = 0.1;
+
 /// Points on which the bodies may rest, and the separation of the two tilted faces there, m.
 struct CornerList {
   std::array<Vector3, ContactManifold::kMaxCorners> points;

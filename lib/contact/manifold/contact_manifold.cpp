@@ -27,9 +27,6 @@ constexpr double kSameDepth = 1e-9;
 // deepest.
 constexpr double kLeastWeight = 0.01;
 
-// ContactManifold::shallow of points with gaps, as a fraction of same_place: at rest their gaps are rounding.
-constexpr double kShallow = 0.1;
-
 /// At any depth: a resting body has a depth of rounding only, and a body that stands on one point for a step slides.
 bool overlaps(const Proximity& proximity) { return proximity.status != Status::Apart && proximity.gap < 0; }
 
