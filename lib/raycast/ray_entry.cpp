@@ -9,7 +9,7 @@
 namespace supernormal {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // A normal within this cosine of perpendicular to the line counts as perpendicular. Its boundary point is on the silhouette, to the
 // square of this times a radius of curvature.
@@ -69,7 +69,7 @@ double first_root(double a, double b, double c) {
   const double discriminant = b * b - a * c;
   const double root = std::sqrt(std::max(discriminant, 0.0));
   if (discriminant > 0 && b < 0) return c / (root - b);
-  return a > kStraight ? -(b + root) / a : kInfinity;
+  return a > kStraight ? -(b + root) / a : kUnbounded;
 }
 
 }  // namespace
@@ -127,7 +127,7 @@ void EntrySearch::evaluate(const Vector3& normal) {
   const bool is_best = !has_best_ || is_better(sample);
   if (is_best) {
     best_ = sample;
-    model_error_ = point_error_ = kInfinity;
+    model_error_ = point_error_ = kUnbounded;
   }
   if (is_best || !gap_.has_hessian()) was_tried_ = false;
   has_best_ = true;
@@ -201,14 +201,14 @@ Vector3 EntrySearch::distance_at(const Sample& sample) const { return sample.jet
 
 // The model's estimate of the remaining error. It uses the expected gain and its ratio to the previous one.
 double EntrySearch::expected_error(const Step& step) const {
-  if (!gap_.has_hessian() || !std::isfinite(step.gain)) return kInfinity;
+  if (!gap_.has_hessian() || !std::isfinite(step.gain)) return kUnbounded;
   const bool has_history = std::isfinite(promised_gain_) && promised_gain_ > 0 && step.length < kAsymptoticStep;
   const double contraction = has_history ? std::min(step.gain / promised_gain_, kSlowestContraction) : kSlowestContraction;
   return kGainSafety / (1 - contraction) * step.gain;
 }
 
 double EntrySearch::boundary_error() const {
-  if (!has_best_) return kInfinity;
+  if (!has_best_) return kUnbounded;
   const double error = std::min({distance_at(best_).norm(), portal_.upper_bound() - best_.t, model_error_, point_error_});
   return std::max(error, 0.0) + gap_.rounding();
 }
@@ -239,7 +239,7 @@ bool EntrySearch::choose(const Step& step, Vector3& normal) {
   if (is_promising && !is_slow) {
     promised_gain_ = step.gain;
   } else {
-    promised_gain_ = kInfinity;
+    promised_gain_ = kUnbounded;
     if (choose_by_portal(normal)) return true;
     if (!is_promising) return false;
   }
@@ -295,13 +295,13 @@ EntrySearch::Result EntrySearch::found(Status status) const {
   if (has_best_) {
     // If the line only grazes the body, its slope does not grow behind the plane. The remaining sideways error then does not bound
     // the error of t.
-    const double steep_length = is_deep_ ? error / -best_.slope : kInfinity;
+    const double steep_length = is_deep_ ? error / -best_.slope : kUnbounded;
     const double t_error = std::fmin(steep_length, length + gap_.rounding() / -best_.slope);
     return {Kind::Found, status, t, error, t_error, best_.jet.n};
   }
   // The limit of evaluations is reached.
-  if (portal_.is_pierced()) return {Kind::Found, status, portal_.upper_bound(), kInfinity, kInfinity, nearest_normal_};
-  return {Kind::Miss, status, 0, kInfinity, kInfinity, nearest_normal_};
+  if (portal_.is_pierced()) return {Kind::Found, status, portal_.upper_bound(), kUnbounded, kUnbounded, nearest_normal_};
+  return {Kind::Miss, status, 0, kUnbounded, kUnbounded, nearest_normal_};
 }
 
 }  // namespace supernormal

@@ -64,7 +64,22 @@ Vector3 displacement(const WallMotion& motion, double seconds) {
 
 }  // namespace
 
-Eigen::Quaterniond rotation_between(const Vector3& from, const Vector3& to) { return Eigen::Quaterniond::FromTwoVectors(from, to); }
+Eigen::Quaterniond rotation_between(const Vector3& from, const Vector3& to) {
+  const Vector3 a = from.normalized();
+  const Vector3 b = to.normalized();
+  const Vector3 cross = a.cross(b);
+  const double twice_cosine = std::sqrt((1 + b.dot(a)) * 2);  // of half the angle
+  Eigen::Quaterniond rotation;
+  rotation.w() = twice_cosine / 2;
+  if (twice_cosine > 1e-6) {
+    rotation.vec() = cross * (1 / twice_cosine);
+    return rotation;
+  }
+  // Opposite up to rounding. What is left of the product has the direction of the axis, if anything is left.
+  rotation.vec() = cross.isZero(0) ? a.cross(std::abs(a.x()) > std::abs(a.z()) ? Vector3::UnitY() : Vector3::UnitX()) : cross;
+  rotation.vec().normalize();
+  return rotation;
+}
 
 double WallMotion::elapsed(double time) const { return std::max(0.0, std::min(time, until) - from); }
 

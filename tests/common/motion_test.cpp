@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 using namespace common;
@@ -24,6 +26,22 @@ std::vector<WallMotion> busy() {
 }
 
 }  // namespace
+
+TEST_CASE("the rotation between two directions is the smallest, also between opposite ones") {
+  const Vector3 up = Vector3::UnitZ();
+  for (const Vector3& from :
+       {Vector3(0, 0, 1), Vector3(0, 0, -2), Vector3(1, 0, 0), Vector3(0, 3, 0), Vector3(0.6, 0, 0.8), Vector3(-1, 2, 0.5)}) {
+    const Vector3 across = from.cross(Vector3(0.3, -0.5, 0.7));
+    // Tilts from the opposite direction, in rad: no digits are lost where the directions are almost opposite.
+    for (const Vector3& to : {up, from, Vector3(-from), Vector3(-from + 1e-9 * across), Vector3(-from + 1e-5 * across)}) {
+      const Eigen::Quaterniond rotation = rotation_between(from, to);
+      CHECK((rotation * from.normalized() - to.normalized()).norm() < 1e-10);
+      const double cosine = std::clamp(from.normalized().dot(to.normalized()), -1.0, 1.0);
+      CHECK(rotation.norm() == doctest::Approx(1).epsilon(1e-12));
+      CHECK(rotation.angularDistance(Eigen::Quaterniond::Identity()) == doctest::Approx(std::acos(cosine)).epsilon(1e-7));
+    }
+  }
+}
 
 TEST_CASE("a drum has its first pose after any number of whole revolutions") {
   const WallPose start{{0.3, 0.2, 0.1}, Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()))};

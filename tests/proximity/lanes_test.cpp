@@ -71,12 +71,13 @@ TEST_CASE("powers have an error of a few units of rounding, and of the exponent 
     const double x = std::exp2(-std::exp2(12 * uniform(engine) - 4)), p = std::exp2(17 * uniform(engine) - 10);
     const long double exact = std::pow(static_cast<long double>(x), static_cast<long double>(p));
     if (!(x >= 1e-300) || exact < 0x1p-899L) continue;
-    const double found = power(Real<1>(x), Real<1>(p)).v;
+    const double found = power(supernormal::Real<1>(x), supernormal::Real<1>(p)).v;
     worst_power = std::max(worst_power, static_cast<double>(std::abs(found / exact - 1) * 0x1p53L) / (3 + p));
     const double sum = 1 + uniform(engine) * 2, inverse = uniform(engine);
     const long double exact_root = std::pow(static_cast<long double>(sum), static_cast<long double>(inverse));
-    worst_root =
-        std::max(worst_root, static_cast<double>(std::abs(root(Real<1>(sum), Real<1>(inverse)).v / exact_root - 1) * 0x1p53L));
+    worst_root = std::max(
+        worst_root,
+        static_cast<double>(std::abs(root(supernormal::Real<1>(sum), supernormal::Real<1>(inverse)).v / exact_root - 1) * 0x1p53L));
   }
   MESSAGE("power: ", worst_power, " times 3 + p units, root: ", worst_root, " units of 2^-53");
   CHECK(worst_power <= 1);

@@ -46,10 +46,10 @@ constexpr double kLong = 2;
 using Tilt = std::array<double, 2>;  // of the normal, n + tilt[0] axes[0] + tilt[1] axes[1]
 
 // The four tilts along the axes and the four along the diagonals, in units of the largest tilt along either axis. The diagonals are
-// counter-clockwise. Vertex k lies between the tilts kAlong[k][0] and kAlong[k][1] along the axes.
+// counter-clockwise. Vertex k lies between the tilts kSideTilts[k][0] and kSideTilts[k][1] along the axes.
 constexpr std::array<Tilt, 4> kAxes = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 constexpr std::array<Tilt, 4> kDiagonals = {{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
-constexpr std::array<std::array<std::size_t, 2>, 4> kAlong = {{{0, 2}, {1, 2}, {1, 3}, {0, 3}}};
+constexpr std::array<std::array<std::size_t, 2>, 4> kSideTilts = {{{0, 2}, {1, 2}, {1, 3}, {0, 3}}};
 
 /// The ramp is 0 up to `zero` and 1 from `one` on. Either may be the larger one. Callers pass constants, so the compiler computes
 /// the quotient.
@@ -294,8 +294,8 @@ void SupportPolygon::place_vertices(const Tilts& tilts) {
   const double weight1 = widths_[1] * (1 - widths_[0]);
   const double weight_of_diagonal = widths_[0] * widths_[1];
   for (std::size_t k = 0; k < 4; ++k) {
-    const Tilts::SupportPoint& end0 = tilts.ends()[kAlong[k][0]];
-    const Tilts::SupportPoint& end1 = tilts.ends()[kAlong[k][1]];
+    const Tilts::SupportPoint& end0 = tilts.ends()[kSideTilts[k][0]];
+    const Tilts::SupportPoint& end1 = tilts.ends()[kSideTilts[k][1]];
     const auto mixed = [&](double of_end0, double of_end1, double of_diagonal) {
       return weight0 * of_end0 + weight1 * of_end1 + weight_of_diagonal * of_diagonal;
     };

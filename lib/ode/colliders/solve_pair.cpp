@@ -13,13 +13,13 @@
 namespace supernormal::ode {
 namespace {
 
-struct PosedShape {
+struct PosedBody {
   dGeomID geom;
   const Shape& shape;
   const Pose& pose;
 };
 
-BodyAhead moving(const PosedShape& posed) {
+BodyAhead moving(const PosedBody& posed) {
   return {posed.shape, posed.pose, motion_ahead_of(posed.geom, posed.pose.position, posed.shape.bounding_radius())};
 }
 
@@ -30,7 +30,7 @@ Settings settings_for(const Settings& settings, QueryKind kind, double time) {
 
 /// Contacts from the answer to a query. Sets the normal of `last`, which is in a frame with the orientation `frame`.
 /// `first_normal`: where the query started, in that frame, or null.
-ContactManifold finish(const PosedShape& one, const PosedShape& other, const Settings& asked, QueryKind kind, double time,
+ContactManifold finish(const PosedBody& one, const PosedBody& other, const Settings& asked, QueryKind kind, double time,
                        const Vector3* first_normal, const Matrix3& frame, const Proximity& found, LastNormal& last) {
   const bool is_warm = first_normal != nullptr;
   last.is_known = found.status != Status::InvalidInput;
@@ -85,8 +85,8 @@ ProximityQuery BodyPair::query_of(const PreparedPair& prepared) const {
 }
 
 ContactManifold BodyPair::finish(const PreparedPair& prepared, const Proximity& found, QueryKind kind, LastNormal& last) const {
-  const PosedShape one{geom1_, body1_->shape(), prepared.pose1};
-  const PosedShape other{geom2_, body2_->shape(), prepared.pose2};
+  const PosedBody one{geom1_, body1_->shape(), prepared.pose1};
+  const PosedBody other{geom2_, body2_->shape(), prepared.pose2};
   ContactManifold manifold = ode::finish(one, other, prepared.settings, kind, look_ahead(),
                                          prepared.is_warm ? &prepared.first_normal : nullptr, prepared.pose1.rotation, found, last);
   if (is_swapped_) {
@@ -120,8 +120,8 @@ ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, QueryKin
   last.pose = RelativePose::of(collider.pose, pose);
   const PairKey key = PairKey::of_direction(body.serial(), last.pose.offset, collider.kind);
   const double time = body.look_ahead();
-  const PosedShape one{ours, body.shape(), pose};
-  const PosedShape other{collider.geom, collider.shape, collider.pose};
+  const PosedBody one{ours, body.shape(), pose};
+  const PosedBody other{collider.geom, collider.shape, collider.pose};
   const Matrix3& frame = collider.pose.rotation;
   Vector3 cached_normal, first_normal;
   const bool is_warm = find_cached_normal(reserve_entry(key), last.pose, body.size(), cached_normal);

@@ -21,7 +21,7 @@ constexpr double kLargestStep = 1e-7;
 
 // Two as a rule. Some sharp bodies on an edge converge linearly: after 8 the last step may be 1e-7, and the derivatives are off by
 // 1e-6.
-constexpr int kMaxEvaluations = 32;
+constexpr int kMostSteps = 32;
 
 // Of a step that led down. With 0.5, 12 000 flat pairs (`derivatives 6000 5 --flat`, and 6) take 4.66 instead of 4.51 evaluations.
 constexpr double kShorter = 0.25;
@@ -131,9 +131,9 @@ CommonNormal::CommonNormal(GapFunction& gap, const Vector3& start)
   std::array<Place, 2> places;
   std::size_t best = 0;
   if (!look_at(start, places[best])) return;
-  const double least_gap = places[best].jet.s - kMaxEvaluations * gap_.rounding();
+  const double least_gap = places[best].jet.s - kMostSteps * gap_.rounding();
   double part = 1;
-  while (places[best].step.norm() > kSmallStep && gap_.evaluations() < kMaxEvaluations) {
+  while (places[best].step.norm() > kSmallStep && gap_.evaluations() < kMostSteps) {
     if (!look_at(moved(places[best], part), places[1 - best])) break;
     // A step that leads down was too long: the pieces of a model may change, and on a nearly flat side the other body's point, too.
     if (places[1 - best].jet.s < places[best].jet.s - gap_.rounding()) {

@@ -23,9 +23,9 @@ constexpr double kLeastFraction = 1e-2;
 constexpr double kValueRounding = 1e-15;
 
 // Gnomonic: if pieces meet farther away than about this, they are parallel to rounding.
-constexpr double kFarthest = 1e100;
+constexpr double kFarthestMeeting = 1e100;
 
-bool is_moderate(double numerator, double denominator) { return is_quotient_within(numerator, denominator, kFarthest); }
+bool is_moderate(double numerator, double denominator) { return is_quotient_within(numerator, denominator, kFarthestMeeting); }
 
 double inverse(double length) { return length > 0 ? 1 / length : std::numeric_limits<double>::infinity(); }
 

@@ -14,21 +14,17 @@
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/draw.hpp"
 
 using namespace supernormal;
+using test::random_rotation;
+using test::uniform;
 
 namespace {
 
 using Random = std::mt19937_64;
 
 constexpr double kTime = 0.01;  // s
-
-double uniform(Random& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
-
-Matrix3 random_rotation(Random& random) {
-  std::normal_distribution<double> normal;
-  return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().toRotationMatrix();
-}
 
 /// A body of mass 1 that moves without rotation.
 BodyAhead moving(const Shape& shape, const Pose& pose, const Vector3& velocity) {

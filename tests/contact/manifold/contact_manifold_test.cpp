@@ -19,9 +19,12 @@
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/draw.hpp"
 #include "support/relative.hpp"
 
 using namespace supernormal;
+using test::random_rotation;
+using test::uniform;
 
 namespace {
 
@@ -30,13 +33,6 @@ using Random = std::mt19937_64;
 // Tolerance of repeated manifold points, relative to the extent of the body. On a flat face the support point, to which they refer,
 // depends on the last digits of the normal.
 constexpr double kCornerTolerance = 1e-3;
-
-double uniform(Random& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
-
-Matrix3 random_rotation(Random& random) {
-  std::normal_distribution<double> normal;
-  return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().toRotationMatrix();
-}
 
 Matrix3 tilt(double angle, double direction) {
   return Eigen::AngleAxisd(angle, Vector3(std::cos(direction), std::sin(direction), 0)).toRotationMatrix();

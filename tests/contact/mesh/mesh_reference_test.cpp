@@ -20,7 +20,7 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr std::array kGaps = {0.5, 0.05, 0.01, 0.0, -0.01, -0.03, -0.1};  // relative to the smallest half-extent
+constexpr std::array kMeshGaps = {0.5, 0.05, 0.01, 0.0, -0.01, -0.03, -0.1};  // relative to the smallest half-extent
 
 double height_over(const Shape& shape, const Pose& pose, const Vector3& normal, const Vector3& point) {
   return normal.dot(point - pose.position) - shape.support(pose.rotation.transpose() * normal);
@@ -46,7 +46,7 @@ TEST_CASE(
     const double unit = std::min(body->half_extents().minCoeff(), hull.half_extents().minCoeff());
     const Matrix3 turn = draw.rotation();
     const Vector3 way = draw.direction();
-    const Pose pose = placed_at_gap(kGaps[i % kGaps.size()] * unit, *body, turn, hull, mesh_pose, way);
+    const Pose pose = placed_at_gap(kMeshGaps[i % kMeshGaps.size()] * unit, *body, turn, hull, mesh_pose, way);
     const GapBounds expected = bound_gap(*body, pose, hull, mesh_pose, 1e-10 * unit);
     REQUIRE(expected.upper - expected.lower <= 1.1e-10 * unit);
     const std::vector<MeshTriangle> triangles = mesh.placed(mesh_pose);

@@ -29,7 +29,7 @@ namespace {
 
 namespace fx = supernormal::effects;
 
-Scene scene_of(const std::string& name) { return load_scene(std::string(SUPERNORMAL_SAMPLES) + "/scenes/" + name + ".toml"); }
+Scene sample_scene(const std::string& name) { return load_scene(std::string(SUPERNORMAL_SAMPLES) + "/scenes/" + name + ".toml"); }
 
 /// The numbers that follow the first place of `word` in a line.
 double number_after(const std::string& text, const std::string& word) {
@@ -52,7 +52,7 @@ std::string refusal(const Scene& scene) {
 }  // namespace
 
 TEST_CASE("to LAMMPS: a state has its velocities, as angular momenta of LAMMPS") {
-  Scene scene = scene_of("short");
+  Scene scene = sample_scene("short");
   const falling_particles::StartGrain grain{.kind = 1,
                                             .position = {0.02, 0.02, 0.03},
                                             .quaternion = {0.8, 0, 0.6, 0},
@@ -76,7 +76,7 @@ TEST_CASE("to LAMMPS: a state has its velocities, as angular momenta of LAMMPS")
 }
 
 TEST_CASE("to LAMMPS: a box of grains has the masses of the scene, and springs that overlap by a hundredth") {
-  const Scene scene = scene_of("short");
+  const Scene scene = sample_scene("short");
   const LammpsInput input = lammps_input(scene);
   CHECK(has(input.commands, "wall/supernormal box 0 0 0 0.05 0.05"));
   CHECK(has(input.commands, "gravity 9.81 vector 0 0 -9.81"));
@@ -106,14 +106,14 @@ TEST_CASE("to LAMMPS: a box of grains has the masses of the scene, and springs t
 }
 
 TEST_CASE("to LAMMPS: a drum rotates from the time of the scene") {
-  const LammpsInput input = lammps_input(scene_of("drum"));
+  const LammpsInput input = lammps_input(sample_scene("drum"));
   CHECK(has(input.commands, "cylinder 0 0 0.06 0 1 0 0.06"));
   CHECK(has(input.commands, "move rotate 0 1 0 0 0 0.06 20 from 0.5"));
   CHECK(has(input.commands, "plane 0 0.05 0.06 0 -1 0"));
 }
 
 TEST_CASE("to LAMMPS: a hopper and its dish are meshes, and the lid is removed when the outlet opens") {
-  const Scene scene = scene_of("heap");
+  const Scene scene = sample_scene("heap");
   const LammpsInput input = lammps_input(scene);
   CHECK(has(input.commands, "fix tray all wall/supernormal box -0.15 -0.15 0 0.15 0.15 1e3 hooke"));
   CHECK(has(input.commands, "fix lid all wall/supernormal plane 0 0 0.085 0 0 1 hooke"));
@@ -137,7 +137,7 @@ TEST_CASE("to LAMMPS: a hopper and its dish are meshes, and the lid is removed w
 }
 
 TEST_CASE("to LAMMPS: the sides of a cell are planes with their own laws, motions and drives") {
-  const LammpsInput input = lammps_input(scene_of("cell"));
+  const LammpsInput input = lammps_input(sample_scene("cell"));
   const std::string law = " hooke 50000 restitution 0.1 friction 1e-06";
   CHECK(has(input.commands, "boundary m m m\n"));
   CHECK(has(input.commands, "pair_coeff * * hooke 50000 restitution 0.1 friction 0.5\n"));
@@ -148,7 +148,7 @@ TEST_CASE("to LAMMPS: the sides of a cell are planes with their own laws, motion
   CHECK(has(input.commands, law + " move linear 0 0 -0.02 from 0.2 drive axis 0 0 -1 stress 10000 "));
   CHECK(has(input.commands, " between x_low x_high y_low y_high until 0.2\n"));
 
-  Scene scene = scene_of("short");
+  Scene scene = sample_scene("short");
   scene.container = falling_particles::Cell{{{{0, 0, 0}, {0.05, 0.05, 0.1}}, {{-9, -9, -9}, {18, 18, 18}}}};
   scene.walls = walls_in(scene.container);
   scene.walls[0].friction = 0.7;
@@ -177,7 +177,7 @@ TEST_CASE("to LAMMPS: the sides of a cell are planes with their own laws, motion
 }
 
 TEST_CASE("to LAMMPS: servos that would rattle are named together, with the gain that would do") {
-  Scene scene = scene_of("cell");
+  Scene scene = sample_scene("cell");
   const std::vector<std::string> warnings = lammps_input(scene).warnings;
   REQUIRE(warnings.size() == 1);
   CHECK(has(warnings[0], "wall \"x_low\" may rattle in LAMMPS"));
@@ -190,7 +190,7 @@ TEST_CASE("to LAMMPS: servos that would rattle are named together, with the gain
 }
 
 TEST_CASE("to LAMMPS: the springs of a scene are kept") {
-  Scene scene = scene_of("short");
+  Scene scene = sample_scene("short");
   scene.effects.emplace_back(fx::Hertz{1e8, 0.3, 0.7, {}});
   CHECK(has(lammps_input(scene).commands, "hertz 100000000 0.3 restitution 0.7 friction 0.4"));
   scene.effects.emplace_back(fx::RollingResistance{1e-4, 2e-4, {}});
@@ -199,11 +199,11 @@ TEST_CASE("to LAMMPS: the springs of a scene are kept") {
 }
 
 TEST_CASE("to LAMMPS: a setting without a counterpart is refused by name") {
-  CHECK(has(refusal(scene_of("terrain")), "a container of kind terrain has no counterpart"));
-  Scene scene = scene_of("short");
+  CHECK(has(refusal(sample_scene("terrain")), "a container of kind terrain has no counterpart"));
+  Scene scene = sample_scene("short");
   scene.effects.emplace_back(fx::StokesDrag{});
   CHECK(has(refusal(scene), "stokes_drag has no counterpart"));
-  scene = scene_of("short");
+  scene = sample_scene("short");
   scene.effects.emplace_back(fx::Restitution{0.5, 0, fx::MaterialSelector::of(1)});
   CHECK(has(refusal(scene), "[restitution] of a material has no counterpart"));
 }

@@ -15,14 +15,14 @@ using namespace falling_particles;
 
 namespace {
 
-Vector3 corner(const Mesh& mesh, unsigned int index) {
+Vector3 vertex_at(const Mesh& mesh, unsigned int index) {
   return {mesh.vertices[index][0], mesh.vertices[index][1], mesh.vertices[index][2]};
 }
 
 /// m^3, by the divergence theorem: positive where the triangles look outwards.
 double volume(const Mesh& mesh) {
   double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles) sum += corner(mesh, a).dot(corner(mesh, b).cross(corner(mesh, c))) / 6;
+  for (const auto& [a, b, c] : mesh.triangles) sum += vertex_at(mesh, a).dot(vertex_at(mesh, b).cross(vertex_at(mesh, c))) / 6;
   return sum;
 }
 
@@ -61,8 +61,8 @@ TEST_CASE("pictures of parts are closed, look outwards, and have the parts' volu
 TEST_CASE("the picture of a plane looks along the plane's own normal") {
   const WallPicture picture = picture_of({"wall", PlaneShape{0, -Vector3::UnitY()}, {{0, 1, 0}}}, 0.4);
   const auto& [a, b, c] = picture.mesh.triangles.at(0);
-  const Vector3 p = corner(picture.mesh, a);
-  CHECK(((corner(picture.mesh, b) - p).cross(corner(picture.mesh, c) - p).normalized() + Vector3::UnitY()).norm() < 1e-6);
+  const Vector3 p = vertex_at(picture.mesh, a);
+  CHECK(((vertex_at(picture.mesh, b) - p).cross(vertex_at(picture.mesh, c) - p).normalized() + Vector3::UnitY()).norm() < 1e-6);
   for (const auto& vertex : picture.mesh.vertices) CHECK(vertex[1] == doctest::Approx(1));
 }
 
@@ -72,8 +72,8 @@ TEST_CASE("the picture of a part that stands is where it stands, and that of a p
   CHECK(picture.role == WallPicture::Role::Still);
   REQUIRE(picture.mesh.triangles.size() == 2);
   const auto& [a, b, c] = picture.mesh.triangles[0];
-  const Vector3 p = corner(picture.mesh, a);
-  const Vector3 normal = (corner(picture.mesh, b) - p).cross(corner(picture.mesh, c) - p).normalized();
+  const Vector3 p = vertex_at(picture.mesh, a);
+  const Vector3 normal = (vertex_at(picture.mesh, b) - p).cross(vertex_at(picture.mesh, c) - p).normalized();
   CHECK((normal - Vector3::UnitX()).norm() < 1e-6);
   for (const auto& vertex : picture.mesh.vertices) {
     CHECK(std::abs(vertex[0]) < 1e-7F);
@@ -86,12 +86,12 @@ TEST_CASE("the picture of a ground has its samples around its position, and look
   const WallPicture picture = picture_of(ground, 1);
   REQUIRE(picture.mesh.vertices.size() == 9);
   REQUIRE(picture.mesh.triangles.size() == 8);
-  CHECK((corner(picture.mesh, 0) - Vector3(0.9, 1.8, 3)).norm() < 1e-6);
-  CHECK((corner(picture.mesh, 2) - Vector3(1.1, 1.8, 3.5)).norm() < 1e-6);
-  CHECK((corner(picture.mesh, 4) - Vector3(1, 2, 4)).norm() < 1e-6);
+  CHECK((vertex_at(picture.mesh, 0) - Vector3(0.9, 1.8, 3)).norm() < 1e-6);
+  CHECK((vertex_at(picture.mesh, 2) - Vector3(1.1, 1.8, 3.5)).norm() < 1e-6);
+  CHECK((vertex_at(picture.mesh, 4) - Vector3(1, 2, 4)).norm() < 1e-6);
   for (const auto& [a, b, c] : picture.mesh.triangles) {
-    const Vector3 p = corner(picture.mesh, a);
-    CHECK((corner(picture.mesh, b) - p).cross(corner(picture.mesh, c) - p).z() > 0);
+    const Vector3 p = vertex_at(picture.mesh, a);
+    CHECK((vertex_at(picture.mesh, b) - p).cross(vertex_at(picture.mesh, c) - p).z() > 0);
   }
 }
 

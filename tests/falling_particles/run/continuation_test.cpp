@@ -37,7 +37,7 @@ class Continuation {
   TemporaryFolder folder_;
 };
 
-std::string bond(const std::string& name, const std::string& pairs) {
+std::string bond_between(const std::string& name, const std::string& pairs) {
   return "[[bond]]\nname = \"" + name + "\"\nkind = \"ball\"\nmodulus = 1e5\n" + pairs + '\n';
 }
 
@@ -63,21 +63,21 @@ constexpr const char* kPoses = "time_s,part,x_m,y_m,z_m,qw,qx,qy,qz\n";
 
 TEST_CASE("continuation: bonds that are made anew beside the bonds of the run before are doubted, with the file that would do") {
   const Continuation run;
-  CHECK(run.doubts(bond("glue", "touching = 0.1")).empty());
+  CHECK(run.doubts(bond_between("glue", "touching = 0.1")).empty());
   run.table("broken_bonds.csv", bonds_of({"0.01,glue", "0.02,glass", "0.03,glass"}));
   const std::string file = "file = \"run/final_bonds.csv\"";
   run.table("final_bonds.csv", bonds_of({"0.1,glue"}));
-  run.check_one(bond("glue", "touching = 0.1"),
+  run.check_one(bond_between("glue", "touching = 0.1"),
                 {"bond \"glue\" bonds the grains of start.file anew, without strain, by bond.touching: ",
                  "final_bonds.csv has 1 bond of this name with unstrained poses",
                  "bond[glue].file = \"run/final_bonds.csv\" would do (bonds.md)"});
-  run.check_one(bond("glue", "chain = [0, 1]"), {"anew, without strain, by bond.chain: "});
-  CHECK(run.doubts(bond("glue", file)).empty());
-  CHECK(run.doubts(bond("glue", "touching = 0.1\n" + file)).empty());
+  run.check_one(bond_between("glue", "chain = [0, 1]"), {"anew, without strain, by bond.chain: "});
+  CHECK(run.doubts(bond_between("glue", file)).empty());
+  CHECK(run.doubts(bond_between("glue", "touching = 0.1\n" + file)).empty());
   // All bonds of a section are broken; a section of another name is new, and those of a name that is gone are loose.
-  run.check_one(bond("glue", file) + bond("glass", "touching = 10"),
+  run.check_one(bond_between("glue", file) + bond_between("glass", "touching = 10"),
                 {"bond \"glass\" bonds", "all bonds of this name broke in the run before (2)"});
-  CHECK(run.doubts(bond("glue", file) + bond("new", "touching = 10")).empty());
+  CHECK(run.doubts(bond_between("glue", file) + bond_between("new", "touching = 10")).empty());
   run.check_one("", {"has 1 bond of the name \"glue\", and the scene has no section [[bond]] of this name", "bond[glue].file = "});
   run.table("final_bonds.csv", bonds_of({}));
   CHECK(run.doubts("").empty());

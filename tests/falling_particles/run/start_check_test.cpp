@@ -30,7 +30,7 @@ Scene with_state(const TemporaryFolder& folder, const std::string& grains, std::
   return load_scene(folder.write("scene.toml", kSceneText), overrides);
 }
 
-std::string refusal_of(const std::string& grains, const std::vector<std::string>& overrides = {}) {
+std::string refusal_of_start(const std::string& grains, const std::vector<std::string>& overrides = {}) {
   const TemporaryFolder folder;
   const Scene scene = with_state(folder, grains, overrides);
   try {
@@ -117,28 +117,28 @@ TEST_CASE("start: a state that is written and read goes on as the run would") {
 
 TEST_CASE("start: grains that overlap too deeply are refused with the pair and its depth") {
   const std::string two = pea_at(0.02, 0.03, 0.01) + pea_at(0.02, 0.0358, 0.01);  // 0.2 mm deep, of 3 mm
-  CHECK(refusal_of(two).empty());
+  CHECK(refusal_of_start(two).empty());
   const std::string deep = pea_at(0.02, 0.03, 0.01) + pea_at(0.02, 0.035, 0.01);
-  check_says(refusal_of(deep), {"state.csv:", "the pea is 0.001 m deep in the pea of line", "0.333 of the smallest half-axis",
-                                "allowed: up to 0.1, start.overlap"});
-  CHECK(refusal_of(deep, {"start.overlap=0.34"}).empty());
-  check_says(refusal_of(two, {"start.overlap=0.06"}), {"allowed: up to 0.06, start.overlap"});
+  check_says(refusal_of_start(deep), {"state.csv:", "the pea is 0.001 m deep in the pea of line", "0.333 of the smallest half-axis",
+                                      "allowed: up to 0.1, start.overlap"});
+  CHECK(refusal_of_start(deep, {"start.overlap=0.34"}).empty());
+  check_says(refusal_of_start(two, {"start.overlap=0.06"}), {"allowed: up to 0.06, start.overlap"});
 }
 
 TEST_CASE("start: overlaps across a periodic boundary count") {
   const std::string two = pea_at(1e-3, 0.03, 0.01) + pea_at(0.048, 0.03, 0.01);
-  CHECK(!refusal_of(two).empty());  // beyond a wall
-  check_says(refusal_of(two, {"periodic.x=[0, 0.05]"}), {"the pea is 0.003 m deep in the pea of line"});
-  CHECK(refusal_of(two, {"periodic.x=[0, 0.05]", "grain[pea].count=2", "start.overlap=1"}).empty());
+  CHECK(!refusal_of_start(two).empty());  // beyond a wall
+  check_says(refusal_of_start(two, {"periodic.x=[0, 0.05]"}), {"the pea is 0.003 m deep in the pea of line"});
+  CHECK(refusal_of_start(two, {"periodic.x=[0, 0.05]", "grain[pea].count=2", "start.overlap=1"}).empty());
 }
 
 TEST_CASE("start: grains beyond a wall are refused by its name") {
-  check_says(refusal_of(pea_at(0.02, 0.03, 0.01) + pea_at(0.02, 0.03, 2e-3)),
+  check_says(refusal_of_start(pea_at(0.02, 0.03, 0.01) + pea_at(0.02, 0.03, 2e-3)),
              {"state.csv:3: the pea is 0.001 m deep in wall \"floor\""});
-  check_says(refusal_of(pea_at(0.06, 0.03, 0.01)), {"state.csv:2: the pea is 0.013 m deep in wall \"x_high\""});
+  check_says(refusal_of_start(pea_at(0.06, 0.03, 0.01)), {"state.csv:2: the pea is 0.013 m deep in wall \"x_high\""});
   const std::string part = R"(part=[{name = "block", shape = "box", size = [0.01, 0.01, 0.01], position = [0.02, 0.03, 0.01]}])";
-  check_says(refusal_of(pea_at(0.02, 0.03, 0.016), {part}), {"the pea is 0.002 m deep in part \"block\""});
-  CHECK(refusal_of(pea_at(0.02, 0.03, 0.0179), {part}).empty());
+  check_says(refusal_of_start(pea_at(0.02, 0.03, 0.016), {part}), {"the pea is 0.002 m deep in part \"block\""});
+  CHECK(refusal_of_start(pea_at(0.02, 0.03, 0.0179), {part}).empty());
 }
 
 TEST_CASE("start: a grain outside a container without walls there is refused") {
@@ -146,7 +146,7 @@ TEST_CASE("start: a grain outside a container without walls there is refused") {
       "container={kind = \"none\", start = {corner = [0, 0, 0], size = [0.1, 0.1, 0.1]}, bounds = {corner = [0, 0, 0], size = [1, "
       "1, 1]}}";
   const std::string part = R"(part=[{name = "block", shape = "box", size = [0.01, 0.01, 0.01], position = [0.02, 0.03, 0.01]}])";
-  check_says(refusal_of(pea_at(0.5, 0.5, 0.5) + pea_at(0.5, 0.5, 1.5), {open, part}),
+  check_says(refusal_of_start(pea_at(0.5, 0.5, 0.5) + pea_at(0.5, 0.5, 1.5), {open, part}),
              {"state.csv:3: the pea is at [0.5, 0.5, 1.5] m, outside the container, a none; allowed: inside"});
 }
 

@@ -11,9 +11,9 @@ using namespace supernormal::test;
 namespace {
 
 constexpr int kSteps = 2000;
-constexpr double kReach = 2;     // m; the path before and behind
-constexpr double kTurn = 0.5;    // rad, over the whole path
-constexpr double kRadius = 1.2;  // m; no point of the moving geom is farther from its centre
+constexpr double kReach = 2;    // m; the path before and behind
+constexpr double kTurn = 0.5;   // rad, over the whole path
+constexpr double kBound = 1.2;  // m; no point of the moving geom is farther from its centre
 
 struct Passage {
   int overlaps = 0;  // steps
@@ -25,7 +25,7 @@ struct Passage {
 /// the depth may be smaller at once.
 Passage pass_through(dGeomID still, dGeomID moving) {
   const Vec direction = {2. / 3, -1. / 3, 2. / 3};
-  const double motion = 2 * kReach / kSteps + kTurn / kSteps * kRadius;
+  const double motion = 2 * kReach / kSteps + kTurn / kSteps * kBound;
   Passage passage;
   std::vector<Vec> left;
   std::vector<dContactGeom> before;

@@ -16,8 +16,6 @@ using supernormal::test::OdeSession;
 
 namespace {
 
-constexpr double kRealEpsilon = std::numeric_limits<dReal>::epsilon();
-
 struct Draw {
   std::mt19937_64 engine{5};
   std::normal_distribution<double> gauss;
@@ -43,7 +41,8 @@ double orthonormality_error(const Matrix3& R) { return (R.transpose() * R - Matr
 
 TEST_CASE("rotations that ODE computes in double precision are used unchanged") {
   OdeSession session;
-  if (kRealEpsilon > 1e-10) return;  // rotations in single precision are not orthonormal to double precision
+  if (std::numeric_limits<dReal>::epsilon() > 1e-10)
+    return;  // rotations in single precision are not orthonormal to double precision
   Draw draw;
   const Geom geom(dCreateSphere(nullptr, 1));
   for (int k = 0; k < 100000; ++k) {

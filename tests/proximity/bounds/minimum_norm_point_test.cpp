@@ -22,7 +22,7 @@ namespace {
 using Points = std::vector<Vector3>;
 using Long = Eigen::Matrix<long double, 3, 1>;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kRounding = std::numeric_limits<double>::epsilon();
 
 /// The distance of the origin from the hull, by Carathéodory's theorem: zero where four points surround it, otherwise the least of
 /// the distances from the points, segments and triangles whose nearest point is in their interior.
@@ -253,7 +253,7 @@ TEST_CASE("points on one side of a plane surround no origin, however nearly they
     const double height = std::pow(10, draw.uniform(-14, -10)), width = std::pow(10, draw.uniform(-6, -2));
     const auto point = [&] { return Vector3(turn * Vector3(draw.gauss(), width * draw.gauss(), height * draw.uniform(1, 2))); };
     const Points points = draw.points(8, point);
-    CHECK(minimum_norm_point(points).norm >= height - 8 * kEpsilon * largest_of(points));
+    CHECK(minimum_norm_point(points).norm >= height - 8 * kRounding * largest_of(points));
   }
 }
 
@@ -266,7 +266,7 @@ TEST_CASE("the hull only grows with its points: the nearest point comes nearer")
     for (int count = 0; count < 20; ++count) {
       points.emplace_back(centre + draw.vector());
       const double now = nearest_of(points).norm();
-      CHECK(now <= before + 8 * kEpsilon * largest_of(points));
+      CHECK(now <= before + 8 * kRounding * largest_of(points));
       before = now;
     }
   }

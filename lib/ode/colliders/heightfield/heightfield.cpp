@@ -71,7 +71,7 @@ struct Visitor {
 };
 
 /// Objects of this thread; kept to reuse their memory.
-struct Scratch {
+struct HeightfieldScratch {
   HeightfieldPatch patch;
   MeshContacts mesh;
   MeshContactsAhead mesh_ahead;
@@ -79,8 +79,8 @@ struct Scratch {
   std::vector<LocatedManifold> manifolds;
 };
 
-Scratch& scratch() {
-  thread_local ThreadKept<Scratch> kept;
+HeightfieldScratch& heightfield_scratch() {
+  thread_local ThreadKept<HeightfieldScratch> kept;
   return *kept;
 }
 
@@ -121,7 +121,7 @@ struct Found {
 };
 
 Found find_contacts(HeightfieldProbe& probe, const Visitor& visitor) {
-  Scratch& kept = scratch();
+  HeightfieldScratch& kept = heightfield_scratch();
   kept.contacts.clear();
   const std::span<const MeshTriangle> triangles = kept.patch.read(probe, visitor.region());
   for (const MeshContact& contact : kept.mesh.find(visitor.shape, visitor.pose, triangles, visitor.settings)) {
@@ -146,7 +146,7 @@ MotionAhead in_frame(MotionAhead world, const Pose& frame) {
   return world;
 }
 
-/// Appends the contacts ahead of the body to scratch().manifolds, in the world frame.
+/// Appends the contacts ahead of the body to heightfield_scratch().manifolds, in the world frame.
 void look_ahead(HeightfieldProbe& probe, const Visitor& visitor, const Pose& frame, dGeomID ours, dGeomID heightfield) {
   const Body& body = require_body(ours);
   const Vector3 origin = to_vector(dGeomGetPosition(ours));
@@ -158,7 +158,7 @@ void look_ahead(HeightfieldProbe& probe, const Visitor& visitor, const Pose& fra
   all.centre += reach.middle;
   all.extents.array() += reach.margin;
   if (is_above_all(probe, all)) return;
-  Scratch& kept = scratch();
+  HeightfieldScratch& kept = heightfield_scratch();
   const std::span<const MeshTriangle> triangles = kept.patch.read(probe, all.region());
   const std::span<const MeshManifold> found = kept.mesh_ahead.find(moving, surface, body.look_ahead(), triangles, visitor.settings);
   Proximity first;
@@ -168,7 +168,7 @@ void look_ahead(HeightfieldProbe& probe, const Visitor& visitor, const Pose& fra
   for (const MeshManifold& contact : found) kept.manifolds.push_back({to_world(contact.manifold, frame), -1});
 }
 
-/// Appends the contacts of the overlap to scratch().manifolds, in the world frame.
+/// Appends the contacts of the overlap to heightfield_scratch().manifolds, in the world frame.
 void look_at_overlap(HeightfieldProbe& probe, const Visitor& visitor, const Pose& frame, int max_contacts) {
   const Found found = find_contacts(probe, visitor);
   for (const Proximity& contact : found.contacts) {
@@ -177,7 +177,7 @@ void look_at_overlap(HeightfieldProbe& probe, const Visitor& visitor, const Pose
       manifold = find_plane_contact_manifold(visitor.shape, visitor.pose, contact);
       draw_in_corners(manifold, found.triangles);
     }
-    scratch().manifolds.push_back({to_world(manifold, frame), -1});
+    heightfield_scratch().manifolds.push_back({to_world(manifold, frame), -1});
   }
 }
 
@@ -187,7 +187,7 @@ Proximity find_nearest(HeightfieldProbe& probe, const Visitor& visitor) {
   const Region region = visitor.region();
   Settings settings = visitor.settings;
   settings.stop_when_apart = false;
-  Scratch& kept = scratch();
+  HeightfieldScratch& kept = heightfield_scratch();
   const auto nearest_in = [&](const Region& searched) {
     return find_nearest_triangle(visitor.shape, visitor.pose, kept.patch.read(probe, searched), settings).proximity;
   };
@@ -224,7 +224,7 @@ Impact find_heightfield_impact(dGeomID ours, dGeomID collider, double horizon) {
     const Visitor visitor(body, here.pose, field.pose);
     if (!visitor.is_usable()) return Impact{};
     const Region region = visitor.region().widened(path.travel() + kMargin * visitor.size());
-    const std::span<const MeshTriangle> triangles = scratch().patch.read(probe, region);
+    const std::span<const MeshTriangle> triangles = heightfield_scratch().patch.read(probe, region);
     return find_mesh_time_of_impact(body.shape(), here, triangles, field, duration, body.settings()).impact;
   });
 }
@@ -236,7 +236,7 @@ int collide_with_heightfield(dGeomID ours, dGeomID collider, int flags, dContact
     HeightfieldProbe& probe = HeightfieldProbe::looking_at(collider);
     if (!visitor.is_usable()) refuse_pair(ours, collider);
     const ContactArray out{ours, collider, flags, contacts, skip};
-    std::vector<LocatedManifold>& manifolds = scratch().manifolds;
+    std::vector<LocatedManifold>& manifolds = heightfield_scratch().manifolds;
     manifolds.clear();
     if (require_body(ours).look_ahead() > 0) look_ahead(probe, visitor, frame, ours, collider);
     // A body wholly below the surface has no contact ahead, but must be pushed up.

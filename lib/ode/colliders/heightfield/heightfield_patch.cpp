@@ -13,7 +13,7 @@ constexpr int kPoints = 32;      // number of points along one axis if there is 
 
 // Largest distance of a region from the origin, in units of its size. Beyond it, rounding decides where the region is among the
 // samples, and the sample number overflows an int.
-constexpr double kFarthest = 1e8;
+constexpr double kFarthestRegion = 1e8;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -38,7 +38,7 @@ void require_near(const HeightfieldProbe& probe, const Region& region) {
   if (!probe.is_infinite()) return;
   const double farthest =
       std::max({std::abs(region.x_low), std::abs(region.x_high), std::abs(region.z_low), std::abs(region.z_high)});
-  if (farthest < kFarthest * region.reach()) return;
+  if (farthest < kFarthestRegion * region.reach()) return;
   throw std::domain_error("the body is more than 1e8 times its size from the middle of an infinite dHeightfield");
 }
 

@@ -25,18 +25,18 @@ namespace supernormal::ode {
 namespace {
 
 // Relative margin of the box around a body's path, so that rounding loses no triangle that touches it.
-constexpr double kMargin = 1e-6;
+constexpr double kPathMargin = 1e-6;
 
 /// Objects of this thread; kept to reuse their memory.
-struct Scratch {
+struct TrimeshScratch {
   MeshCandidates candidates;
   MeshContacts contacts;
   MeshContactsAhead contacts_ahead;
   std::vector<LocatedManifold> manifolds;
 };
 
-Scratch& scratch() {
-  thread_local ThreadKept<Scratch> kept;
+TrimeshScratch& trimesh_scratch() {
+  thread_local ThreadKept<TrimeshScratch> kept;
   return *kept;
 }
 
@@ -60,7 +60,7 @@ struct Visit {
 
   /// The triangles within `distance` (m) of the body.
   std::span<const MeshTriangle> triangles_within(double distance, bool is_collision = false) const {
-    return scratch().candidates.find(mesh, geom, box.widened(distance), pose, is_collision);
+    return trimesh_scratch().candidates.find(mesh, geom, box.widened(distance), pose, is_collision);
   }
 };
 
@@ -74,12 +74,12 @@ void count_query_of(const Proximity* first, int evaluations) {
 
 std::span<const MeshContact> find_contacts(const Visit& visit, std::span<const MeshTriangle> triangles) {
   const std::span<const MeshContact> found =
-      scratch().contacts.find(visit.body.shape(), visit.pose, triangles, visit.body.settings());
-  count_query_of(found.empty() ? nullptr : &found.front().proximity, scratch().contacts.evaluations());
+      trimesh_scratch().contacts.find(visit.body.shape(), visit.pose, triangles, visit.body.settings());
+  count_query_of(found.empty() ? nullptr : &found.front().proximity, trimesh_scratch().contacts.evaluations());
   return found;
 }
 
-/// Appends the contacts ahead to scratch().manifolds.
+/// Appends the contacts ahead to trimesh_scratch().manifolds.
 void look_ahead(const Visit& visit) {
   const double time = visit.body.look_ahead();
   const BodyAhead body{visit.body.shape(), visit.pose,
@@ -88,17 +88,17 @@ void look_ahead(const Visit& visit) {
   const MeshContactsAhead::Reach reach = MeshContactsAhead::reach_of(body, surface, time);
   BodyBox box = visit.box.widened(reach.margin);
   box.centre += visit.pose.rotation.transpose() * reach.middle;
-  const std::span<const MeshTriangle> triangles = scratch().candidates.find(visit.mesh, visit.geom, box, visit.pose, true);
-  MeshContactsAhead& ahead = scratch().contacts_ahead;
+  const std::span<const MeshTriangle> triangles = trimesh_scratch().candidates.find(visit.mesh, visit.geom, box, visit.pose, true);
+  MeshContactsAhead& ahead = trimesh_scratch().contacts_ahead;
   const std::span<const MeshManifold> found = ahead.find(body, surface, time, triangles, visit.body.settings());
   count_query_of(found.empty() ? nullptr : &found.front().manifold.deepest, ahead.evaluations());
-  for (const MeshManifold& contact : found) scratch().manifolds.push_back({contact.manifold, contact.triangle});
+  for (const MeshManifold& contact : found) trimesh_scratch().manifolds.push_back({contact.manifold, contact.triangle});
 }
 
-/// Appends the contacts of the overlap to scratch().manifolds; with all manifold points if max_contacts > 1.
+/// Appends the contacts of the overlap to trimesh_scratch().manifolds; with all manifold points if max_contacts > 1.
 void look_at_overlap(const Visit& visit, int max_contacts) {
   const std::span<const MeshContact> found = find_contacts(visit, visit.triangles_within(0, true));
-  std::vector<LocatedManifold>& manifolds = scratch().manifolds;
+  std::vector<LocatedManifold>& manifolds = trimesh_scratch().manifolds;
   std::span<const MeshTriangle> near;
   double margin = -1;  // the last search covered this margin
   for (const MeshContact& contact : found) {
@@ -189,7 +189,8 @@ Impact find_trimesh_impact(dGeomID ours, dGeomID collider, double horizon) {
     Motion world = mesh;
     world.pose = {mesh.pose.position - back.transpose() * frame.position, back.transpose()};
     world.centre = frame.rotation * mesh.centre + frame.position;
-    const std::span<const MeshTriangle> triangles = visit.triangles_within(path.travel() + kMargin * visit.box.half_lengths.norm());
+    const std::span<const MeshTriangle> triangles =
+        visit.triangles_within(path.travel() + kPathMargin * visit.box.half_lengths.norm());
     return find_mesh_time_of_impact(visit.body.shape(), here, triangles, world, duration, visit.body.settings()).impact;
   });
 }
@@ -199,13 +200,13 @@ int collide_with_trimesh(dGeomID ours, dGeomID collider, int flags, dContactGeom
     const Visit visit(ours, collider);
     if (!visit.is_usable()) refuse_pair(ours, collider);
     const ContactArray out{ours, collider, flags, contacts, skip};
-    scratch().manifolds.clear();
+    trimesh_scratch().manifolds.clear();
     if (visit.body.look_ahead() > 0) {
       look_ahead(visit);
     } else {
       look_at_overlap(visit, out.max_contacts());
     }
-    return write_contacts(scratch().manifolds, out);
+    return write_contacts(trimesh_scratch().manifolds, out);
   });
 }
 
