@@ -39,7 +39,7 @@ class NormalLine {
   }
 
  private:
-  Vector3 point_, normal_;
+  Vector3 point_ = Vector3::Zero(), normal_ = Vector3::Zero();
   double radius_ = 0;
   bool has_previous_ = false;
 };
