@@ -51,14 +51,14 @@ struct PreciseEllipse {
 
 /// The rebound velocity of an impact of a unit mass at velocity 1 on F = x^(3/2) with the damper of ratio b, by short Euler steps.
 double rebound(double b) {
-  constexpr double kStep = 1e-6;
+  constexpr double kEulerStep = 1e-6;
   double x = 0, v = 1;
   while (true) {
-    x += kStep * v;
+    x += kEulerStep * v;
     const double stiffness = 1.5 * std::sqrt(std::fmax(x, 0));
     const double force = x * stiffness / 1.5 + 2 * b * std::sqrt(5.0 / 6 * stiffness) * v;
     if (force <= 0 || x <= 0) return -v;
-    v -= kStep * force;
+    v -= kEulerStep * force;
   }
 }
 
