@@ -16,6 +16,7 @@ namespace supernormal {
 struct MeshTriangle {
   std::array<Vector3, 3> vertices;  ///< m; world frame; counter-clockwise seen from outside
   int index = 0;                    ///< the caller's index of the triangle
+  double rounding = 0;              ///< m; how far a vertex may be from its place, if fewer digits were stored than a double has
 };
 
 /// A contact of a body with a surface.
@@ -31,8 +32,9 @@ class MeshContactSearch;
 ///
 /// The surface is single-sided: the space behind a triangle is solid. The triangles must include all that touch the body's box
 /// (body_box.hpp). Other triangles have no effect, and the order does not matter. Triangles are neighbours if they share vertices,
-/// which are equal if they are closer than 1e-6 of the smaller triangle's longest side. Some triangles are skipped: those without
-/// area, repeated ones, and triangles with a coordinate that is not finite or beyond 1e30.
+/// which are equal if they are closer than 1e-6 of the smaller triangle's longest side plus twice their rounding. Neighbours are
+/// coplanar if their rounding explains the angle between them. Some triangles are skipped: those without area, repeated ones, and
+/// triangles with a coordinate that is not finite or beyond 1e30.
 class SUPERNORMAL_API MeshContacts {
  public:
   MeshContacts();

@@ -21,11 +21,11 @@ namespace {
 // After an impact the body slides along the surface: from the floor to a wall, then into the corner behind.
 constexpr int kMostImpacts = 4;
 
-// The body slides along a face that it approaches by less than this fraction of its speed.
+// The body slides along a face that it approaches by less than this fraction of its speed, plus the tilt of the face by rounding.
 constexpr double kAlong = 1e-9;
 
 // Two contacts belong to one face if their normals differ by less than kSameNormal, and their gaps by less than this fraction of
-// search.near.
+// search.near. Both are of a plane through the vertices below the body, so rounding adds to both.
 constexpr double kSameNormal = 1e-6;
 constexpr double kSameGap = 1e-3;
 
@@ -43,9 +43,11 @@ class FirstImpact {
     if (!is_usable(triangle)) return;
     const Vector3& velocity = body_->motion.velocity;
     const std::array<Vector3, 3>& v = triangle.vertices;
-    const Vector3 inward = -(v[1] - v[0]).cross(v[2] - v[0]).normalized();
+    const Vector3 area = (v[1] - v[0]).cross(v[2] - v[0]);
+    const Vector3 inward = -area.normalized();
     const double closing = inward.dot(velocity);
-    if (!(closing > kAlong * velocity.norm())) return;
+    const double tilt = 2 * triangle.rounding * longest_side(triangle) / area.norm();
+    if (!(closing > (kAlong + tilt) * velocity.norm())) return;
     // The tangent plane parallel to the face reaches it no later than the body does.
     ++evaluations_;
     const Matrix3& rotation = body_->pose.rotation;
@@ -138,11 +140,12 @@ struct MeshContactsAhead::Search {
   double time;  // s
   std::span<const MeshTriangle> triangles;
   const Settings& settings;
-  double near;   // m; a gap up to this is a contact
-  double reach;  // m
-  double share;  // the body's share of the mobilities
-  double size;   // m; the smallest half-extent of the body
-  double graze;  // m; a deeper overlap is an impact
+  double near;      // m; a gap up to this is a contact
+  double reach;     // m
+  double share;     // the body's share of the mobilities
+  double size;      // m; the smallest half-extent of the body
+  double graze;     // m; a deeper overlap is an impact
+  double rounding;  // m; of the vertices
 };
 
 MeshContactsAhead::Reach MeshContactsAhead::reach_of(const BodyAhead& body, const MotionAhead& surface, double time) {
@@ -164,6 +167,8 @@ std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, con
   const double near = nearness_of_both(body.motion, surface, time, size);
   BodyAhead there = body;
   there.motion.velocity -= surface.velocity;
+  double rounding = 0;
+  for (const MeshTriangle& triangle : triangles) rounding = std::max(rounding, triangle.rounding);
   const Search search{there,
                       body,
                       surface,
@@ -174,7 +179,8 @@ std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, con
                       there.motion.velocity.norm() * time + near,
                       share_of_first(body.motion, surface),
                       size,
-                      kGraze * size};
+                      kGraze * size,
+                      rounding};
   add_overlaps(search);
   double left = time;
   const MeshContacts* passed = nullptr;
@@ -322,8 +328,8 @@ void MeshContactsAhead::add(const Search& search, const Proximity& there, int tr
   manifold.reach = search.reach;
   limit_rotation(search.now, {search.now.shape, search.now.pose, search.surface}, search.time, search.share, manifold);
   const auto same = std::find_if(found_.begin(), found_.end(), [&](const MeshManifold& other) {
-    return (other.manifold.deepest.normal - there.normal).norm() < kSameNormal &&
-           other.manifold.deepest.gap < manifold.deepest.gap + kSameGap * search.near;
+    return (other.manifold.deepest.normal - there.normal).norm() < kSameNormal + 4 * search.rounding / search.size &&
+           other.manifold.deepest.gap < manifold.deepest.gap + kSameGap * search.near + 4 * search.rounding;
   });
   if (same == found_.end()) found_.push_back({manifold, triangle});
 }

@@ -63,7 +63,7 @@ void MeshContactSearch::find_on_border(SupportProbe& probe, int f, int side, con
   const Face& face = surface_.faces()[at(f)];
   const int first_evaluation = probe.evaluations();
   Arc turned_arc = arc;
-  turned_arc.from = turned(top.normal, arc.from, weight);
+  turned_arc.from = turned(top.normal, face.normal, weight);
   turned_arc.towards = (arc.towards - arc.towards.dot(turned_arc.from) * turned_arc.from).normalized();
   const Vector3 lowest =
       lowest_over_edge(probe, turned_arc, turned_arc.sample(0, probe), arc_tolerance(), settings_.max_evaluations);

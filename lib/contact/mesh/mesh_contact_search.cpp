@@ -71,8 +71,7 @@ void MeshContactSearch::prepare(const Shape& shape, const Pose& pose, std::span<
 void MeshContactSearch::look_at_patches(SupportProbe& probe) {
   for (const CoplanarPatch& patch : surface_.patches()) {
     const DeepestPoint deepest = probe.deepest(patch.normal);
-    const double plane = patch.normal.dot(surface_.faces()[at(patch.first_face)].vertices[0]);
-    supports_.push_back({deepest.point, deepest.height - plane, false});
+    supports_.push_back({deepest.point, deepest.height - patch.height, false});
   }
 }
 
@@ -98,7 +97,9 @@ void MeshContactSearch::find_on_patch(SupportProbe& probe, std::size_t patch) {
     const Face& face = surface_.faces()[at(f)];
     if (!surface_.is_over(face, support.deepest)) continue;
     support.is_over = true;
-    const SurfaceContact contact = contact_at(f, normal, support.gap, support.deepest);
+    const double gap = support.gap - surface_.rise_over_patch(face, support.deepest);
+    if (!(gap <= surface_.rounding())) return;
+    const SurfaceContact contact = contact_at(f, normal, std::min(gap, 0.0), support.deepest);
     if (touches_surface(probe, contact)) found_.add(contact);
     return;
   }
@@ -119,8 +120,11 @@ bool MeshContactSearch::open_arc(SupportProbe& probe, int f, int side, Arc& arc,
   if (convexity == EdgeConvexity::Flat || convexity == EdgeConvexity::Concave || !(support.gap <= 0) ||
       is_edge_owned_by_neighbour(f, side))
     return false;
+  // Rounding may tilt the edge from the plane of the patch. The arc is across the edge.
+  const Vector3 along = (face.vertices[at(next_corner(side))] - face.vertices[at(side)]).normalized();
+  const Vector3 from = along.cross(face.normal).cross(along).normalized();
   const Vector3& across = face.outward[at(side)];
-  arc = {surface_.patches()[at(face.patch)].normal, across, 0.5 * std::numbers::pi, face.vertices[at(side)]};
+  arc = {from, across, 0.5 * std::numbers::pi, face.vertices[at(side)]};
   low = arc.sample(0, support.deepest);
   if (convexity == EdgeConvexity::Border) {
     if (!(low.slope > surface_.rounding() + face.crack[at(side)])) return false;

@@ -3,20 +3,11 @@
 #include <array>
 #include <cmath>
 
-#include "contact/mesh/surface.hpp"
+#include "contact/mesh/mesh_triangle.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 
 namespace supernormal {
 namespace {
-
-// Width of a crack between triangles that should meet, and the distance of their vertices from one plane. Relative to the longest
-// side of a triangle, or to the distance of a manifold point.
-constexpr double kCrack = 1e-6;
-
-double longest_side(const MeshTriangle& triangle) {
-  const std::array<Vector3, 3>& v = triangle.vertices;
-  return std::max({(v[1] - v[0]).norm(), (v[2] - v[1]).norm(), (v[0] - v[2]).norm()});
-}
 
 /// The plane of a contact with a face. The origin is the point under the deepest point of the body.
 struct Floor {
@@ -28,10 +19,12 @@ struct Floor {
     const Vector3 a = triangle.vertices[0] - origin;
     const Vector3 b = triangle.vertices[1] - origin;
     const Vector3 c = triangle.vertices[2] - origin;
-    const double near = height + kCrack * longest_side(triangle);
+    const double longest = longest_side(triangle);
+    const double off = kSeam * longest + 4 * triangle.rounding;  // of a vertex from the plane
+    const double near = height + off;
     if (!(std::abs(normal.dot(a)) <= near && std::abs(normal.dot(b)) <= near && std::abs(normal.dot(c)) <= near)) return false;
     const Vector3 area = (b - a).cross(c - a);
-    return area.cross(normal).norm() <= kLevel * area.dot(normal);
+    return area.dot(normal) > 0 && area.cross(normal).norm() <= 2 * off * longest;
   }
 };
 
@@ -46,7 +39,7 @@ struct Stretch {
 Stretch stretch_over(const Floor& floor, const MeshTriangle& triangle, const Vector3& corner) {
   Stretch stretch{0, 1, 1};
   const Vector3 to_corner = corner - floor.origin;
-  const double crack = kCrack * std::max(to_corner.norm(), longest_side(triangle));
+  const double crack = kSeam * std::max(to_corner.norm(), longest_side(triangle));
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3 start = triangle.vertices[k] - floor.origin;
     const Vector3 inward = floor.normal.cross(triangle.vertices[(k + 1) % 3] - triangle.vertices[k]).normalized();
@@ -75,7 +68,7 @@ double fraction_on_floor(const Floor& floor, std::span<const MeshTriangle> trian
     for (const MeshTriangle& triangle : triangles) {
       if (!floor.has(triangle)) continue;
       const Stretch stretch = stretch_over(floor, triangle, corner);
-      if (stretch.from > reached + kCrack || stretch.to <= reached) continue;
+      if (stretch.from > reached + kSeam || stretch.to <= reached) continue;
       reached = stretch.to;
       border = std::max(border, stretch.border);
       is_extended = true;

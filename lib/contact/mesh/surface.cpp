@@ -12,12 +12,11 @@ namespace {
 // A triangle whose height is less than this fraction of its longest side has no reliable normal.
 constexpr double kNoHeight = 1e-12;
 
-// Normals that differ by less than this (rad) are equal up to rounding.
-constexpr double kFlat = 1e-12;
+// The normal of a contact with a vertex is known to the square root of its gap's tolerance, rad.
+constexpr double kLevel = 1e-5;
 
-// Adjacent vertices differ by rounding, most of all where a program stores floats. So do a vertex and the edge on which it was
-// placed. The tolerance is this fraction of a triangle's longest side.
-constexpr double kSeam = 1e-6;
+// The relative error of a coordinate in the world: a few roundings of doubles by the rotation of the mesh.
+constexpr double kDigits = 4 * std::numeric_limits<double>::epsilon();
 
 // Upper limit of a triangle's size in body sizes, so that cracks which the body might notice remain.
 constexpr double kLargestFace = 1e3;
@@ -36,13 +35,55 @@ std::size_t hash(const Vector3& v) {
   return static_cast<std::size_t>(h);  // of 32 bits on some machines
 }
 
+// Whether the rounding of the vertices explains the angle between two faces. It tilts a face by twice the rounding over the height.
+bool may_be_flat(const Face& one, const Face& other) {
+  const auto tilt_of = [](const Face& face) { return face.rounding * face.longest / face.area; };
+  return one.normal.cross(other.normal).norm() <= tilt_of(one) + tilt_of(other);
+}
+
 // Whether the face rises out of the tangent plane by more than the contact tolerance and the seams.
 bool rises(const Face& face, const Vector3& normal, const Vector3& from, double contact_tolerance) {
   return std::any_of(face.vertices.begin(), face.vertices.end(), [&](const Vector3& vertex) {
     const Vector3 reach = vertex - from;
-    return normal.dot(reach) > contact_tolerance + kLevel * reach.norm();
+    return normal.dot(reach) > contact_tolerance + 4 * face.rounding + kLevel * reach.norm();
   });
 }
+
+// A plane through vertices of which each may be off by `rounding`. It grows by faces.
+class RoundedPlane {
+ public:
+  explicit RoundedPlane(const Face& first) : origin_(first.vertices[0]) { add(first); }
+
+  Vector3 normal() const { return sum_.normalized(); }
+  double height() const { return normal().dot(origin_) + normal().dot(middle_); }
+
+  // Whether the rounding of the vertices explains how far they are from the plane.
+  bool may_have(const Face& face) const {
+    const Vector3 normal = sum_.normalized();
+    const double tilt = 2 * rounding_ * extent_ / area_;  // of the plane: rounding over its height
+    return normal.dot(face.normal) > 0 && std::all_of(face.vertices.begin(), face.vertices.end(), [&](const Vector3& vertex) {
+             const Vector3 reach = vertex - origin_ - middle_;
+             return std::abs(normal.dot(reach)) <= rounding_ + face.rounding + tilt * reach.norm();
+           });
+  }
+
+  void add(const Face& face) {
+    const std::array<Vector3, 3>& v = face.vertices;
+    area_ += face.area;
+    sum_ += face.area * face.normal;
+    middle_ += face.area / area_ * (((v[0] - origin_) + (v[1] - origin_) + (v[2] - origin_)) / 3 - middle_);
+    rounding_ = std::max(rounding_, face.rounding);
+    for (const Vector3& vertex : v) extent_ = std::max(extent_, (vertex - origin_ - middle_).norm());
+  }
+
+ private:
+  Vector3 sum_ = Vector3::Zero();     // m^2; of the normals times the areas
+  Vector3 origin_;                    // m; so that a level plane has the height of its vertices
+  Vector3 middle_ = Vector3::Zero();  // m; from the origin
+  double area_ = 0;                   // m^2
+  double extent_ = 0;                 // m; largest distance of a vertex from the middle
+  double rounding_ = 0;               // m
+};
 
 }  // namespace
 
@@ -56,6 +97,8 @@ void Surface::build(std::span<const MeshTriangle> triangles, const Vector3& orig
   number_corners();
   match_edges();
   collect_patches();
+  level_faces();
+  join_parts();
 }
 
 void Surface::append(const MeshTriangle& triangle, const Vector3& origin, double length_unit) {
@@ -76,9 +119,11 @@ void Surface::append(const MeshTriangle& triangle, const Vector3& origin, double
   const double length = area.norm();
   if (!(length > kNoHeight * longest * longest) || !std::isfinite(length)) return;
   face.normal = area / length;
-  for (std::size_t k = 0; k < 3; ++k) face.outward[k] = edges[k].normalized().cross(face.normal);
+  face.area = 0.5 * length;
+  face.longest = longest;
   largest_ = std::max(largest_, farthest);
-  face.seam = kSeam * std::min(longest, kLargestFace * length_unit);
+  face.rounding = triangle.rounding + kDigits * (farthest + origin.lpNorm<Eigen::Infinity>());
+  face.seam = kSeam * std::min(longest, kLargestFace * length_unit) + 2 * face.rounding;
   face.triangle = triangle.index;
   face.corner = {-1, -1, -1};
   face.neighbour = {-1, -1, -1};
@@ -163,7 +208,7 @@ void Surface::match_edges() {
 }
 
 // The neighbour of a face traverses the edge in the opposite direction. Of several such faces the flattest is taken. The others are
-// found when a contact is checked.
+// found when a contact is checked. Until there are patches, an edge is flat or not.
 void Surface::match_uses(std::span<EdgeUse> uses) {
   for (const EdgeUse& use : uses) {
     Face& face = faces_[at(use.face)];
@@ -176,7 +221,7 @@ void Surface::match_uses(std::span<EdgeUse> uses) {
       if (flatness <= best) continue;
       best = flatness;
       face.neighbour[at(use.side)] = other.face;
-      face.convexity[at(use.side)] = convexity_between(face, use.side, candidate);
+      face.convexity[at(use.side)] = flatness > 0 && may_be_flat(face, candidate) ? EdgeConvexity::Flat : EdgeConvexity::Convex;
       const double crack1 = (face.vertices[at(use.side)] - candidate.vertices[at(next_corner(other.side))]).norm();
       const double crack2 = (face.vertices[at(next_corner(use.side))] - candidate.vertices[at(other.side)]).norm();
       face.crack[at(use.side)] = std::max(crack1, crack2);
@@ -185,11 +230,25 @@ void Surface::match_uses(std::span<EdgeUse> uses) {
 }
 
 EdgeConvexity Surface::convexity_between(const Face& face, int side, const Face& neighbour) const {
-  const double sine = neighbour.normal.dot(face.outward[at(side)]);
-  const double cosine = neighbour.normal.dot(face.normal);
-  // The faces are back to back: the two sides of a sheet.
-  if (std::abs(sine) <= kFlat) return cosine > 0 ? EdgeConvexity::Flat : EdgeConvexity::Convex;
-  return sine > 0 ? EdgeConvexity::Convex : EdgeConvexity::Concave;
+  if (face.patch == neighbour.patch) return EdgeConvexity::Flat;
+  // The faces may be back to back: the two sides of a sheet.
+  const bool is_sheet = neighbour.normal.dot(face.normal) < 0 && may_be_flat(face, neighbour);
+  return is_sheet || neighbour.normal.dot(face.outward[at(side)]) > 0 ? EdgeConvexity::Convex : EdgeConvexity::Concave;
+}
+
+// The faces of a patch have its plane, so the rounding of a small face tilts no contact.
+void Surface::level_faces() {
+  for (Face& face : faces_) {
+    face.normal = patches_[at(face.patch)].normal;
+    for (int k = 0; k < 3; ++k) {
+      face.outward[at(k)] = (face.vertices[at(next_corner(k))] - face.vertices[at(k)]).cross(face.normal).normalized();
+    }
+  }
+  for (Face& face : faces_) {
+    for (int k = 0; k < 3; ++k) {
+      if (face.neighbour[at(k)] >= 0) face.convexity[at(k)] = convexity_between(face, k, faces_[at(face.neighbour[at(k)])]);
+    }
+  }
 }
 
 void Surface::collect_patches() {
@@ -197,30 +256,27 @@ void Surface::collect_patches() {
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     if (faces_[f].patch < 0) grow_patch(static_cast<int>(f));
   }
-  join_parts();
 }
 
 void Surface::grow_patch(int seed) {
   const int number = static_cast<int>(patches_.size());
-  const Vector3 normal = faces_[at(seed)].normal;
-  patches_.push_back({normal, seed, number});
+  RoundedPlane plane(faces_[at(seed)]);
   faces_[at(seed)].patch = number;
-  to_visit_.assign(1, seed);
   int last = seed;
-  while (!to_visit_.empty()) {
-    const Face& face = faces_[at(to_visit_.back())];
-    to_visit_.pop_back();
+  for (int f = seed; f >= 0; f = faces_[at(f)].next_in_patch) {
+    const Face& face = faces_[at(f)];
     for (std::size_t k = 0; k < 3; ++k) {
       if (face.convexity[k] != EdgeConvexity::Flat) continue;
       Face& neighbour = faces_[at(face.neighbour[k])];
-      // Many nearly flat edges make a bend: compare the normal with the first one.
-      if (neighbour.patch >= 0 || (neighbour.normal - normal).norm() > 2 * kFlat) continue;
+      // Many nearly flat edges make a bend: compare with the plane of all.
+      if (neighbour.patch >= 0 || !plane.may_have(neighbour)) continue;
+      plane.add(neighbour);
       neighbour.patch = number;
       faces_[at(last)].next_in_patch = face.neighbour[k];
       last = face.neighbour[k];
-      to_visit_.push_back(last);
     }
   }
+  patches_.push_back({plane.normal(), plane.height(), seed, number});
 }
 
 void Surface::join_parts() {
@@ -250,6 +306,19 @@ bool Surface::is_over(const Face& face, const Vector3& point) const {
   return true;
 }
 
+double Surface::rise_over_patch(const Face& face, const Vector3& point) const {
+  const CoplanarPatch& patch = patches_[at(face.patch)];
+  double rise = 0;
+  for (int k = 0; k < 3; ++k) {
+    const int side = next_corner(k);  // opposite to the vertex
+    const Vector3& across = face.outward[at(side)];
+    const Vector3& start = face.vertices[at(side)];
+    const double weight = across.dot(start - point) / across.dot(start - face.vertices[at(k)]);
+    rise += weight * (patch.normal.dot(face.vertices[at(k)]) - patch.height);
+  }
+  return rise;
+}
+
 Vector3 Surface::nearest_on_rim(const CoplanarPatch& patch, const Vector3& point, int& face_there, int& side_there) const {
   Vector3 nearest = Vector3::Zero();
   double least = std::numeric_limits<double>::infinity();
@@ -275,7 +344,7 @@ Vector3 Surface::nearest_on_rim(const CoplanarPatch& patch, const Vector3& point
 }
 
 bool Surface::touches(const Face& face, const Vector3& point) const {
-  const double near = std::max(contact_tolerance_, face.seam);
+  const double near = std::max(contact_tolerance_, face.seam) + 2 * face.rounding;
   if (std::abs(face.normal.dot(point - face.vertices[0])) > near) return false;
   for (std::size_t k = 0; k < 3; ++k) {
     if (face.outward[k].dot(point - face.vertices[k]) > near) return false;
@@ -292,7 +361,7 @@ bool Surface::is_on_face_at(int corner, const Vector3& point) const {
 // Whether `point` is behind a face that touches `at`, and not in its plane up to a seam.
 bool Surface::is_behind(const Face& face, const Vector3& at, const Vector3& point) const {
   const Vector3 reach = point - at;
-  return face.normal.dot(reach) < -(rounding_ + kLevel * reach.norm());
+  return face.normal.dot(reach) < -(rounding_ + 2 * face.rounding + kLevel * reach.norm());
 }
 
 int Surface::find_wall(const Vector3& normal, const Vector3& at, const Vector3& beyond, int first) const {

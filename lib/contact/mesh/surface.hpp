@@ -10,9 +10,6 @@
 
 namespace supernormal {
 
-/// Triangles with normals within this angle (rad) are coplanar, up to seams and the rounding of their coordinates.
-inline constexpr double kLevel = 1e-5;
-
 inline std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// The next vertex of a face after vertex k.
@@ -24,7 +21,10 @@ enum class EdgeConvexity { Border, Flat, Convex, Concave };
 struct Face {
   std::array<Vector3, 3> vertices;
   std::array<Vector3, 3> outward;  ///< unit, in the plane, across edge k from vertex k to the next
-  Vector3 normal;                  ///< unit, out of the solid
+  Vector3 normal;                  ///< unit, out of the solid; that of its CoplanarPatch
+  double area;                     ///< m^2
+  double longest;                  ///< m; longest side
+  double rounding;                 ///< m; how far the vertices may be from their places
   double seam;                     ///< m; vertices of other faces within this distance are the same vertex
   std::array<int, 3> corner;       ///< indices of the vertices; vertices within a seam have the same index
   std::array<int, 3> neighbour;    ///< the face across edge k, or -1
@@ -35,9 +35,10 @@ struct Face {
   int next_in_patch;            ///< next face of that patch, or -1
 };
 
-/// Faces connected by flat edges: a piece of a plane.
+/// Faces connected by flat edges: a piece of a plane, up to the rounding of the vertices.
 struct CoplanarPatch {
-  Vector3 normal;  ///< unit
+  Vector3 normal;  ///< unit; mean of the faces, weighted by their areas
+  double height;   ///< m; of the plane along the normal
   int first_face;
   int part;  ///< patches connected by convex edges have the same part
 };
@@ -62,6 +63,9 @@ class Surface {
 
   /// Whether the point's projection into the face's plane is in the face or an adjacent crack, up to rounding.
   bool is_over(const Face& face, const Vector3& point) const;
+
+  /// How far the face is above the plane of its patch, m, below a point that is over the face. Rounding moves its vertices.
+  double rise_over_patch(const Face& face, const Vector3& point) const;
 
   /// Whether the point touches a face at the vertex `corner`.
   bool is_on_face_at(int corner, const Vector3& point) const;
@@ -99,6 +103,7 @@ class Surface {
   void match_edges();
   void match_uses(std::span<EdgeUse> uses);
   EdgeConvexity convexity_between(const Face& face, int side, const Face& neighbour) const;
+  void level_faces();
   void collect_patches();
   void grow_patch(int seed);
   void join_parts();
@@ -111,7 +116,6 @@ class Surface {
   std::vector<CoplanarPatch> patches_;
   std::vector<int> corner_table_;  // hash table of 3 * face + k; -1: empty
   std::vector<EdgeUse> uses_;
-  std::vector<int> to_visit_;
   int corner_count_ = 0;
   double largest_ = 0;
   double rounding_ = 0;

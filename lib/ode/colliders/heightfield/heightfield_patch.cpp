@@ -15,6 +15,9 @@ constexpr int kPoints = 32;      // number of points along one axis if there is 
 // samples, and the sample number overflows an int.
 constexpr double kFarthestRegion = 1e8;
 
+// Samples may be floats. ODE does not tell.
+constexpr double kFloatRounding = 0.5 * std::numeric_limits<float>::epsilon();
+
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 struct Interval {
@@ -186,7 +189,8 @@ void HeightfieldPatch::make_triangles() {
 
 void HeightfieldPatch::add_triangle(const Vector3& p1, const Vector3& p2, const Vector3& p3) {
   if (!std::isfinite(p1.y() + p2.y() + p3.y())) return;
-  triangles_.push_back({{p1, p2, p3}, static_cast<int>(triangles_.size())});
+  const double highest = std::max({std::abs(p1.y()), std::abs(p2.y()), std::abs(p3.y())});
+  triangles_.push_back({{p1, p2, p3}, static_cast<int>(triangles_.size()), kFloatRounding * highest});
 }
 
 }  // namespace supernormal::ode

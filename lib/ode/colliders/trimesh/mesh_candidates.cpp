@@ -1,6 +1,7 @@
 #include "ode/colliders/trimesh/mesh_candidates.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "ode/geom/convert.hpp"
 #include "ode/support/private_geom.hpp"
@@ -10,6 +11,9 @@ namespace {
 
 // Relative margin: the tree is searched in float, which loses this fraction of the coordinates.
 constexpr double kFloatMargin = 4e-6;
+
+// ODE hands out vertices in float, relative to the origin of the mesh, also those that a program gave in double.
+constexpr double kFloatRounding = 0.5 * std::numeric_limits<float>::epsilon();
 
 std::array<Vector3, 3> vertices_of(dGeomID mesh, int index) {
   dVector3 v[3];
@@ -103,7 +107,13 @@ void MeshCandidates::search_all(dGeomID mesh, const BodyBox& box, const Pose& po
 
 void MeshCandidates::read_triangles(dGeomID mesh) {
   triangles_.clear();
-  for (const int index : indices_) triangles_.push_back({vertices_of(mesh, index), index});
+  const Vector3 origin = to_vector(dGeomGetPosition(mesh));
+  for (const int index : indices_) {
+    const std::array<Vector3, 3> vertices = vertices_of(mesh, index);
+    double farthest = 0;
+    for (const Vector3& vertex : vertices) farthest = std::max(farthest, (vertex - origin).norm());
+    triangles_.push_back({vertices, index, kFloatRounding * farthest + std::numeric_limits<dReal>::epsilon() * vertices[0].norm()});
+  }
 }
 
 }  // namespace supernormal::ode
