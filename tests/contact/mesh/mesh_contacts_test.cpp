@@ -450,3 +450,47 @@ TEST_CASE("contacts come deepest first and name their triangle") {
       CHECK(contacts[static_cast<std::size_t>(i)].proximity.gap >= contacts[static_cast<std::size_t>(i - 1)].proximity.gap);
   }
 }
+
+TEST_CASE("a ball on a ridge whose halves differ by the rounding of floats has one contact") {
+  Draw draw(1);
+  const Sphere ball(0.3);
+  for (int i = 0; i < 2000; ++i) {
+    CAPTURE(i);
+    const Vector3 shift = draw.in_box({1, 1, 0.1});
+    const auto vertex = [&](double x, double y) -> Vector3 {
+      return shift + Vector3(x, y, -0.3 * std::abs(x)) + draw.in_box(Vector3::Constant(1e-7));
+    };
+    std::vector<MeshTriangle> ridge;
+    for (const double x : {-1.0, 0.0}) {
+      ridge.push_back({{vertex(x, -1), vertex(x + 1, -1), vertex(x + 1, 1)}, 0});
+      ridge.push_back({{vertex(x, -1), vertex(x + 1, 1), vertex(x, 1)}, 1});
+    }
+    const Pose pose{shift + Vector3(draw.uniform(-0.02, 0.02), draw.uniform(-0.3, 0.3), 0.29), Matrix3::Identity()};
+    CHECK(contacts_of(ball, pose, ridge).size() == 1);
+  }
+}
+
+TEST_CASE("the contacts do not depend on the unit of length") {
+  const auto find = [](unsigned seed, double unit) {
+    Draw draw(seed);
+    TriangleMesh floor = floor_mesh(8, 0.25);
+    for (Vector3& vertex : floor.vertices) vertex = unit * (vertex + Vector3(0, 0, draw.uniform(-0.1, 0.1)));
+    const Superellipsoid body(unit * Vector3(draw.uniform(0.2, 0.4), 0.3, 0.2), 2 + seed % 3 * 3, 2 + seed % 4 * 3);
+    std::vector<MeshContact> contacts = contacts_of(body, {unit * Vector3(0.02, 0.01, 0.2), draw.rotation()}, floor.placed());
+    for (MeshContact& contact : contacts) contact.proximity.gap /= unit;
+    return contacts;
+  };
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    CAPTURE(seed);
+    const std::vector<MeshContact> wanted = find(seed, 1);
+    for (const double unit : {0x1p-20, 0x1p-10, 0x1p10}) {
+      const std::vector<MeshContact> found = find(seed, unit);
+      REQUIRE(found.size() == wanted.size());
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        CHECK(found[k].triangle == wanted[k].triangle);
+        CHECK(found[k].proximity.gap == wanted[k].proximity.gap);
+        CHECK(found[k].proximity.normal == wanted[k].proximity.normal);
+      }
+    }
+  }
+}
