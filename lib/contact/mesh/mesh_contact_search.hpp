@@ -54,6 +54,7 @@ class MeshContactSearch {
   bool is_found_beside(int corner, const Vector3& normal, double gap) const;
   bool is_corner_of_patch(int corner, int patch) const;
   Proximity solve_for_hull(SupportProbe& probe, const Vector3& origin, const Vector3* start);
+  Vector3 place_at_vertex(SupportProbe& probe, const Proximity& found) const;
   bool add_at_vertex(SupportProbe& probe, int face, int k, const Proximity& found);
   double stands_on(SupportProbe& probe, const Vector3& face_normal, const Vector3& place) const;
   void find_on_border(SupportProbe& probe, int face, int side, const Arc& arc, const ArcMaximum& top, double weight);

@@ -2,9 +2,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/mesh/mesh_contact_search.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "supernormal/raycast/ray.hpp"
 #include "supernormal/shapes/polytope.hpp"
 
 namespace supernormal {
@@ -12,6 +14,9 @@ namespace {
 
 // A normal is known to the square root of its gap's tolerance. Within this angle, rad, it may belong to an edge or a face.
 constexpr double kNearEdgeNormal = 1e-5;
+
+// A point of a flat side may be this far below its plane, in length units (proximity/contact_point.cpp).
+constexpr double kOnSide = 1e-6;
 
 double angle_at(const Face& face, int k) {
   const Vector3 edge1 = face.vertices[at((k + 1) % 3)] - face.vertices[at(k)];
@@ -100,6 +105,19 @@ Proximity MeshContactSearch::solve_for_hull(SupportProbe& probe, const Vector3& 
   return found;
 }
 
+// The body's point, or on a flat side the point over the vertex. In a deep overlap the contact of the hull is moved into it, away
+// from the middle between the tangent planes, because the hull is thinner than the solid.
+Vector3 MeshContactSearch::place_at_vertex(SupportProbe& probe, const Proximity& found) const {
+  const Vector3 on_plane = found.contact - 0.5 * found.gap * found.normal;
+  const auto below_plane = [&](const Vector3& point) { return found.normal.dot(found.point1 - point); };
+  if (std::abs(below_plane(on_plane)) <= touch()) return on_plane;
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  const Pose pose{Vector3::Zero(), probe.rotation()};
+  const RayHit side = find_ray_hit(probe.shape(), pose, found.contact, found.normal, kEndless, settings_);
+  probe.count(side.evaluations);
+  return side.hit && below_plane(side.point) <= kOnSide * length_unit_ ? side.point : found.point1;
+}
+
 // Returns false if the normal is outside the normal cone of the surface, or if this cannot be decided.
 bool MeshContactSearch::add_at_vertex(SupportProbe& probe, int f, int k, const Proximity& found) {
   const Face& face = surface_.faces()[at(f)];
@@ -107,7 +125,7 @@ bool MeshContactSearch::add_at_vertex(SupportProbe& probe, int f, int k, const P
   if (!has_complete_neighbourhood(probe, vertex)) return false;
   SurfaceContact contact = contact_at(f, -found.normal, found.gap, found.point1);
   contact.surface_point = contact.feature_point = vertex;
-  contact.place = found.contact - 0.5 * found.gap * found.normal;
+  contact.place = place_at_vertex(probe, found);
   contact.crease = face.corner[at(k)];
   contact.error = found.error;
   contact.evaluations = found.evaluations;
