@@ -2,6 +2,7 @@
 
 #include <supernormal/supernormal.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -101,6 +102,9 @@ Rest drop(const Row& row, const Orientations& orientations, int number) {
   dQFromAxisAndAngle(on_its_side, 0, 1, 0, lies_on_its_side(row.kind) ? static_cast<dReal>(M_PI_2) : 0);
   dQMultiply0(orientation, tilted, on_its_side);
   dBodySetQuaternion(body, orientation);
+  // A long body far from level would start in the floor, which would throw it beyond its border.
+  const double above_floor = 3 * row.half_height - std::min(0.0, lowest_point(geom));
+  dBodySetPosition(body, 0, 0, static_cast<dReal>(above_floor));
   int step = 0;
   while (step * row.step < kLongest && dBodyIsEnabled(body) != 0) world.step(++step);
   return {dBodyIsEnabled(body) == 0, step * row.step, double{dBodyGetPosition(body)[2]} / row.half_height,
