@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "supernormal/contact/mesh_contacts.hpp"
 
 namespace supernormal {
+
+class FreeMotion;
 
 /// One contact of a body with a surface, with its manifold points.
 struct MeshManifold {
@@ -45,9 +48,15 @@ class SUPERNORMAL_API MeshContactsAhead {
 
  private:
   struct Search;
+  struct SurfaceFrame;
 
   SUPERNORMAL_LOCAL bool holds_back(const Vector3& velocity) const;
   SUPERNORMAL_LOCAL void leave_free_motion(const Search& search);
+  SUPERNORMAL_LOCAL std::optional<MeshManifold> find_after(const Search& search, const FreeMotion& motion,
+                                                           std::span<const MeshTriangle> triangles);
+  SUPERNORMAL_LOCAL bool falls_through(const Search& search, const Pose& end, const ContactManifold& floor);
+  SUPERNORMAL_LOCAL std::span<const MeshTriangle> leave_in_front(const Search& search, std::span<const MeshTriangle> triangles,
+                                                                 const ContactManifold& floor);
   SUPERNORMAL_LOCAL bool is_in_surface(const Search& search, const Pose& pose, const Vector3& normal);
   SUPERNORMAL_LOCAL void add_overlaps(const Search& search);
   SUPERNORMAL_LOCAL void add_contacts(const Search& search, const Vector3& way);
@@ -57,6 +66,7 @@ class SUPERNORMAL_API MeshContactsAhead {
 
   MeshContacts contacts_;
   std::vector<MeshManifold> found_;
+  std::vector<MeshTriangle> in_front_;
   int evaluations_ = 0;
 };
 

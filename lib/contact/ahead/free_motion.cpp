@@ -38,6 +38,58 @@ void add_end(const BodyAhead& body1, const BodyAhead& body2, double time, double
   contacts.shallow = kShallow * contacts.same_place;
 }
 
+/// The contacts after the free motion, for two bodies or a body and a plane. Of these it asks, for a motion and a normal: `planes`,
+/// the gap of the tangent planes at the end; `proximity` at the end; `impact`, the first on the way; and for a proximity at the end
+/// the `manifold`.
+template <class Planes, class FindProximity, class FindManifold, class FindImpact>
+std::optional<ContactManifold> find_after(const BodyAhead& body1, const BodyAhead& body2, double time, double share, double size,
+                                          const Proximity& now, const ContactManifold& ahead, const Planes& planes,
+                                          const FindProximity& proximity, const FindManifold& manifold, const FindImpact& impact) {
+  const FreeMotion free(body1, body2, time);
+  const double held_back = free.bends() ? free.held_back_by(ahead) : 0;
+  const double graze = kGraze * size;
+  const bool may_be_free = now.gap > 0 && held_back > now.error;
+  const bool may_swing_in = ahead.corner_count == 0 && most_swing(body1.motion, body2.motion, time) > graze;
+  const Vector3& normal = ahead.deepest.normal;
+  int evaluations = ahead.deepest.evaluations;
+  if (!may_be_free) {
+    if (!may_swing_in) return std::nullopt;
+    ++evaluations;
+    // The tangent planes with the normal of the contact prove that the end is no deeper than they say.
+    if (!(-planes(free, normal) > held_back + graze)) return std::nullopt;
+  }
+  const auto contacts_at = [&](const FreeMotion& motion, const Proximity& end) {
+    ContactManifold contacts = manifold(motion, end);
+    motion.take_back(share, contacts);
+    contacts.reach = ahead.reach;
+    return contacts;
+  };
+  const Proximity there = proximity(free, normal);
+  if (there.status == Status::InvalidInput) return std::nullopt;
+  evaluations += there.evaluations;
+  if (may_swing_in && -there.gap > held_back + graze && (there.normal - normal).norm() < kParallel) {
+    ContactManifold contacts = contacts_at(free, there);
+    remove_overlaps(contacts);
+    add_end(body1, body2, time, share, ahead, contacts);
+    contacts.deepest.evaluations = evaluations;
+    return contacts;
+  }
+  if (!may_be_free || !(there.gap > 0)) return std::nullopt;
+  const auto contacts_after = [&](const FreeMotion& motion) -> std::optional<ContactManifold> {
+    const Proximity end = &motion == &free ? there : proximity(motion, normal);
+    if (&motion != &free) evaluations += end.evaluations;
+    if (end.status == Status::InvalidInput || !(end.gap > 0)) return std::nullopt;
+    const Impact first = impact(motion, now.normal);
+    evaluations += first.evaluations;
+    if (first.may_hit()) return std::nullopt;
+    return contacts_at(motion, end);
+  };
+  const FreeMotion borne(without_forces(body1), without_forces(body2), time);
+  std::optional<ContactManifold> contacts = choose_contacts(free, borne, graze, contacts_after);
+  if (contacts) contacts->deepest.evaluations = evaluations;
+  return contacts;
+}
+
 }  // namespace
 
 FreeMotion::FreeMotion(const BodyAhead& body1, const BodyAhead& body2, double time)
@@ -60,7 +112,6 @@ double FreeMotion::closed_at(const Vector3& place, const Vector3& normal) const 
 }
 
 double FreeMotion::held_back_by(const ContactManifold& contacts) const {
-  if (!bends_) return 0;
   const Proximity& deepest = contacts.deepest;
   if (contacts.corner_count == 0) return std::max(0.0, closed_at(deepest.contact, deepest.normal) - deepest.gap);
   double most = 0;
@@ -69,78 +120,76 @@ double FreeMotion::held_back_by(const ContactManifold& contacts) const {
   return most;
 }
 
+void FreeMotion::stop_at(const ContactManifold& contacts) {
+  motion1_.velocity -= held_back_by(contacts) / time_ * contacts.deepest.normal;
+}
+
 void FreeMotion::take_back(double share, ContactManifold& contacts) const {
   const Vector3 displacement = time_ * (share * motion1_.velocity + (1 - share) * motion2_.velocity);
   Proximity& deepest = contacts.deepest;
-  const auto gap_now = [&](const Vector3& place, double gap) { return std::max(0.0, gap + closed_at(place, deepest.normal)); };
   deepest.point1 -= time_ * motion1_.velocity;
   deepest.point2 -= time_ * motion2_.velocity;
   deepest.contact -= displacement;
-  deepest.gap = gap_now(deepest.contact, deepest.gap);
+  deepest.gap += closed_at(deepest.contact, deepest.normal);
   for (ManifoldCorner& corner : contacts.corners) {
     corner.point -= displacement;
-    corner.depth = -gap_now(corner.point, -corner.depth);
+    corner.depth -= closed_at(corner.point, deepest.normal);
   }
+}
+
+BodyAhead without_forces(BodyAhead body) {
+  body.motion.acceleration.setZero();
+  return body;
+}
+
+void remove_overlaps(ContactManifold& contacts) {
+  contacts.deepest.gap = std::max(0.0, contacts.deepest.gap);
+  for (ManifoldCorner& corner : contacts.corners) corner.depth = std::min(0.0, corner.depth);
 }
 
 std::optional<ContactManifold> find_contacts_after_free_motion(const BodyAhead& body1, const BodyAhead& body2, double time,
                                                                double share, const Settings& settings, const Proximity& now,
                                                                const ContactManifold& ahead) {
-  const FreeMotion free(body1, body2, time);
-  const double held_back = free.held_back_by(ahead);
-  const double graze = kGraze * smaller_thickness(body1.shape, body2.shape);
-  const bool may_be_free = now.gap > 0 && held_back > now.error;
-  const bool may_swing_in = ahead.corner_count == 0 && most_swing(body1.motion, body2.motion, time) > graze;
-  if (!may_be_free && !may_swing_in) return std::nullopt;
-  const Pose end1 = free.end1(), end2 = free.end2();
-  const Vector3 normal = end1.rotation.transpose() * ahead.deepest.normal;
-  int evaluations = ahead.deepest.evaluations;
-  if (!may_be_free) {
-    ++evaluations;
-    GapJet planes;  // the tangent planes with the normal of the contact prove that the end is no deeper than they say
-    GapFunction(body1.shape, end1, body2.shape, end2).evaluate(normal, Order::Point, planes);
-    if (!(-planes.s > held_back + graze)) return std::nullopt;
-  }
-  const Proximity there = find_proximity(body1.shape, end1, body2.shape, end2, settings, &normal);
-  if (there.status == Status::InvalidInput) return std::nullopt;
-  const bool has_same_normal = (there.normal - ahead.deepest.normal).norm() < kParallel;
-  const bool swings_in = may_swing_in && -there.gap > held_back + graze && has_same_normal;
-  if (!swings_in && !(may_be_free && there.gap > 0)) return std::nullopt;
-  ContactManifold contacts = find_manifold_of_gaps(body1.shape, end1, body2.shape, end2, there, share);
-  contacts.deepest.evaluations = evaluations + there.evaluations;
-  if (!swings_in) {
-    const Vector3 first = body1.pose.rotation.transpose() * now.normal;
-    const Impact impact = find_time_of_impact(body1.shape, free.motion1(), body2.shape, free.motion2(), time, settings, &first);
-    if (impact.may_hit()) return std::nullopt;
-    contacts.deepest.evaluations += impact.evaluations;
-  }
-  free.take_back(share, contacts);
-  contacts.reach = ahead.reach;
-  if (swings_in) add_end(body1, body2, time, share, ahead, contacts);
-  return contacts;
+  const Shape& shape1 = body1.shape;
+  const Shape& shape2 = body2.shape;
+  const auto planes = [&](const FreeMotion& motion, const Vector3& normal) {
+    GapJet jet;
+    const Pose end1 = motion.end1();
+    GapFunction(shape1, end1, shape2, motion.end2()).evaluate(end1.rotation.transpose() * normal, Order::Point, jet);
+    return jet.s;
+  };
+  const auto proximity = [&](const FreeMotion& motion, const Vector3& normal) {
+    const Pose end1 = motion.end1();
+    const Vector3 first = end1.rotation.transpose() * normal;
+    return find_proximity(shape1, end1, shape2, motion.end2(), settings, &first);
+  };
+  const auto manifold = [&](const FreeMotion& motion, const Proximity& there) {
+    return find_manifold_of_gaps(shape1, motion.end1(), shape2, motion.end2(), there, share);
+  };
+  const auto impact = [&](const FreeMotion& motion, const Vector3& normal) {
+    const Vector3 first = body1.pose.rotation.transpose() * normal;
+    return find_time_of_impact(shape1, motion.motion1(), shape2, motion.motion2(), time, settings, &first);
+  };
+  return find_after(body1, body2, time, share, smaller_thickness(shape1, shape2), now, ahead, planes, proximity, manifold, impact);
 }
 
 std::optional<ContactManifold> find_plane_contacts_after_free_motion(const BodyAhead& body, double time, const Proximity& now,
                                                                      const ContactManifold& ahead) {
   if (body.motion.angular_velocity.isZero(0)) return std::nullopt;
-  const BodyAhead plane{body.shape, body.pose, {}};
-  const FreeMotion free(body, plane, time);
-  const double held_back = free.held_back_by(ahead);
   const Vector3 upwards = -now.normal;
   const double offset = upwards.dot(now.point2);
-  const Pose end = free.end1();
-  const Proximity there = find_plane_proximity(body.shape, end, upwards, offset);
-  if (there.status == Status::InvalidInput) return std::nullopt;
-  const double graze = kGraze * body.shape.half_extents().minCoeff();
-  const bool swings_in = ahead.corner_count == 0 && -there.gap > held_back + graze;
-  const bool is_free = there.gap > 0 && now.gap > 0 && held_back > now.error;
-  if (!swings_in && !is_free) return std::nullopt;
-  if (is_free && find_plane_time_of_impact(body.shape, free.motion1(), upwards, offset, time).may_hit()) return std::nullopt;
-  ContactManifold contacts = find_plane_manifold_of_gaps(body.shape, end, there);
-  free.take_back(1, contacts);
-  contacts.reach = ahead.reach;
-  if (swings_in) add_end(body, plane, time, 1, ahead, contacts);
-  return contacts;
+  const auto proximity = [&](const FreeMotion& motion, const Vector3&) {
+    return find_plane_proximity(body.shape, motion.end1(), upwards, offset);
+  };
+  const auto planes = [&](const FreeMotion& motion, const Vector3& normal) { return proximity(motion, normal).gap; };
+  const auto manifold = [&](const FreeMotion& motion, const Proximity& there) {
+    return find_plane_manifold_of_gaps(body.shape, motion.end1(), there);
+  };
+  const auto impact = [&](const FreeMotion& motion, const Vector3&) {
+    return find_plane_time_of_impact(body.shape, motion.motion1(), upwards, offset, time);
+  };
+  return find_after(body, {body.shape, body.pose, {}}, time, 1, body.shape.half_extents().minCoeff(), now, ahead, planes, proximity,
+                    manifold, impact);
 }
 
 }  // namespace supernormal

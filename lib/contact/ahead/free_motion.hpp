@@ -1,6 +1,7 @@
 // The motion of bodies within a step without contact forces, and the contacts at its end.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "supernormal/contact/contacts_ahead.hpp"
@@ -19,11 +20,18 @@ class FreeMotion {
   Pose end1() const { return pose_at(motion1_, time_); }
   Pose end2() const { return pose_at(motion2_, time_); }
 
-  /// The most that a contact takes away of the approach, m. It is 0 if the paths are those of the velocities.
+  /// Whether the paths are not those of the velocities.
+  bool bends() const { return bends_; }
+
+  /// The most that a contact takes away of the approach, m.
   double held_back_by(const ContactManifold& contacts) const;
 
-  /// Moves contacts at the end of the motion back to the present poses, with gaps of which the motion leaves what it leaves. Their
-  /// lever arms stay: so a ball that rolls bears its weight under its centre. `share` is the share of body 1 in the mobilities.
+  /// Takes away from the velocity of body 1 what a contact takes away.
+  void stop_at(const ContactManifold& contacts);
+
+  /// Moves contacts at the end of the motion back to the present poses, with gaps of which the motion leaves what it leaves. A
+  /// plane at the end may be an overlap now. Their lever arms stay: so a ball that rolls bears its weight under its centre. `share`
+  /// is the share of body 1 in the mobilities.
   void take_back(double share, ContactManifold& contacts) const;
 
  private:
@@ -35,8 +43,29 @@ class FreeMotion {
   double time_;  // s
   Vector3 centre1_, centre2_;
   Motion motion1_, motion2_;
-  bool bends_;  // whether it differs from the motion along the velocities
+  bool bends_;
 };
+
+/// The body as it moves without forces.
+BodyAhead without_forces(BodyAhead body);
+
+/// Takes overlaps as touch. Bodies that are apart do not overlap, although the tangent planes at the end may say so.
+void remove_overlaps(ContactManifold& contacts);
+
+/// The contacts of `find(motion)` for the free motion. A floor may bear the body. Then its motion is `borne`, without its weight,
+/// and a contact below the floor has the wrong normal. If this would take more than `graze` (m) away from `borne`, the contacts
+/// are those for `borne`, unless these take more than that away from the free motion. `manifold` is the member of a contact.
+template <class Find, class Projection = std::identity>
+auto choose_contacts(const FreeMotion& free, const FreeMotion& borne, double graze, const Find& find, Projection manifold = {}) {
+  auto contacts = find(free);
+  if (!contacts) return contacts;
+  if (borne.held_back_by(std::invoke(manifold, *contacts)) > graze) {
+    const auto beside = find(borne);
+    if (beside && !(free.held_back_by(std::invoke(manifold, *beside)) > graze)) contacts = beside;
+  }
+  remove_overlaps(std::invoke(manifold, *contacts));
+  return contacts;
+}
 
 /// The contacts at the end of the free motion, the motion within `time` (s) without contact forces. Empty if the contacts `ahead`
 /// are right for this motion. `share` is the share of body 1 in the mobilities.

@@ -115,6 +115,18 @@ bool is_between(const MeshTriangle& triangle, const Vector3& from, const Vector3
   return whole != 0 && height / whole >= 0 && height / whole <= 1;
 }
 
+/// The tangent plane of a surface.
+struct Plane {
+  Vector3 inward;
+  double offset;  // m
+
+  /// Whether the triangle is on or behind the plane.
+  bool is_in_front_of(const MeshTriangle& triangle) const {
+    return std::all_of(triangle.vertices.begin(), triangle.vertices.end(),
+                       [&](const Vector3& vertex) { return inward.dot(vertex) >= offset; });
+  }
+};
+
 /// Moves a manifold from the end of the displacement `way` back to the present position. A gap at the end means no overlap now. The
 /// tangent plane may say otherwise.
 void take_back(ContactManifold& manifold, const Vector3& way, double share) {
@@ -146,6 +158,28 @@ struct MeshContactsAhead::Search {
   double size;      // m; the smallest half-extent of the body
   double graze;     // m; a deeper overlap is an impact
   double rounding;  // m; of the vertices
+
+  /// The surface at a contact, higher by the graze.
+  Plane plane_of(const ContactManifold& contacts) const {
+    const Proximity& contact = contacts.deepest;
+    return {contact.normal, contact.normal.dot(contact.contact) + share * contact.gap - graze};
+  }
+};
+
+/// The surface at the end of a motion.
+struct MeshContactsAhead::SurfaceFrame {
+  SurfaceFrame(const Search& search, const FreeMotion& free)
+      : motion{{}, free.motion2().velocity, free.motion2().angular_velocity, search.surface.centre},
+        end(pose_at(motion, search.time)) {}
+
+  /// The pose of the body in the frame of the surface.
+  Pose pose_at_end(const FreeMotion& free) const {
+    const Pose pose = free.end1();
+    return {end.rotation.transpose() * (pose.position - end.position), end.rotation.transpose() * pose.rotation};
+  }
+
+  Motion motion;
+  Pose end;
 };
 
 MeshContactsAhead::Reach MeshContactsAhead::reach_of(const BodyAhead& body, const MotionAhead& surface, double time) {
@@ -220,39 +254,76 @@ bool MeshContactsAhead::holds_back(const Vector3& velocity) const {
 }
 
 /// Replaces the contacts that take something away from the free motion by the contact at its end, if the body does not meet the
-/// surface.
+/// surface. On a floor the body does not fall: the motion and the triangles are those that the floor leaves.
 void MeshContactsAhead::leave_free_motion(const Search& search) {
-  const BodyAhead& body = search.now;
-  const FreeMotion free(body, {body.shape, body.pose, search.surface}, search.time);
+  const BodyAhead surface{search.now.shape, search.now.pose, search.surface};
+  FreeMotion free(search.now, surface, search.time);
+  if (!free.bends()) return;
   const double negligible = search.settings.tolerance * search.size;
   const auto holds_back = [&](const MeshManifold& found) { return free.held_back_by(found.manifold) > negligible; };
-  if (std::none_of(found_.begin(), found_.end(), holds_back)) return;
-  const Motion surface{{}, free.motion2().velocity, free.motion2().angular_velocity, search.surface.centre};
-  const Pose frame = pose_at(surface, search.time);  // of the surface, at the end
-  const Pose end = free.end1();
-  const Pose there{frame.rotation.transpose() * (end.position - frame.position), frame.rotation.transpose() * end.rotation};
-  for (const MeshManifold& found : found_) {
-    if (!holds_back(found)) continue;
-    if (found.manifold.deepest.gap <= 0 || is_in_surface(search, there, found.manifold.deepest.normal)) return;
+  const Pose end = SurfaceFrame(search, free).pose_at_end(free);
+  const auto others = std::partition(found_.begin(), found_.end(), [&](const MeshManifold& found) {
+    return holds_back(found) && (found.manifold.deepest.gap < 0 || falls_through(search, end, found.manifold));
+  });
+  FreeMotion borne(without_forces(search.now), without_forces(surface), search.time);
+  std::span<const MeshTriangle> triangles = search.triangles;
+  for (auto floor = found_.begin(); floor != others; ++floor) {
+    for (FreeMotion* motion : {&free, &borne}) motion->stop_at(floor->manifold);
+    triangles = leave_in_front(search, triangles, floor->manifold);
   }
-  MeshContact nearest = find_nearest_triangle(body.shape, there, search.triangles, search.settings);
+  if (std::none_of(others, found_.end(), holds_back)) return;
+  const auto contacts_after = [&](const FreeMotion& motion) { return find_after(search, motion, triangles); };
+  const auto left = choose_contacts(free, borne, search.graze, contacts_after, &MeshManifold::manifold);
+  if (!left) return;
+  found_.erase(std::remove_if(others, found_.end(), holds_back), found_.end());
+  found_.push_back(*left);
+}
+
+/// The contact at the end of a motion on which the body does not meet the triangles.
+std::optional<MeshManifold> MeshContactsAhead::find_after(const Search& search, const FreeMotion& motion,
+                                                          std::span<const MeshTriangle> triangles) {
+  const Shape& shape = search.body.shape;
+  const SurfaceFrame frame(search, motion);
+  const Pose there = frame.pose_at_end(motion);
+  MeshContact nearest = find_nearest_triangle(shape, there, triangles, search.settings);
   evaluations_ += nearest.proximity.evaluations;
-  if (nearest.proximity.status == Status::InvalidInput || !(nearest.proximity.gap > 0)) return;
+  if (nearest.proximity.status == Status::InvalidInput || !(nearest.proximity.gap > 0)) return std::nullopt;
   const Impact impact =
-      find_mesh_time_of_impact(body.shape, free.motion1(), search.triangles, surface, search.time, search.settings).impact;
+      find_mesh_time_of_impact(shape, motion.motion1(), triangles, frame.motion, search.time, search.settings).impact;
   evaluations_ += impact.evaluations;
-  if (impact.may_hit()) return;
-  std::erase_if(found_, holds_back);
+  if (impact.may_hit()) return std::nullopt;
   nearest.proximity.contact += (0.5 - search.share) * nearest.proximity.gap * nearest.proximity.normal;
-  ContactManifold manifold = find_plane_manifold_of_gaps(body.shape, there, nearest.proximity);
+  ContactManifold manifold = find_plane_manifold_of_gaps(shape, there, nearest.proximity);
   draw_in_corners(manifold, search.triangles);
-  const auto to_end = [&](Vector3& place) { place = frame.rotation * place + frame.position; };
-  manifold.deepest.normal = frame.rotation * manifold.deepest.normal;
+  const auto to_end = [&](Vector3& place) { place = frame.end.rotation * place + frame.end.position; };
+  manifold.deepest.normal = frame.end.rotation * manifold.deepest.normal;
   for (Vector3* place : {&manifold.deepest.point1, &manifold.deepest.point2, &manifold.deepest.contact}) to_end(*place);
   for (ManifoldCorner& corner : manifold.corners) to_end(corner.point);
-  free.take_back(search.share, manifold);
+  motion.take_back(search.share, manifold);
   manifold.reach = search.reach;
-  found_.push_back({manifold, nearest.triangle});
+  return MeshManifold{manifold, nearest.triangle};
+}
+
+/// Whether a triangle behind the contact is between the highest point of the body now and its deepest point at `end`.
+bool MeshContactsAhead::falls_through(const Search& search, const Pose& end, const ContactManifold& floor) {
+  const Pose& now = search.now.pose;
+  const Vector3& downwards = floor.deepest.normal;
+  const Vector3 highest = now.position + now.rotation * search.now.shape.point(now.rotation.transpose() * -downwards);
+  const Vector3 deepest = end.position + end.rotation * search.now.shape.point(end.rotation.transpose() * downwards);
+  evaluations_ += 2;
+  const Plane plane = search.plane_of(floor);
+  return std::any_of(search.triangles.begin(), search.triangles.end(), [&](const MeshTriangle& triangle) {
+    return plane.is_in_front_of(triangle) && is_between(triangle, highest, deepest);
+  });
+}
+
+/// The triangles that are not behind a contact.
+std::span<const MeshTriangle> MeshContactsAhead::leave_in_front(const Search& search, std::span<const MeshTriangle> triangles,
+                                                                const ContactManifold& floor) {
+  if (triangles.data() != in_front_.data()) in_front_.assign(triangles.begin(), triangles.end());
+  const Plane plane = search.plane_of(floor);
+  std::erase_if(in_front_, [&](const MeshTriangle& triangle) { return plane.is_in_front_of(triangle); });
+  return in_front_;
 }
 
 /// Whether a triangle is between the deepest and the highest point of the body: a proof of an overlap.

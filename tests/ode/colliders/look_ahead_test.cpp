@@ -307,6 +307,46 @@ TEST_CASE("a blade that turns beside a wall it does not reach keeps its speed, o
   }
 }
 
+TEST_CASE("a blade that spins on a floor beside a wall it does not reach keeps its spin, also if both are one mesh") {
+  OdeSession session;
+  enum class Room { OneMesh, TwoMeshes, Box };
+  for (const Room room : {Room::OneMesh, Room::TwoMeshes, Room::Box}) {
+    // At 30 ms a body falls by nine times its half-height within a step.
+    for (const double step : {0.002, 0.03}) {
+      for (const double turn : {0.3, 0.8}) {
+        for (const double clearance : {0.003, 0.03}) {
+          CAPTURE(static_cast<int>(room));
+          CAPTURE(step);
+          CAPTURE(turn);
+          CAPTURE(clearance);
+          constexpr double kLength = 0.01;  // m
+          World world;
+          dWorldSetQuickStepNumIterations(world.id(), 50);
+          MeshArrays floor;
+          const double wall = kLength * (1 + clearance);
+          for (const double y : {-0.04, 0.04}) floor.add(-0.04, y, 0), floor.add(wall, y, 0), floor.add(wall, y, 0.04);
+          floor.triangles = {{0, 1, 4}, {0, 4, 3}};
+          MeshArrays upright = floor;
+          upright.triangles = {{1, 2, 5}, {1, 5, 4}};
+          std::optional<MeshGeom> second;
+          if (room == Room::TwoMeshes) second.emplace(upright, world.space());
+          if (room == Room::Box) dGeomSetPosition(dCreateBox(world.space(), 1, 1, 1), dReal(wall + 0.5), 0, dReal(0.5));
+          if (room == Room::OneMesh)
+            floor.triangles.insert(floor.triangles.end(), upright.triangles.begin(), upright.triangles.end());
+          const MeshGeom first(floor, world.space());
+          const dGeomID geom = snCreateEllipsoid(world.space(), dReal(kLength), dReal(kLength / 4), dReal(kLength / 10));
+          const dBodyID body = world.add(geom, 2500);
+          dBodySetPosition(body, 0, 0, dReal(kLength / 10));
+          dBodySetAngularVel(body, 0, 0, dReal(turn / step));
+          REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
+          for (int k = 0; k < 100; ++k) world.quick_step(step);
+          CHECK(std::abs(double{dBodyGetAngularVel(body)[2]} * step / turn - 1) < within_rounding(1e-6, 1));
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("a ball that falls past the edge of a box or a mesh is not thrown aside, at steps in which it falls by its size") {
   OdeSession session;
   for (const bool is_mesh : {false, true}) {
