@@ -3,11 +3,16 @@
 
 #include <ode/ode.h>
 
+#include <limits>
+
 #include "ode/geom/rotation.hpp"
 #include "supernormal/proximity/pose.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal::ode {
+
+/// Relative to a coordinate: what a float may lose.
+inline constexpr double kFloatRounding = 0.5 * std::numeric_limits<float>::epsilon();
 
 inline dReal to_real(double value) { return static_cast<dReal>(value); }
 

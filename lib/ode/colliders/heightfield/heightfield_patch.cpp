@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "ode/geom/convert.hpp"
+
 namespace supernormal::ode {
 namespace {
 
@@ -14,9 +16,6 @@ constexpr int kPoints = 32;      // number of points along one axis if there is 
 // Largest distance of a region from the origin, in units of its size. Beyond it, rounding decides where the region is among the
 // samples, and the sample number overflows an int.
 constexpr double kFarthestRegion = 1e8;
-
-// Samples may be floats. ODE does not tell.
-constexpr double kFloatRounding = 0.5 * std::numeric_limits<float>::epsilon();
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -190,6 +189,7 @@ void HeightfieldPatch::make_triangles() {
 void HeightfieldPatch::add_triangle(const Vector3& p1, const Vector3& p2, const Vector3& p3) {
   if (!std::isfinite(p1.y() + p2.y() + p3.y())) return;
   const double highest = std::max({std::abs(p1.y()), std::abs(p2.y()), std::abs(p3.y())});
+  // Samples may be floats. ODE does not tell.
   triangles_.push_back({{p1, p2, p3}, static_cast<int>(triangles_.size()), kFloatRounding * highest});
 }
 

@@ -12,9 +12,6 @@ namespace {
 // Relative margin: the tree is searched in float, which loses this fraction of the coordinates.
 constexpr double kFloatMargin = 4e-6;
 
-// ODE hands out vertices in float, relative to the origin of the mesh, also those that a program gave in double.
-constexpr double kFloatRounding = 0.5 * std::numeric_limits<float>::epsilon();
-
 std::array<Vector3, 3> vertices_of(dGeomID mesh, int index) {
   dVector3 v[3];
   dGeomTriMeshGetTriangle(mesh, index, &v[0], &v[1], &v[2]);
@@ -112,6 +109,7 @@ void MeshCandidates::read_triangles(dGeomID mesh) {
     const std::array<Vector3, 3> vertices = vertices_of(mesh, index);
     double farthest = 0;
     for (const Vector3& vertex : vertices) farthest = std::max(farthest, (vertex - origin).norm());
+    // ODE hands out vertices in float, relative to the origin of the mesh, also those that a program gave in double.
     triangles_.push_back({vertices, index, kFloatRounding * farthest + std::numeric_limits<dReal>::epsilon() * vertices[0].norm()});
   }
 }
