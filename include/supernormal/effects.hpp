@@ -204,9 +204,10 @@ struct SurfaceLayer {
 /// (snGeomSetLookAhead). A contact with a negative depth may then close its gap within the step, and no more.
 ///
 /// Friction and resistance to rolling act in these contacts. A body with restitution that will touch within the step is moved until
-/// it touches, and leaves with e times the velocity of that moment. The centre of mass of two bodies stays where it is. Springs and
-/// adhesion do not act before touch: for them contacts ahead are left out. Without this effect all contacts ahead are left out.
-/// Costs no row.
+/// it touches, and leaves with e times the velocity of that moment. The centre of mass of two bodies stays where it is. Several
+/// impacts of a body in a step happen one after the other, if the program attaches the contacts as set_up_contacts returns them.
+/// Springs and adhesion do not act before touch: for them contacts ahead are left out. Without this effect all contacts ahead are
+/// left out. Costs no row.
 struct SpeculativeContacts {
   MaterialSelector on;  ///< the contacts that it applies to
 };
@@ -301,8 +302,9 @@ class SUPERNORMAL_ODE_API Effects {
   /// Removes a body. Call it before dBodyDestroy. Does nothing for a body that was not added.
   void remove_body(dBodyID body);
 
-  /// Adds the forces of the coming step to all added bodies that are awake. Moves bodies until they touch that will bounce. Call it
-  /// after the last set_up_contacts of the step, because it changes the positions of bodies.
+  /// Adds the forces of the coming step to all added bodies that are awake. Moves bodies until they touch that will bounce, and
+  /// disables contact joints of bodies with several impacts: others take their places until the next call, with their feedback.
+  /// Call it after the last set_up_contacts of the step, and after its contacts have been attached in their order.
   void apply_forces();
 
   /// Measures seconds from now on, at the cost of two readings of the clock (50 ns) per pass.

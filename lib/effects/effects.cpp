@@ -97,7 +97,7 @@ struct Effects::State {
         pair_materials(list),
         forces(list, step),
         is_speculative(has<SpeculativeContacts>(list)),
-        speculative(step) {}
+        speculative(step, has<Restitution>(list)) {}
 
   /// Runs `work` and, if times are measured, adds its time to the effect's total.
   template <typename Work>
@@ -109,7 +109,7 @@ struct Effects::State {
   }
 
   int run_passes(PairMaterial& pair, std::span<dContact> contacts, dBodyID body1, dBodyID body2);
-  void set_up_ahead(PairMaterial& pair, std::span<dContact> ahead, bool may_approach, dBodyID body1, dBodyID body2);
+  void set_up_ahead(PairMaterial& pair, std::span<dContact> ahead, dBodyID body1, dBodyID body2);
 
   std::vector<Effect> list;
   double step;
@@ -138,12 +138,11 @@ int Effects::State::run_passes(PairMaterial& pair, std::span<dContact> contacts,
   return static_cast<int>(kept);
 }
 
-void Effects::State::set_up_ahead(PairMaterial& pair, std::span<dContact> ahead, bool may_approach, dBodyID body1, dBodyID body2) {
+void Effects::State::set_up_ahead(PairMaterial& pair, std::span<dContact> ahead, dBodyID body1, dBodyID body2) {
   Patch patch{ahead, step, static_cast<int>(ahead.size()), body1, body2};
   for (const Pass& pass : pair.passes) {
     if (pass.acts_ahead) timed(pass.effect, [&] { pass.run(pair, patch); });
   }
-  timed(index_of<SpeculativeContacts>(), [&] { speculative.set_up(pair, patch, may_approach); });
   pair.ahead += ahead.size();
 }
 
@@ -171,9 +170,13 @@ int Effects::set_up_contacts(std::span<dContact> contacts, const Side& side1, co
   const std::span<dContact> ahead = contacts.subspan(touching.size());
   int kept = pair.passes.empty() ? static_cast<int>(touching.size()) : state_->run_passes(pair, touching, side1.body, side2.body);
   if (pair.is_speculative && !ahead.empty()) {
-    state_->set_up_ahead(pair, ahead, touching.empty(), side1.body, side2.body);
+    state_->set_up_ahead(pair, ahead, side1.body, side2.body);
     // No pass has left out a touching contact: only the pass of a spring does, and contacts with a spring are not speculative.
     kept += static_cast<int>(ahead.size());
+  }
+  if (state_->is_speculative) {
+    const auto attached = contacts.first(static_cast<std::size_t>(kept));
+    state_->timed(index_of<SpeculativeContacts>(), [&] { state_->speculative.set_up(pair, attached, side1.body, side2.body); });
   }
   pair.contacts += static_cast<unsigned long long>(kept);
   return kept;
@@ -194,7 +197,7 @@ void Effects::remove_body(dBodyID body) {
 }
 
 void Effects::apply_forces() {
-  state_->speculative.approach();
+  state_->speculative.resolve();
   for (const BodyForces::Listed& pass : state_->forces.passes()) {
     state_->timed(pass.effect, [&] { state_->visits[pass.effect] += (state_->forces.*pass.run)(); });
   }

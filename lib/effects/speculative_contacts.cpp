@@ -1,107 +1,24 @@
-// Contacts ahead of touch as rows of ODE's solver.
+// The impacts of a step happen one after the other, each between two bodies, so an impact does not act through a third body that
+// touches. Newton's cradle does this, and ODE's solver does not: there an impact meets contacts that do not approach yet, which
+// demand no bounce.
 //
-// A row demands a separating velocity of at least u after the step. With u = -gap / step the gap may close in the step, and no more
-// (Anitescu and Potra 1997). ODE's own restitution would add u to e times the approach velocity, and throw the body back by a
-// mixture of both. So a pair that will bounce within the step is moved until it touches, before the step. The row then demands the
-// velocity with which the bodies leave.
-//
-// ODE adds forces to velocities and then moves bodies with the new velocities. So its steps lie on a parabola with the velocity
-// v + a h / 2 where ODE has v. With the velocities of the parabola, a ball on a plane bounces to e^2 times its height at any step.
+// The solver gets the velocities after the last impact. Each impulse of the sequence changes these velocities along the normal of
+// a contact, and the contact demands the velocity that results there. So the sum of the impulses is the force of the solver, and
+// friction and the force that a program measures are as large as it.
 #include "effects/speculative_contacts.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <optional>
+#include <array>
+#include <functional>
+#include <iterator>
+#include <queue>
+#include <tuple>
 
-#include "effects/motion.hpp"
-#include "ode/geom/body.hpp"
+#include "ode/geom/convert.hpp"
+#include "ode/geom/look_ahead.hpp"
 
 namespace supernormal::effects {
 namespace {
-
-// Relative to the smallest half-extent: the depth that a body may reach that bounces elsewhere in the same step. Its middle stays
-// outside.
-constexpr double kShallow = 0.5;
-
-/// The relative motion of two points along the normal of a contact.
-struct Separation {
-  double gap;           // m
-  double velocity;      // m/s, as ODE has it
-  double acceleration;  // m/s^2
-
-  /// The contact is placed after the displacements (m); the bodies themselves have not moved yet.
-  static Separation at(const dContact& contact, const Patch& patch, const Vector3& displacement1, const Vector3& displacement2) {
-    const Vector3 n = ode::to_vector(contact.geom.normal);
-    const Vector3 point = ode::to_vector(contact.geom.pos);
-    return {-double{contact.geom.depth},
-            n.dot(velocity_at(patch.body1, point - displacement1) - velocity_at(patch.body2, point - displacement2)),
-            n.dot(acceleration_of(patch.body1) - acceleration_of(patch.body2))};
-  }
-};
-
-/// The first touch within a step.
-struct Touch {
-  double time;   // s, from the start of the step
-  double speed;  // m/s; approach velocity at touch
-};
-
-std::optional<Touch> find_touch(const Separation& separation, double step) {
-  const double rate = separation.velocity + separation.acceleration * step / 2;
-  const double square = rate * rate - 2 * separation.acceleration * separation.gap;
-  if (!(square >= 0)) return std::nullopt;
-  const double speed = std::sqrt(square);
-  const double closing = speed - rate;
-  if (!(2 * separation.gap <= step * closing)) return std::nullopt;
-  return Touch{2 * separation.gap / closing, speed};
-}
-
-/// A bounce within the step.
-struct Bounce {
-  double time;      // s, until touch
-  double approach;  // m/s; ODE's approach velocity at the start of the step
-  double velocity;  // m/s; ODE's separating velocity, if the points touch at the start of the step
-};
-
-/// Empty if the points do not touch within the step, approach below the threshold, or would touch again.
-std::optional<Bounce> find_bounce(const PairMaterial& pair, const Separation& separation, double step) {
-  const std::optional<Touch> touch = find_touch(separation, step);
-  if (!touch || !(touch->speed > pair.threshold) || !(separation.velocity < 0)) return std::nullopt;
-  const double velocity = pair.restitution * touch->speed + separation.acceleration * step / 2;
-  if (!(velocity > 0)) return std::nullopt;
-  return Bounce{touch->time, -separation.velocity, velocity};
-}
-
-/// Gives the contact its velocity by ODE's restitution, because dWorldSetContactMaxCorrectingVel does not limit restitution.
-void let_leave(dContact& contact, const Bounce& bounce) {
-  contact.surface.mode |= dContactBounce;
-  contact.surface.bounce = ode::to_real(bounce.velocity / bounce.approach);
-  contact.surface.bounce_vel = 0;
-  contact.geom.depth = 0;
-}
-
-/// m; of our geoms in the pair.
-double least_half_extent(const Patch& patch) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const dGeomID geom : {patch.geom1(), patch.geom2()}) {
-    if (const ode::Body* const ours = ode::find_body(geom)) least = std::min(least, ours->size());
-  }
-  return least;
-}
-
-void let_close(dContact& contact, double gap, double step) {
-  contact.surface.mode |= dContactMotionN;
-  contact.surface.motionN = ode::to_real(-gap / step);
-  contact.geom.depth = 0;
-}
-
-/// 1/kg; 0 for a wall or a kinematic body.
-double inverse_mass(dBodyID body) {
-  if (body == nullptr || dBodyIsKinematic(body) != 0) return 0;
-  dMass mass;
-  dBodyGetMass(body, &mass);
-  return 1 / double{mass.mass};
-}
 
 /// Whether a joint corrects where its bodies are. A contact allows more distance; an angular motor and a ball joint with ERP 0 tie
 /// velocities only, as the images of periodic grains.
@@ -123,83 +40,134 @@ bool is_attached(dBodyID body) {
 
 }  // namespace
 
-/// Plans the displacements of both bodies until `first` touches, `time` (s) from now, and moves the contacts with them. Returns
-/// zero displacements if one of the bodies has a planned one or is attached to others, or if neither can move.
-SpeculativeSetup::Displacements SpeculativeSetup::bring_to_touch(const dContact& first, double time, Patch& ahead) {
-  const double inverse1 = inverse_mass(ahead.body1);
-  const double inverse2 = inverse_mass(ahead.body2);
-  if (!is_free(ahead.body1) || !is_free(ahead.body2) || !(inverse1 + inverse2 > 0)) return {};
-  if (is_attached(ahead.body1) || is_attached(ahead.body2)) return {};
-  const Vector3 n = ode::to_vector(first.geom.normal);
-  Vector3 displacement = double{first.geom.depth} * n;
-  if (inverse1 > 0 && inverse2 > 0) {
-    // The contact has one point for both bodies. Its lever arms are right for both only where the bodies touch.
-    const Vector3 velocity = ode::to_vector(dBodyGetLinearVel(ahead.body1)) - ode::to_vector(dBodyGetLinearVel(ahead.body2));
-    displacement += time * (velocity - n.dot(velocity) * n);
-  }
-  const Displacements displacements = {inverse1 / (inverse1 + inverse2) * displacement,
-                                       -inverse2 / (inverse1 + inverse2) * displacement};
-  if (inverse1 > 0) plan(ahead.body1, displacements.first);
-  if (inverse2 > 0) plan(ahead.body2, displacements.second);
-  // dCollide divides the gap by the same fractions when it places a contact. So this is the place where the bodies touch.
-  for (dContact& contact : ahead.contacts)
-    ode::from_vector(ode::to_vector(contact.geom.pos) + displacements.first + displacements.second, contact.geom.pos);
-  return displacements;
+std::size_t SpeculativeSetup::index_of(dBodyID body) {
+  const auto [entry, is_new] = indices_.try_emplace(body, bodies_.size());
+  if (is_new) bodies_.push_back(MovingBody::of(body));
+  return entry->second;
 }
 
-// A body bounces at most once a step. Its other contacts are found again in the next step, with its new velocity. A plastic contact
-// would take this velocity away. So the body may overlap a little there.
-void SpeculativeSetup::close_or_bounce(const PairMaterial& pair, Patch& ahead, bool may_approach) {
-  const auto bounce_of = [&](const dContact& contact, const Displacements& displacements) {
-    return find_bounce(pair, Separation::at(contact, ahead, displacements.first, displacements.second), step_);
+void SpeculativeSetup::set_up(const PairMaterial& pair, std::span<dContact> contacts, dBodyID body1, dBodyID body2) {
+  if (contacts.empty()) return;
+  Record record{&pair, 0, 0, contacts_.size(), 0, contacts.size()};
+  if (is_elastic_) record.body1 = index_of(body1), record.body2 = index_of(body2);
+  if (pair.is_speculative && pair.restitution > 0 && ode::looks_ahead(contacts.front().geom)) {
+    record.count = contacts.size();
+    const bool can_move = bodies_[record.body1].inverse_mass + bodies_[record.body2].inverse_mass > 0;
+    record.may_bounce = can_move && !is_attached(body1) && !is_attached(body2);
+    contacts_.insert(contacts_.end(), contacts.begin(), contacts.end());
+    set_up_alone(record, contacts);
+  } else {
+    for (dContact& contact : contacts) {
+      if (contact.geom.depth < 0) let_close(contact, -double{contact.geom.depth}, step_);
+    }
+  }
+  if (is_elastic_) records_.push_back(record);
+}
+
+/// Sets the contacts up for a pair that meets no other body in the step.
+void SpeculativeSetup::set_up_alone(Record& record, std::span<dContact> contacts) {
+  std::array<MovingBody, 2> bodies = {bodies_[record.body1], bodies_[record.body2]};
+  alone_.assign(contacts.begin(), contacts.end());
+  const Meeting alone{*record.pair, bodies[0], bodies[1], alone_, step_, record.may_bounce};
+  for (auto impact = alone.next_impact(); impact; impact = alone.next_impact()) {
+    alone.strike(*impact);
+    record.is_planned = true;
+  }
+  std::ranges::transform(alone_, contacts.begin(), [&](const MeetingContact& c) { return alone.row_of(c); });
+}
+
+void SpeculativeSetup::list_records() {
+  records_of_.assign(bodies_.size(), {});
+  for (std::size_t k = 0; k < records_.size(); ++k) {
+    for (const std::size_t body : {records_[k].body1, records_[k].body2}) {
+      if (bodies_[body].inverse_mass > 0) records_of_[body].push_back(k);
+    }
+  }
+}
+
+void SpeculativeSetup::run_impacts() {
+  const auto impacts_of = [&](const Record& record) { return bodies_[record.body1].impacts + bodies_[record.body2].impacts; };
+  using Event = std::tuple<double, std::size_t, int>;  // time, record, and the impacts that its bodies had
+  std::priority_queue<Event, std::vector<Event>, std::greater<>> events;
+  const auto expect = [&](std::size_t k) {
+    if (const auto impact = meeting(records_[k]).next_impact()) events.emplace(impact->time, k, impacts_of(records_[k]));
   };
-  Displacements displacements;
-  if (may_approach) {
-    const dContact* first = nullptr;
-    double time = 0;
-    for (const dContact& contact : ahead.contacts) {
-      const std::optional<Bounce> bounce = bounce_of(contact, {});
-      if (bounce && (first == nullptr || bounce->time < time)) first = &contact, time = bounce->time;
+  for (std::size_t k = 0; k < records_.size(); ++k) {
+    if (records_[k].is_planned) expect(k);
+  }
+  while (!events.empty()) {
+    const auto [time, k, impacts] = events.top();
+    events.pop();
+    Record& record = records_[k];
+    if (impacts != impacts_of(record)) continue;
+    meeting(record).strike(*meeting(record).next_impact());
+    ++record.impacts;
+    for (const std::size_t body : {record.body1, record.body2}) std::ranges::for_each(records_of_[body], expect);
+  }
+}
+
+/// A body whose impacts were too many leaves the velocities of all bodies undecided that it has met, and of those that they have
+/// met.
+void SpeculativeSetup::spread_wear() {
+  for (bool spreads = true; spreads;) {
+    spreads = false;
+    for (const Record& record : records_) {
+      const std::array<std::size_t, 2> met = {record.body1, record.body2};
+      if (record.impacts == 0 || std::ranges::none_of(met, [&](std::size_t k) { return bodies_[k].is_worn_out; })) continue;
+      for (const std::size_t k : met) {
+        if (bodies_[k].is_worn_out || bodies_[k].inverse_mass == 0) continue;
+        bodies_[k].is_worn_out = spreads = true;
+      }
     }
-    if (first != nullptr) displacements = bring_to_touch(*first, time, ahead);
-  }
-  const Vector3 displacement = displacements.first - displacements.second;
-  for (dContact& contact : ahead.contacts) {
-    const double gap = std::max(0.0, displacement.dot(ode::to_vector(contact.geom.normal)) - double{contact.geom.depth});
-    const std::optional<Bounce> bounce = bounce_of(contact, displacements);
-    if (!bounce) {
-      let_close(contact, gap, step_);
-    } else if (displacement.isZero(0)) {
-      let_close(contact, gap + kShallow * least_half_extent(ahead), step_);
-    } else {
-      let_leave(contact, *bounce);
-    }
   }
 }
 
-void SpeculativeSetup::set_up(const PairMaterial& pair, Patch& ahead, bool may_approach) {
-  for (dContact& contact : ahead.contacts) contact.surface.mode &= ~dContactBounce;
-  if (pair.restitution > 0) return close_or_bounce(pair, ahead, may_approach);
-  for (dContact& contact : ahead.contacts) let_close(contact, -double{contact.geom.depth}, step_);
-}
-
-void SpeculativeSetup::approach() {
-  for (const auto& [body, displacement] : approaches_) {
-    const Vector3 place = ode::to_vector(dBodyGetPosition(body)) + displacement;
-    dBodySetPosition(body, ode::to_real(place.x()), ode::to_real(place.y()), ode::to_real(place.z()));
+/// Replaces the contacts of a pair whose bodies have had other impacts than those that the contacts were set up for.
+void SpeculativeSetup::exchange(std::size_t index) {
+  const Record& record = records_[index];
+  const auto is_left_alone = [&](const MovingBody& body) { return body.inverse_mass == 0 || body.impacts == record.impacts; };
+  const Meeting now = meeting(record);
+  if (is_left_alone(now.body1) && is_left_alone(now.body2)) return;
+  if (now.body1.is_worn_out || now.body2.is_worn_out || (!record.is_planned && !now.needs_rows())) return;
+  ContactExchange::Place place{now.body1.id, now.body2.id, 0, 0, record.count};
+  for (const std::size_t k : records_of_[now.body1.inverse_mass > 0 ? record.body1 : record.body2]) {
+    const Record& other = records_[k];
+    if (std::minmax(other.body1, other.body2) != std::minmax(record.body1, record.body2)) continue;
+    if (k < index) place.first += other.attached;
+    place.all += other.attached;
   }
-  approaches_.clear();
-  displaced_.clear();
+  std::vector<dContact> rows;
+  std::ranges::transform(now.contacts, std::back_inserter(rows), [&](const MeetingContact& c) { return now.row_of(c); });
+  joints_.replace(place, rows);
 }
 
-void SpeculativeSetup::plan(dBodyID body, const Vector3& displacement) {
-  approaches_.push_back({body, displacement});
-  displaced_.insert(body);
+void SpeculativeSetup::move_bodies() const {
+  for (const MovingBody& body : bodies_) {
+    if (body.displacement.isZero(0)) continue;
+    const Vector3 place = body.centre + body.displacement;
+    dBodySetPosition(body.id, ode::to_real(place.x()), ode::to_real(place.y()), ode::to_real(place.z()));
+  }
+}
+
+void SpeculativeSetup::resolve() {
+  joints_.clear();
+  if (std::ranges::any_of(records_, &Record::is_planned)) {
+    list_records();
+    run_impacts();
+    spread_wear();
+    for (std::size_t k = 0; k < records_.size(); ++k) exchange(k);
+    joints_.commit();
+    move_bodies();
+  }
+  records_.clear();
+  contacts_.clear();
+  bodies_.clear();
+  indices_.clear();
 }
 
 void SpeculativeSetup::remove(dBodyID body) {
-  if (displaced_.erase(body) == 0) return;
-  std::erase_if(approaches_, [&](const Approach& approach) { return approach.body == body; });
+  std::erase_if(records_,
+                [&](const Record& record) { return bodies_[record.body1].id == body || bodies_[record.body2].id == body; });
 }
 
 }  // namespace supernormal::effects

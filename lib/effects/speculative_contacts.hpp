@@ -1,52 +1,67 @@
-// Speculative contacts: contacts of bodies that do not touch yet.
+// Speculative contacts: contacts of bodies that do not touch yet, and the impacts of a step, one after the other.
 #pragma once
 
 #include <ode/ode.h>
 
+#include <cstddef>
 #include <span>
-#include <unordered_set>
+#include <unordered_map>
 #include <vector>
 
-#include "effects/pair_material.hpp"
+#include "effects/contact_exchange.hpp"
+#include "effects/meeting.hpp"
 
 namespace supernormal::effects {
 
 class SpeculativeSetup {
  public:
-  /// `step`: s.
-  explicit SpeculativeSetup(double step) : step_(step) {}
+  /// `step`: s. `is_elastic`: whether any bodies bounce.
+  SpeculativeSetup(double step, bool is_elastic) : step_(step), is_elastic_(is_elastic) {}
 
-  /// Turns the contacts `ahead` of one pair, which have negative depths, into constraints on the motion of the step: their gaps may
-  /// close, or the bodies bounce. `may_approach`: whether the pair may be moved to touch first; a pair that touches elsewhere may
-  /// not.
-  void set_up(const PairMaterial& pair, Patch& ahead, bool may_approach);
+  /// Turns the contacts of one pair with negative depths into constraints on the motion of the step: their gaps may close, or the
+  /// bodies bounce. The contacts are all that will be attached, in this order.
+  void set_up(const PairMaterial& pair, std::span<dContact> contacts, dBodyID body1, dBodyID body2);
 
-  /// Moves the bodies with a planned displacement to touch, each body once a step.
-  void approach();
+  /// Lets the impacts of the step happen, in the order of their times: moves bodies to touch, and replaces the contacts of bodies
+  /// that have more than one impact.
+  void resolve();
 
-  /// Drops the body's planned displacement.
+  /// Drops the contacts of a body.
   void remove(dBodyID body);
 
  private:
-  /// m; of body 1 and of body 2.
-  struct Displacements {
-    Vector3 first = Vector3::Zero();
-    Vector3 second = Vector3::Zero();
+  /// What was set up in one call.
+  struct Record {
+    const PairMaterial* pair;
+    std::size_t body1, body2;  // in bodies_
+    std::size_t first, count;  // in contacts_; none if the pair cannot bounce
+    std::size_t attached;      // contacts that the program attaches
+    bool may_bounce = false;
+    bool is_planned = false;  // whether there is an impact if no other body comes in between
+    int impacts = 0;
   };
-  Displacements bring_to_touch(const dContact& first, double time, Patch& ahead);
-  void plan(dBodyID body, const Vector3& displacement);
-  void close_or_bounce(const PairMaterial& pair, Patch& ahead, bool may_approach);
-  bool is_free(dBodyID body) const { return !displaced_.contains(body); }
+
+  std::size_t index_of(dBodyID body);
+  Meeting meeting(const Record& record) {
+    return {*record.pair, bodies_[record.body1], bodies_[record.body2], std::span(contacts_).subspan(record.first, record.count),
+            step_,        record.may_bounce};
+  }
+  void set_up_alone(Record& record, std::span<dContact> contacts);
+  void list_records();
+  void run_impacts();
+  void spread_wear();
+  void exchange(std::size_t index);
+  void move_bodies() const;
 
   double step_;
-  /// The planned displacement of a body until it touches.
-  struct Approach {
-    dBodyID body;
-    Vector3 displacement;  // m
-  };
-  // ODE's spaces depend on the order in which their geoms were moved. The order must be the same in every run.
-  std::vector<Approach> approaches_;
-  std::unordered_set<dBodyID> displaced_;  // the bodies of `approaches_`
+  bool is_elastic_;
+  std::vector<Record> records_;                       // of this step
+  std::vector<std::vector<std::size_t>> records_of_;  // of each body that moves, in records_
+  std::vector<MeetingContact> contacts_;
+  std::vector<MeetingContact> alone_;  // of the present call
+  std::vector<MovingBody> bodies_;
+  std::unordered_map<dBodyID, std::size_t> indices_;
+  ContactExchange joints_;
 };
 
 }  // namespace supernormal::effects

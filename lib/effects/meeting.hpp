@@ -1,0 +1,86 @@
+// Impacts of one pair of bodies: when they touch, how they part, and the rows of ODE's solver that let them do so.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <optional>
+#include <span>
+
+#include "effects/pair_material.hpp"
+#include "ode/geom/convert.hpp"
+
+namespace supernormal::effects {
+
+/// A body within a step. Its impacts move it and change its velocity before ODE does.
+struct MovingBody {
+  static MovingBody of(dBodyID body);
+
+  dBodyID id = nullptr;                        ///< 0: a wall at rest
+  double inverse_mass = 0;                     ///< 1/kg; 0 for a wall or a kinematic body
+  Matrix3 inverse_inertia = Matrix3::Zero();   ///< 1/(kg m^2), world frame
+  Vector3 centre = Vector3::Zero();            ///< m, at the start of the step
+  Vector3 velocity = Vector3::Zero();          ///< m/s, as ODE has it at the start of the step, and after the impacts so far
+  Vector3 angular_velocity = Vector3::Zero();  ///< rad/s
+  Vector3 acceleration = Vector3::Zero();      ///< m/s^2
+  Vector3 displacement = Vector3::Zero();      ///< m, by the impacts so far
+  double time = 0;                             ///< s, of its last impact, from the start of the step
+  int impacts = 0;
+  bool is_worn_out = false;  ///< whether it has had too many
+};
+
+/// A contact at which two bodies may meet.
+struct MeetingContact {
+  MeetingContact(const dContact& set_up) : contact(set_up), normal(ode::to_vector(set_up.geom.normal)) {}
+
+  dContact contact;        ///< at the start of the step, with friction and without a normal motion
+  Vector3 normal;          ///< unit, world frame, into body 1
+  double target = 0;       ///< m/s, of the separating velocity after the impact
+  double impulse = 0;      ///< N s, of the present impact
+  double total = 0;        ///< N s, of the impacts so far
+  bool is_struck = false;  ///< whether the present impact acts here
+  bool is_hit = false;     ///< whether any impact of the step has acted here
+
+  /// Whether the bodies touch here at the start of the step.
+  bool touches() const { return !(contact.geom.depth < 0); }
+};
+
+/// All contacts of two geoms.
+struct Meeting {
+  struct Impact {
+    double time;            ///< s, from the start of the step
+    MeetingContact* first;  ///< where the bodies touch first
+  };
+
+  const PairMaterial& pair;
+  MovingBody& body1;
+  MovingBody& body2;
+  std::span<MeetingContact> contacts;
+  double step;      ///< s
+  bool may_bounce;  ///< whether the bodies have impacts here
+
+  /// Empty if there is no impact that the bodies may make now.
+  std::optional<Impact> next_impact() const;
+
+  /// Gives the bodies the velocities after the next impact, and moves them to touch before their first one.
+  void strike(const Impact& impact) const;
+
+  /// Whether the impacts so far ask for other rows than those of bodies that do not bounce.
+  bool needs_rows() const;
+
+  /// The contact for ODE, so that the step ends with the velocities after the impacts so far.
+  dContact row_of(const MeetingContact& at) const;
+
+ private:
+  bool may_be_moved() const;
+  void bring_to_touch(const MeetingContact& at) const;
+  void solve_impulses() const;
+  struct Parting {
+    double before, after;  // m/s
+  };
+  Parting parting_at(const Vector3& point, const Vector3& normal) const;
+};
+
+/// Lets the contact close its gap (m) within the step (s).
+void let_close(dContact& contact, double gap, double step);
+
+}  // namespace supernormal::effects
