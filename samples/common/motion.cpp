@@ -71,13 +71,13 @@ Eigen::Quaterniond rotation_between(const Vector3& from, const Vector3& to) {
   const double twice_cosine = std::sqrt((1 + b.dot(a)) * 2);  // of half the angle
   Eigen::Quaterniond rotation;
   rotation.w() = twice_cosine / 2;
-  if (twice_cosine > 1e-6) {
-    rotation.vec() = cross * (1 / twice_cosine);
-    return rotation;
-  }
-  // Opposite up to rounding. What is left of the product has the direction of the axis, if anything is left.
-  rotation.vec() = cross.isZero(0) ? a.cross(std::abs(a.x()) > std::abs(a.z()) ? Vector3::UnitY() : Vector3::UnitX()) : cross;
-  rotation.vec().normalize();
+  rotation.vec() = cross * (1 / twice_cosine);
+  if (twice_cosine > 0.01) return rotation;
+  // Almost opposite: the sum has lost its digits, the product has not. Where it vanishes, any axis across will do.
+  const double sine = std::sqrt((1 - b.dot(a)) / 2);
+  const Vector3 across = a.cross(std::abs(a.x()) > std::abs(a.z()) ? Vector3::UnitY() : Vector3::UnitX());
+  rotation.w() = cross.norm() / (2 * sine);
+  rotation.vec() = sine * (cross.isZero(0) ? across : cross).normalized();
   return rotation;
 }
 
