@@ -25,8 +25,8 @@ namespace {
 constexpr double kShallow = 0.5;
 
 // A light body between two heavy ones bounces ever faster, and quickstep does not find these velocities in 20 iterations. A body
-// with so many impacts keeps the contacts it has, whose impacts are simultaneous. With 4, the gas of boxes at 20 ms loses up to 6
-// %; with 16, 3 of 864 bodies of heaps that are hit at 20 ms pass the floor.
+// with so many impacts keeps the contacts it has, whose impacts are simultaneous. With 4, gases of bricks lose up to 7 % at 20 ms;
+// with 16, a stack of four that a ball hits gains 1 % in one step of 10 ms.
 constexpr int kMostImpacts = 8;
 
 // Relative to the velocity after an impact; and sweeps over its contacts at most. With 10 sweeps the gas of bricks gains up to 2.8
@@ -260,15 +260,18 @@ dContact Meeting::row_of(const MeetingContact& at) const {
   dContact row = at.contact;
   if (at.touches() && !may_bounce) return row;  // ODE's bounce
   row.surface.mode &= ~dContactBounce;
-  const Resultant sum = find_resultant(contacts, at);
-  const Vector3 point = sum.place + body1.displacement + body2.displacement;
-  const Parting parting = parting_at(point, at.normal);
   const Separation now = Separation::at(at, body1, body2);
-  const bool part = sum.carrier != nullptr && parting.after * step >= -now.gap;
-  if (part && sum.carrier == &at) {
-    ode::from_vector(point, row.geom.pos);
-    let_leave(row, parting.before, parting.after);
-    return row;
+  const Resultant sum = find_resultant(contacts, at);
+  bool part = false;
+  if (sum.carrier != nullptr) {
+    const Vector3 point = sum.place + body1.displacement + body2.displacement;
+    const Parting parting = parting_at(point, at.normal);
+    part = parting.after * step >= -now.gap;
+    if (part && sum.carrier == &at) {
+      ode::from_vector(point, row.geom.pos);
+      let_leave(row, parting.before, parting.after);
+      return row;
+    }
   }
   const double depth = std::max(0.0, double{row.geom.depth});
   const bool may_sink = (part && at.is_hit) || find_bounce(pair, now, step);
