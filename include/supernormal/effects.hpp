@@ -303,8 +303,9 @@ class SUPERNORMAL_ODE_API Effects {
   void remove_body(dBodyID body);
 
   /// Adds the forces of the coming step to all added bodies that are awake. Moves bodies until they touch that will bounce, and
-  /// disables contact joints of bodies with several impacts: others take their places until the next call, with their feedback.
-  /// Call it after the last set_up_contacts of the step, and after its contacts have been attached in their order.
+  /// disables contact joints of bodies with several impacts: others take their places until the next call, with their feedback,
+  /// as set_up_contacts set them up. Call it after the last set_up_contacts of the step, and after its contacts have been attached
+  /// in their order.
   void apply_forces();
 
   /// Measures seconds from now on, at the cost of two readings of the clock (50 ns) per pass.
