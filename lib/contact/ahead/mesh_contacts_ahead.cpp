@@ -153,11 +153,15 @@ struct MeshContactsAhead::Search {
   std::span<const MeshTriangle> triangles;
   const Settings& settings;
   double near;      // m; a gap up to this is a contact
-  double reach;     // m
   double share;     // the body's share of the mobilities
   double size;      // m; the smallest half-extent of the body
   double graze;     // m; a deeper overlap is an impact
   double rounding;  // m; of the vertices
+
+  /// The largest gap of a contact with this normal: what the body approaches in the step or on its way there may be no farther.
+  double reach_along(const Vector3& normal, const Vector3& way) const {
+    return std::max({0.0, approach_of(now.motion, surface, time, normal, 0), normal.dot(way)}) + near;
+  }
 
   /// The surface at a contact, higher by the graze.
   Plane plane_of(const ContactManifold& contacts) const {
@@ -203,18 +207,8 @@ std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, con
   there.motion.velocity -= surface.velocity;
   double rounding = 0;
   for (const MeshTriangle& triangle : triangles) rounding = std::max(rounding, triangle.rounding);
-  const Search search{there,
-                      body,
-                      surface,
-                      time,
-                      triangles,
-                      settings,
-                      near,
-                      there.motion.velocity.norm() * time + near,
-                      share_of_first(body.motion, surface),
-                      size,
-                      kGraze * size,
-                      rounding};
+  const Search search{there, body,          surface, time, triangles, settings, near, share_of_first(body.motion, surface),
+                      size,  kGraze * size, rounding};
   add_overlaps(search);
   double left = time;
   const MeshContacts* passed = nullptr;
@@ -300,7 +294,7 @@ std::optional<MeshManifold> MeshContactsAhead::find_after(const Search& search, 
   for (Vector3* place : {&manifold.deepest.point1, &manifold.deepest.point2, &manifold.deepest.contact}) to_end(*place);
   for (ManifoldCorner& corner : manifold.corners) to_end(corner.point);
   motion.take_back(search.share, manifold);
-  manifold.reach = search.reach;
+  manifold.reach = search.reach_along(manifold.deepest.normal, Vector3::Zero());
   return MeshManifold{manifold, nearest.triangle};
 }
 
@@ -396,7 +390,7 @@ void MeshContactsAhead::add(const Search& search, const Proximity& there, int tr
   ContactManifold manifold = find_plane_manifold_of_gaps(search.body.shape, search.body.pose, there, overlap);
   draw_in_corners(manifold, search.triangles);
   take_back(manifold, way, search.share);
-  manifold.reach = search.reach;
+  manifold.reach = search.reach_along(there.normal, way);
   limit_rotation(search.now, {search.now.shape, search.now.pose, search.surface}, search.time, search.share, manifold);
   const auto same = std::find_if(found_.begin(), found_.end(), [&](const MeshManifold& other) {
     return (other.manifold.deepest.normal - there.normal).norm() < kSameNormal + 4 * search.rounding / search.size &&

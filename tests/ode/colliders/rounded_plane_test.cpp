@@ -36,15 +36,15 @@ void check_is_plane(dGeomID floor, dGeomID plane, const Vec& middle, double cell
   const Vec up = to_vec(level);
   Random random(5);
   World world;
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 12; ++i) {
     CAPTURE(i);
-    const Geom geom(i % 2 == 0 ? snCreateSuperellipsoid(nullptr, dReal(0.1), dReal(0.1), dReal(0.05), 60, 60)
-                               : snCreateEllipsoid(nullptr, dReal(0.1), dReal(0.07), dReal(0.05)));
+    const dReal exponent = i % 3 == 0 ? 2 : 20;
+    const Geom geom(snCreateSuperellipsoid(nullptr, dReal(0.1), dReal(0.07), dReal(0.05), exponent, exponent));
     const dBodyID body = world.add(geom, 1000);
     dMatrix3 turn;
     dRFromZAxis(turn, dReal(up[0]), dReal(up[1]), dReal(up[2]));
     dBodySetRotation(body, turn);
-    if (i % 2 != 0) random.turn(geom);
+    if (i % 3 != 1) random.turn(geom);
     place(geom, middle + 0.2 * random.direction() + up);
     for (int k = 0; k < 2; ++k) {
       snProximity now;
