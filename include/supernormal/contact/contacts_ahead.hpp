@@ -36,6 +36,8 @@ struct MotionAhead {
   Matrix3 turning = Matrix3::Zero();           ///< 1/m^2; the mass times the inverse of the inertia tensor, in the same frame
   Vector3 angular_velocity = Vector3::Zero();  ///< rad/s; in the same frame
   Vector3 acceleration = Vector3::Zero();      ///< m/s^2; by gravity and known forces
+  /// rad/s^2; by known torques, and of a body that rotates about no principal axis; constant in the time looked ahead
+  Vector3 angular_acceleration = Vector3::Zero();
   double arm = 0;       ///< m; an upper bound on the distance of the body's points from the centre of rotation
   double mobility = 0;  ///< 1/kg; the inverse of the mass; 0 for a body that does not move under a force
 };
@@ -64,7 +66,7 @@ struct BodyAhead {
 /// stop when the bodies are apart. lib/contact/README.md has the construction.
 ///
 /// Gravity bends the path of a body, and rotation the paths of its points. If such a contact would hold back bodies that do not
-/// meet within the time, by their velocities after the accelerations and by their rotation, the contacts are those at the end of
+/// meet within the time, by their velocities and rotations after the accelerations, the contacts are those at the end of
 /// this motion. They leave it as it is.
 ///
 /// An impact might rotate a body by a large angle within the time. Such a contact is moved towards the line through the centre of

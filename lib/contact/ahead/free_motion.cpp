@@ -94,7 +94,7 @@ std::optional<ContactManifold> find_after(const BodyAhead& body1, const BodyAhea
 
 FreeMotion::FreeMotion(const BodyAhead& body1, const BodyAhead& body2, double time)
     : time_(time), centre1_(body1.motion.centre), centre2_(body2.motion.centre), motion1_(of(body1)), motion2_(of(body2)) {
-  const bool rotates = !body1.motion.angular_velocity.isZero(0) || !body2.motion.angular_velocity.isZero(0);
+  const bool rotates = !motion1_.angular_velocity.isZero(0) || !motion2_.angular_velocity.isZero(0);
   bends_ = rotates || body1.motion.acceleration != body2.motion.acceleration;
 }
 
@@ -102,7 +102,7 @@ Motion FreeMotion::of(const BodyAhead& body) const {
   const MotionAhead& motion = body.motion;
   const Vector3 to_centre = motion.centre - body.pose.position;
   return {body.pose, motion.velocity + time_ * motion.acceleration + motion.angular_velocity.cross(to_centre),
-          motion.angular_velocity, body.pose.rotation.transpose() * to_centre};
+          motion.angular_velocity + time_ * motion.angular_acceleration, body.pose.rotation.transpose() * to_centre};
 }
 
 double FreeMotion::closed_at(const Vector3& place, const Vector3& normal) const {
@@ -139,6 +139,7 @@ void FreeMotion::take_back(double share, ContactManifold& contacts) const {
 
 BodyAhead without_forces(BodyAhead body) {
   body.motion.acceleration.setZero();
+  body.motion.angular_acceleration.setZero();
   return body;
 }
 
@@ -175,7 +176,7 @@ std::optional<ContactManifold> find_contacts_after_free_motion(const BodyAhead& 
 
 std::optional<ContactManifold> find_plane_contacts_after_free_motion(const BodyAhead& body, double time, const Proximity& now,
                                                                      const ContactManifold& ahead) {
-  if (body.motion.angular_velocity.isZero(0)) return std::nullopt;
+  if (body.motion.angular_velocity.isZero(0) && body.motion.angular_acceleration.isZero(0)) return std::nullopt;
   const Vector3 upwards = -now.normal;
   const double offset = upwards.dot(now.point2);
   const auto proximity = [&](const FreeMotion& motion, const Vector3&) {

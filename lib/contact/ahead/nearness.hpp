@@ -45,8 +45,8 @@ inline double growth_by_rotation(const BodyAhead& body, const Vector3& direction
 
 inline bool is_finite(const MotionAhead& motion) {
   return motion.velocity.allFinite() && motion.centre.allFinite() && motion.turning.allFinite() &&
-         motion.angular_velocity.allFinite() && motion.acceleration.allFinite() && std::isfinite(motion.arm) &&
-         std::isfinite(motion.mobility);
+         motion.angular_velocity.allFinite() && motion.acceleration.allFinite() && motion.angular_acceleration.allFinite() &&
+         std::isfinite(motion.arm) && std::isfinite(motion.mobility);
 }
 
 /// The share of body 1 in the sum of the mobilities.

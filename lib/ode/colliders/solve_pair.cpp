@@ -19,8 +19,8 @@ struct PosedBody {
   const Pose& pose;
 };
 
-BodyAhead moving(const PosedBody& posed) {
-  return {posed.shape, posed.pose, motion_ahead_of(posed.geom, posed.pose.position, posed.shape.bounding_radius())};
+BodyAhead moving(const PosedBody& posed, double time) {
+  return {posed.shape, posed.pose, motion_ahead_of(posed.geom, posed.pose.position, posed.shape.bounding_radius(), time)};
 }
 
 /// The settings of a query that predicts contacts `time` (s) ahead.
@@ -42,7 +42,7 @@ ContactManifold finish(const PosedBody& one, const PosedBody& other, const Setti
   }
   if (found.status == Status::Apart) last.gap = found.gap;
   if (time > 0 && is_for_contacts(kind)) {
-    ContactManifold ahead = find_contacts_ahead(moving(one), moving(other), time, asked, found);
+    ContactManifold ahead = find_contacts_ahead(moving(one, time), moving(other, time), time, asked, found);
     count_query(ahead.deepest, is_warm);
     return ahead;
   }

@@ -27,6 +27,27 @@ Matrix3 turning_of(dBodyID body, const dMass& mass) {
   return double{mass.mass} * (rotation * to_rotation(mass.I).inverse() * rotation.transpose());
 }
 
+/// Whether contacts are all that may hold the body. The torques of other joints are not known before the step.
+bool is_loose(dBodyID body) {
+  int joint = 0;
+  while (joint < dBodyGetNumJoints(body) && dJointGetType(dBodyGetJoint(body, joint)) == dJointTypeContact) ++joint;
+  return joint == dBodyGetNumJoints(body);
+}
+
+/// The angular velocity after a step of `time` without joints, as ODE finds it, rad/s. A rotation changes its axis by itself if
+/// the moments of inertia are unequal. ODE's step of this is implicit.
+Vector3 angular_velocity_after(dBodyID body, const dMass& mass, const MotionAhead& motion, double time) {
+  Vector3 after = motion.angular_velocity;
+  if (dBodyGetGyroscopicMode(body) != 0) {
+    const Matrix3 rotation = to_rotation(dBodyGetRotation(body));
+    const Vector3 momentum = rotation * (to_rotation(mass.I) * (rotation.transpose() * after)) / double{mass.mass};
+    Matrix3 implicit = Matrix3::Identity();
+    for (int axis = 0; axis < 3; ++axis) implicit.col(axis) -= time * (motion.turning * momentum.cross(Vector3::Unit(axis)));
+    after = implicit.inverse() * after;
+  }
+  return after + time / double{mass.mass} * (motion.turning * to_vector(dBodyGetTorque(body)));
+}
+
 // ODE aborts on a box that is not finite.
 void require_in_range(const MotionAhead& motion, dGeomID geom) {
   const auto within = [&](const char* what, const Vector3& value, const char* unit) {
@@ -37,6 +58,7 @@ void require_in_range(const MotionAhead& motion, dGeomID geom) {
   within("angular velocity", motion.angular_velocity, "rad/s");
   within("velocity", motion.velocity, "m/s");
   within("acceleration", motion.acceleration, "m/s^2");
+  within("angular acceleration", motion.angular_acceleration, "rad/s^2");
 }
 
 }  // namespace
@@ -71,7 +93,7 @@ Vector3 acceleration_of(dBodyID body, const dMass& mass) {
 
 // The centre of the body moves in a straight line. The origin of the geom moves about it along the tangent. It deviates from the
 // tangent by at most twice its distance from the centre times the angle.
-MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius) {
+MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius, double time) {
   MotionAhead motion;
   motion.centre = origin;
   const dBodyID body = dGeomGetBody(geom);
@@ -88,7 +110,11 @@ MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius) 
   const Vector3 from_centre = origin - motion.centre;
   motion.velocity = to_vector(dBodyGetLinearVel(body)) + motion.angular_velocity.cross(from_centre);
   motion.arm = radius + 2 * from_centre.norm();
-  if (motion.mobility > 0) motion.acceleration = acceleration_of(body, mass);
+  if (motion.mobility > 0) {
+    motion.acceleration = acceleration_of(body, mass);
+    if (is_loose(body))
+      motion.angular_acceleration = (angular_velocity_after(body, mass, motion, time) - motion.angular_velocity) / time;
+  }
   require_in_range(motion, geom);
   return motion;
 }

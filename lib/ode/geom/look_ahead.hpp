@@ -14,9 +14,9 @@ void set_default_look_ahead(double time);
 /// The acceleration of a body by gravity and by the forces added since the last step, m/s^2.
 Vector3 acceleration_of(dBodyID body, const dMass& mass);
 
-/// The motion of a geom about its point `origin` (m, world frame), which is within `radius` (m) of all its points. A geom without a
-/// body rests, and so does one with a disabled body.
-MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius);
+/// The motion of a geom in the next `time` (s, a step) about its point `origin` (m, world frame), which is within `radius` (m) of
+/// all its points. A geom without a body rests, and so does one with a disabled body.
+MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius, double time);
 
 /// Whether a geom of the contact is ours and looks ahead.
 bool looks_ahead(const dContactGeom& contact);

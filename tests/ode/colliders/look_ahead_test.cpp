@@ -347,6 +347,48 @@ TEST_CASE("a blade that spins on a floor beside a wall it does not reach keeps i
   }
 }
 
+TEST_CASE("a body that changes its axis of rotation beside a plane that it does not reach is free") {
+  OdeSession session;
+  Random random(5);
+  for (int draw = 0; draw < 300; ++draw) {
+    CAPTURE(draw);
+    constexpr double kStep = 0.01;  // s
+    const Vec spin = random.uniform(0.2, 0.9) / kStep * random.direction();
+    const std::array<double, 4> attitude = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 1};
+    const auto spinning = [&](World& world) {
+      dWorldSetGravity(world.id(), 0, 0, 0);
+      const dBodyID body = world.add(body_of(world.space(), {0.2, 0.05, 0.02}, 8, 8), 2500);
+      dQuaternion unit = {dReal(attitude[0]), dReal(attitude[1]), dReal(attitude[2]), dReal(attitude[3])};
+      dNormalize4(unit);
+      dBodySetQuaternion(body, unit);
+      dBodySetAngularVel(body, dReal(spin[0]), dReal(spin[1]), dReal(spin[2]));
+      return body;
+    };
+    World alone;
+    const dBodyID free = spinning(alone);
+    dMatrix3 start;
+    std::copy_n(dBodyGetRotation(free), 12, start);
+    alone.quick_step(kStep);
+    const Vec after = to_vec(dBodyGetAngularVel(free));
+    // The lowest point on the way, with the angular velocity after the step.
+    const dGeomID probe = body_of(alone.space(), {0.2, 0.05, 0.02}, 8, 8);
+    double lowest = 0;
+    for (int k = 0; k <= 200; ++k) {
+      dMatrix3 turn, turned;
+      dRFromAxisAndAngle(turn, dReal(after[0]), dReal(after[1]), dReal(after[2]), dReal(norm(after) * kStep * k / 200));
+      dMultiply0_333(turned, turn, start);
+      dGeomSetRotation(probe, turned);
+      lowest = std::max(lowest, depth_below(probe));
+    }
+    World world;
+    const dBodyID body = spinning(world);
+    dCreatePlane(world.space(), 0, 0, 1, dReal(-lowest - 1e-4));
+    REQUIRE(snGeomSetLookAhead(dBodyGetFirstGeom(body), dReal(kStep)) == 1);
+    world.quick_step(kStep);
+    CHECK(norm(to_vec(dBodyGetAngularVel(body)) - after) < within_rounding(1e-6, 1) * norm(after));
+  }
+}
+
 TEST_CASE("a ball that falls past the edge of a box or a mesh is not thrown aside, at steps in which it falls by its size") {
   OdeSession session;
   for (const bool is_mesh : {false, true}) {

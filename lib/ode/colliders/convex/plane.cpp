@@ -18,7 +18,7 @@ ContactManifold query_plane(dGeomID ours, dGeomID collider, QueryKind kind) {
   const Proximity result = find_plane_proximity(body.shape(), pose, to_vector(plane), plane[3]);
   count_closed_form();
   if (body.look_ahead() > 0 && is_for_contacts(kind)) {
-    const MotionAhead motion = motion_ahead_of(ours, pose.position, body.shape().bounding_radius());
+    const MotionAhead motion = motion_ahead_of(ours, pose.position, body.shape().bounding_radius(), body.look_ahead());
     return find_plane_contacts_ahead({body.shape(), pose, motion}, body.look_ahead(), result);
   }
   return kind == QueryKind::Contacts ? find_plane_contact_manifold(body.shape(), pose, result) : ContactManifold(result);

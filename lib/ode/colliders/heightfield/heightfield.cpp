@@ -143,6 +143,7 @@ MotionAhead in_frame(MotionAhead world, const Pose& frame) {
   world.turning = to_frame * world.turning * frame.rotation;
   world.angular_velocity = to_frame * world.angular_velocity;
   world.acceleration = to_frame * world.acceleration;
+  world.angular_acceleration = to_frame * world.angular_acceleration;
   return world;
 }
 
@@ -151,8 +152,9 @@ void look_ahead(HeightfieldProbe& probe, const Visitor& visitor, const Pose& fra
   const Body& body = require_body(ours);
   const Vector3 origin = to_vector(dGeomGetPosition(ours));
   const BodyAhead moving{visitor.shape, visitor.pose,
-                         in_frame(motion_ahead_of(ours, origin, body.shape().bounding_radius()), frame)};
-  const MotionAhead surface = in_frame(motion_ahead_of(heightfield, origin, body.shape().bounding_radius()), frame);
+                         in_frame(motion_ahead_of(ours, origin, body.shape().bounding_radius(), body.look_ahead()), frame)};
+  const MotionAhead surface =
+      in_frame(motion_ahead_of(heightfield, origin, body.shape().bounding_radius(), body.look_ahead()), frame);
   const MeshContactsAhead::Reach reach = MeshContactsAhead::reach_of(moving, surface, body.look_ahead());
   Visitor all = visitor;
   all.centre += reach.middle;

@@ -83,8 +83,8 @@ std::span<const MeshContact> find_contacts(const Visit& visit, std::span<const M
 void look_ahead(const Visit& visit) {
   const double time = visit.body.look_ahead();
   const BodyAhead body{visit.body.shape(), visit.pose,
-                       motion_ahead_of(visit.geom, visit.pose.position, visit.body.shape().bounding_radius())};
-  const MotionAhead surface = motion_ahead_of(visit.mesh, visit.pose.position, visit.body.shape().bounding_radius());
+                       motion_ahead_of(visit.geom, visit.pose.position, visit.body.shape().bounding_radius(), time)};
+  const MotionAhead surface = motion_ahead_of(visit.mesh, visit.pose.position, visit.body.shape().bounding_radius(), time);
   const MeshContactsAhead::Reach reach = MeshContactsAhead::reach_of(body, surface, time);
   BodyBox box = visit.box.widened(reach.margin);
   box.centre += visit.pose.rotation.transpose() * reach.middle;
