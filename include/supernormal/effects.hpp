@@ -274,8 +274,8 @@ class SUPERNORMAL_ODE_API Effects {
   /// Compiles the list for steps of `step` seconds. Throws BadEffect (a std::invalid_argument) with the effect, the parameter, its
   /// value and the range, or with the two effects that exclude each other.
   Effects(const std::vector<Effect>& list, double step);
-  ~Effects();
-  Effects(Effects&&) noexcept;             ///< takes over the list, the bodies and the costs
+  ~Effects();                   ///< Destroy it before the world. Otherwise ODE may print a message about joints, and all is well.
+  Effects(Effects&&) noexcept;  ///< takes over the list, the bodies and the costs
   Effects& operator=(Effects&&) noexcept;  ///< takes over the list, the bodies and the costs
 
   /// Sets ODE's parameters for the effects of the world. Parameters of effects that are not listed keep their values.

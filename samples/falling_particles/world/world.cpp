@@ -84,6 +84,7 @@ World::~World() {
   cell_.reset();
   walls_.reset();
   sweep_.reset();
+  effects_.reset();  // it has joints
   dWorldDestroy(world_);
   snClose();
   dCloseODE();
