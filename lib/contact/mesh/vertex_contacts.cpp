@@ -15,9 +15,6 @@ namespace {
 // A normal is known to the square root of its gap's tolerance. Within this angle, rad, it may belong to an edge or a face.
 constexpr double kNearEdgeNormal = 1e-5;
 
-// A point of a flat side may be this far below its plane, in length units (proximity/contact_point.cpp).
-constexpr double kOnSide = 1e-6;
-
 double angle_at(const Face& face, int k) {
   const Vector3 edge1 = face.vertices[at((k + 1) % 3)] - face.vertices[at(k)];
   const Vector3 edge2 = face.vertices[at((k + 2) % 3)] - face.vertices[at(k)];
@@ -115,7 +112,7 @@ Vector3 MeshContactSearch::place_at_vertex(SupportProbe& probe, const Proximity&
   const Pose pose{Vector3::Zero(), probe.rotation()};
   const RayHit side = find_ray_hit(probe.shape(), pose, found.contact, found.normal, kEndless, settings_);
   probe.count(side.evaluations);
-  return side.hit && below_plane(side.point) <= kOnSide * length_unit_ ? side.point : found.point1;
+  return side.hit && below_plane(side.point) <= touch() ? side.point : found.point1;
 }
 
 // Returns false if the normal is outside the normal cone of the surface, or if this cannot be decided.

@@ -495,7 +495,7 @@ TEST_CASE("the contacts do not depend on the unit of length") {
   }
 }
 
-TEST_CASE("the contacts of a ball deep in rough ground are on the ball") {
+TEST_CASE("the contacts of a ball deep in rough ground are where its normal is theirs") {
   Draw draw(3);
   const Sphere ball(1);
   for (int i = 0; i < 200; ++i) {
@@ -504,6 +504,6 @@ TEST_CASE("the contacts of a ball deep in rough ground are on the ball") {
     for (Vector3& vertex : ground.vertices) vertex.z() = draw.uniform(0, 0.6);
     const Pose pose{Vector3(draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(0.5, 1.2)), draw.rotation()};
     for (const MeshContact& contact : contacts_of(ball, pose, ground.placed()))
-      CHECK((contact.proximity.contact - pose.position).norm() == relative(1).epsilon(1e-6));
+      CHECK((contact.proximity.contact - pose.position - contact.proximity.normal).norm() < 1e-6);
   }
 }
