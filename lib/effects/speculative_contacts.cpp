@@ -29,7 +29,8 @@ bool holds_place(dJointID joint) {
   return type != dJointTypeContact && type != dJointTypeAMotor;
 }
 
-/// Whether a joint holds the body in place. Moved alone, it would violate the joint.
+}  // namespace
+
 bool is_attached(dBodyID body) {
   if (body == nullptr) return false;
   for (int k = 0; k < dBodyGetNumJoints(body); ++k) {
@@ -37,8 +38,6 @@ bool is_attached(dBodyID body) {
   }
   return false;
 }
-
-}  // namespace
 
 std::size_t SpeculativeSetup::index_of(dBodyID body) {
   const auto [entry, is_new] = indices_.try_emplace(body, bodies_.size());

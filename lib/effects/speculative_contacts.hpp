@@ -13,6 +13,9 @@
 
 namespace supernormal::effects {
 
+/// Whether a joint holds the body in place. Moved alone, it would violate the joint.
+bool is_attached(dBodyID body);
+
 class SpeculativeSetup {
  public:
   /// `step`: s. `is_elastic`: whether any bodies bounce.
