@@ -20,12 +20,14 @@
 namespace supernormal::effects {
 namespace {
 
-/// Whether a joint corrects where its bodies are. A contact allows more distance; an angular motor and a ball joint with ERP 0 tie
-/// velocities only, as the images of periodic grains.
-bool holds_place(dJointID joint) {
+/// Whether moving one of its bodies would make a joint act. A contact allows more distance; an angular motor, and a ball joint
+/// with no ERP that is no softer than the world, tie velocities only, as the images of periodic grains. A bond is a soft ball
+/// joint: a spring.
+bool holds_place(dJointID joint, dWorldID world) {
   if (dJointIsEnabled(joint) == 0) return false;
   const dJointType type = dJointGetType(joint);
-  if (type == dJointTypeBall) return dJointGetBallParam(joint, dParamERP) > 0;
+  if (type == dJointTypeBall)
+    return dJointGetBallParam(joint, dParamERP) > 0 || dJointGetBallParam(joint, dParamCFM) > dWorldGetCFM(world);
   return type != dJointTypeContact && type != dJointTypeAMotor;
 }
 
@@ -34,7 +36,7 @@ bool holds_place(dJointID joint) {
 bool is_attached(dBodyID body) {
   if (body == nullptr) return false;
   for (int k = 0; k < dBodyGetNumJoints(body); ++k) {
-    if (holds_place(dBodyGetJoint(body, k))) return true;
+    if (holds_place(dBodyGetJoint(body, k), dBodyGetWorld(body))) return true;
   }
   return false;
 }

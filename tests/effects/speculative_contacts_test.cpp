@@ -632,6 +632,32 @@ TEST_CASE("speculative contacts: a bounce violates a joint no more than without 
   }
 }
 
+TEST_CASE("speculative contacts: a body on a spring is not moved to touch before it bounces, one whose velocity is tied is") {
+  for (const bool is_spring : {true, false}) {
+    CAPTURE(is_spring);
+    OdeSession session;
+    constexpr double kStep = 1e-3;
+    EffectsWorld scene({earth(), fx::Restitution{0.5, 0, {}}, fx::SpeculativeContacts{}}, kStep);
+    scene.world.add_plane();
+    const dBodyID one = scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 0.05});
+    const dBodyID other = scene.add_ball(kRadius, kDensity, {4 * kRadius, 0, kRadius + 0.3});
+    const dJointID joint = dJointCreateBall(scene.id(), nullptr);
+    dJointAttach(joint, one, other);
+    dJointSetBallAnchor(joint, 0, 0, dReal(kRadius + 0.05));
+    dJointSetBallParam(joint, dParamERP, 0);
+    dJointSetBallParam(joint, dParamCFM, is_spring ? dReal(1e-3) : 0);
+    double moved = 0;
+    Vec before = to_vec(dBodyGetPosition(one));
+    scene.run_until(0.2, [&] {
+      const Vec now = to_vec(dBodyGetPosition(one));
+      moved = std::max(moved, norm(now - before - kStep * to_vec(dBodyGetLinearVel(one))));
+      before = now;
+      return false;
+    });
+    CHECK((moved > 1e-5) == !is_spring);
+  }
+}
+
 TEST_CASE("speculative contacts: bodies without a geom of ours are refused") {
   OdeSession session;
   EffectsWorld scene({fx::SpeculativeContacts{}}, 1e-2);
