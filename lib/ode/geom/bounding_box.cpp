@@ -33,8 +33,7 @@ int write_finite_aabb(dGeomID geom, dReal* aabb) {
   const Pose pose = pose_of(geom);
   const Body& body = require_body(geom);
   BoundingBox box = find_bounding_box(body.shape(), pose);
-  if (body.look_ahead() > 0)
-    cover_motion(body, motion_ahead_of(geom, pose.position, body.shape().bounding_radius(), body.look_ahead()), box);
+  if (body.look_ahead() > 0) cover_motion(body, motion_ahead_of(geom, pose.position, body.shape().bounding_radius()), box);
   for (int axis = 0; axis < 3; ++axis) {
     const double position = pose.position[axis];
     const double low = box.low[axis];
@@ -54,7 +53,7 @@ bool is_above_plane(dGeomID geom, const Body& body, const Pose& pose, dGeomID pl
   const double gap = find_plane_proximity(body.shape(), pose, normal, plane[3]).gap;
   double reach = 0;
   if (body.look_ahead() > 0) {
-    const MotionAhead motion = motion_ahead_of(geom, pose.position, body.shape().bounding_radius(), body.look_ahead());
+    const MotionAhead motion = motion_ahead_of(geom, pose.position, body.shape().bounding_radius());
     reach = reach_towards(motion, -normal, body.look_ahead(), body.size());
   }
   return gap - reach > rounding_of(pose.position.lpNorm<1>() + std::abs(double{plane[3]}) + std::abs(gap));

@@ -112,7 +112,7 @@ MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius, 
   motion.arm = radius + 2 * from_centre.norm();
   if (motion.mobility > 0) {
     motion.acceleration = acceleration_of(body, mass);
-    if (is_loose(body))
+    if (time > 0 && is_loose(body))
       motion.angular_acceleration = (angular_velocity_after(body, mass, motion, time) - motion.angular_velocity) / time;
   }
   require_in_range(motion, geom);

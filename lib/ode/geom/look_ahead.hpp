@@ -15,8 +15,9 @@ void set_default_look_ahead(double time);
 Vector3 acceleration_of(dBodyID body, const dMass& mass);
 
 /// The motion of a geom in the next `time` (s, a step) about its point `origin` (m, world frame), which is within `radius` (m) of
-/// all its points. A geom without a body rests, and so does one with a disabled body.
-MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius, double time);
+/// all its points. Without `time` it has no angular acceleration. A geom without a body rests, and so does one with a disabled
+/// body.
+MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius, double time = 0);
 
 /// Whether a geom of the contact is ours and looks ahead.
 bool looks_ahead(const dContactGeom& contact);
