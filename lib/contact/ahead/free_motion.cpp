@@ -42,11 +42,13 @@ void add_end(const BodyAhead& body1, const BodyAhead& body2, double time, double
 /// the gap of the tangent planes at the end; `proximity` at the end; `impact`, the first on the way; and for a proximity at the end
 /// the `manifold`.
 template <class Planes, class FindProximity, class FindManifold, class FindImpact>
-std::optional<ContactManifold> find_after(const BodyAhead& body1, const BodyAhead& body2, double time, double share, double size,
-                                          const Proximity& now, const ContactManifold& ahead, const Planes& planes,
-                                          const FindProximity& proximity, const FindManifold& manifold, const FindImpact& impact) {
+std::optional<ContactManifold> find_after(const BodyAhead& body1, const BodyAhead& body2, double time, double share,
+                                          const Settings& settings, const Proximity& now, const ContactManifold& ahead,
+                                          const Planes& planes, const FindProximity& proximity, const FindManifold& manifold,
+                                          const FindImpact& impact) {
   const FreeMotion free(body1, body2, time);
   const double held_back = free.bends() ? free.held_back_by(ahead) : 0;
+  const double size = smaller_thickness(body1.shape, body2.shape);
   const double graze = kGraze * size;
   const bool may_be_free = now.gap > 0 && held_back > now.error;
   const bool may_swing_in = ahead.corner_count == 0 && most_swing(body1.motion, body2.motion, time) > graze;
@@ -85,7 +87,7 @@ std::optional<ContactManifold> find_after(const BodyAhead& body1, const BodyAhea
     return contacts_at(motion, end);
   };
   const FreeMotion borne(without_forces(body1), without_forces(body2), time);
-  std::optional<ContactManifold> contacts = choose_contacts(free, borne, graze, contacts_after);
+  std::optional<ContactManifold> contacts = choose_contacts(free, borne, graze, settings.tolerance * size, contacts_after);
   if (contacts) contacts->deepest.evaluations = evaluations;
   return contacts;
 }
@@ -171,7 +173,7 @@ std::optional<ContactManifold> find_contacts_after_free_motion(const BodyAhead& 
     const Vector3 first = body1.pose.rotation.transpose() * normal;
     return find_time_of_impact(shape1, motion.motion1(), shape2, motion.motion2(), time, settings, &first);
   };
-  return find_after(body1, body2, time, share, smaller_thickness(shape1, shape2), now, ahead, planes, proximity, manifold, impact);
+  return find_after(body1, body2, time, share, settings, now, ahead, planes, proximity, manifold, impact);
 }
 
 std::optional<ContactManifold> find_plane_contacts_after_free_motion(const BodyAhead& body, double time, const Proximity& now,
@@ -189,8 +191,7 @@ std::optional<ContactManifold> find_plane_contacts_after_free_motion(const BodyA
   const auto impact = [&](const FreeMotion& motion, const Vector3&) {
     return find_plane_time_of_impact(body.shape, motion.motion1(), upwards, offset, time);
   };
-  return find_after(body, {body.shape, body.pose, {}}, time, 1, body.shape.half_extents().minCoeff(), now, ahead, planes, proximity,
-                    manifold, impact);
+  return find_after(body, {body.shape, body.pose, {}}, time, 1, Settings{}, now, ahead, planes, proximity, manifold, impact);
 }
 
 }  // namespace supernormal

@@ -54,14 +54,16 @@ void remove_overlaps(ContactManifold& contacts);
 
 /// The contacts of `find(motion)` for the free motion. A floor may bear the body. Then its motion is `borne`, without its weight,
 /// and a contact below the floor has the wrong normal. If this would take more than `graze` (m) away from `borne`, the contacts
-/// are those for `borne`, unless these take more than that away from the free motion. `manifold` is the member of a contact.
+/// are those for `borne`, unless these take more than `negligible` (m) away from the free motion. `manifold` is the member of a
+/// contact.
 template <class Find, class Projection = std::identity>
-auto choose_contacts(const FreeMotion& free, const FreeMotion& borne, double graze, const Find& find, Projection manifold = {}) {
+auto choose_contacts(const FreeMotion& free, const FreeMotion& borne, double graze, double negligible, const Find& find,
+                     Projection manifold = {}) {
   auto contacts = find(free);
   if (!contacts) return contacts;
   if (borne.held_back_by(std::invoke(manifold, *contacts)) > graze) {
     const auto beside = find(borne);
-    if (beside && !(free.held_back_by(std::invoke(manifold, *beside)) > graze)) contacts = beside;
+    if (beside && !(free.held_back_by(std::invoke(manifold, *beside)) > negligible)) contacts = beside;
   }
   remove_overlaps(std::invoke(manifold, *contacts));
   return contacts;

@@ -267,7 +267,7 @@ void MeshContactsAhead::leave_free_motion(const Search& search) {
   }
   if (std::none_of(others, found_.end(), holds_back)) return;
   const auto contacts_after = [&](const FreeMotion& motion) { return find_after(search, motion, triangles); };
-  const auto left = choose_contacts(free, borne, search.graze, contacts_after, &MeshManifold::manifold);
+  const auto left = choose_contacts(free, borne, search.graze, negligible, contacts_after, &MeshManifold::manifold);
   if (!left) return;
   found_.erase(std::remove_if(others, found_.end(), holds_back), found_.end());
   found_.push_back(*left);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "supernormal/proximity/plane.hpp"
@@ -262,6 +263,24 @@ TEST_CASE("a ball that falls past an edge is free, and one that falls on it is n
       }
     }
     CHECK(held > 5);
+  }
+}
+
+TEST_CASE("a flat body in any orientation that falls past the edge of a box is free") {
+  Random random(7);
+  for (int draw = 0; draw < 3000; ++draw) {
+    const double size = std::pow(10, uniform(random, -3, -1));
+    const Superellipsoid body_shape(size * Vector3(1, 0.7, 0.5), 20, 20);
+    const double half = size * uniform(random, 1, 6);
+    const Box block(Vector3::Constant(half));
+    const Matrix3 on_edge = Eigen::AngleAxisd(std::numbers::pi / 4, Vector3::UnitY()).toRotationMatrix();
+    const BodyAhead ledge = standing(block, {Vector3(0, 0, -std::sqrt(2) * half), on_edge});  // its edge is x = z = 0
+    const Matrix3 rotation = random_rotation(random);
+    const double low = body_shape.support(rotation.transpose() * -Vector3::UnitZ());
+    const Vector3 place(uniform(random, -1, 3) * size, 0, low + 0.01 * size);
+    BodyAhead body = moving(body_shape, {place, rotation}, Vector3(-uniform(random, 0, 2) * size / kTime, 0, 0));
+    body.motion.acceleration = Vector3(-9.81, 0, 0);
+    CHECK(taken_away(body, find(body, ledge)) < 1e-9 * size);
   }
 }
 
