@@ -12,8 +12,8 @@ namespace common {
 
 using Vector3 = Eigen::Vector3d;
 
-/// The smallest rotation that takes one direction to another; half a turn about an axis across opposite ones. Eigen's FromTwoVectors
-/// takes a singular value decomposition there, which is seconds to compile.
+/// The smallest rotation that takes one direction to another; half a turn about an axis across opposite ones. Eigen's
+/// FromTwoVectors takes a singular value decomposition there, which is seconds to compile.
 Eigen::Quaterniond rotation_between(const Vector3& from, const Vector3& to);
 
 /// The pose of a wall: a point x in its frame is at rotation x + position.
