@@ -1,5 +1,6 @@
 #include "contact/mesh/mesh_contact_search.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
