@@ -164,10 +164,11 @@ int Effects::set_up_contacts(std::span<dContact> contacts, Material material1, M
 int Effects::set_up_contacts(std::span<dContact> contacts, const Side& side1, const Side& side2) {
   PairMaterial& pair = state_->pair_materials.of(side1.material, side2.material);
   dSurfaceParameters surface = pair.surface;
-  // What bounces and is attached to others overlaps at its impact. A correction of this overlap would throw it back.
-  const auto is_let_in = [&] { return pair.restitution > 0 && (is_attached(side1.body) || is_attached(side2.body)); };
-  if (pair.is_speculative && !contacts.empty() && ode::looks_ahead(contacts.front().geom) && !is_let_in())
+  // A correction of the overlap at an impact would throw the bodies back.
+  if (pair.is_speculative && !contacts.empty() && ode::looks_ahead(contacts.front().geom) &&
+      !state_->speculative.lets_in(pair, side1.body, side2.body)) {
     ode::correct_leftover(surface);
+  }
   for (dContact& contact : contacts) contact.surface = surface;
   const std::span<dContact> touching = contacts.first(put_ahead_last(contacts));
   const std::span<dContact> ahead = contacts.subspan(touching.size());

@@ -31,8 +31,6 @@ bool holds_place(dJointID joint, dWorldID world) {
   return type != dJointTypeContact && type != dJointTypeAMotor;
 }
 
-}  // namespace
-
 bool is_attached(dBodyID body) {
   if (body == nullptr) return false;
   for (int k = 0; k < dBodyGetNumJoints(body); ++k) {
@@ -41,10 +39,19 @@ bool is_attached(dBodyID body) {
   return false;
 }
 
+}  // namespace
+
 std::size_t SpeculativeSetup::index_of(dBodyID body) {
   const auto [entry, is_new] = indices_.try_emplace(body, bodies_.size());
-  if (is_new) bodies_.push_back(MovingBody::of(body));
+  if (is_new) {
+    bodies_.push_back(MovingBody::of(body));
+    bodies_.back().is_attached = is_attached(body);
+  }
   return entry->second;
+}
+
+bool SpeculativeSetup::lets_in(const PairMaterial& pair, dBodyID body1, dBodyID body2) {
+  return pair.restitution > 0 && (bodies_[index_of(body1)].is_attached || bodies_[index_of(body2)].is_attached);
 }
 
 void SpeculativeSetup::set_up(const PairMaterial& pair, std::span<dContact> contacts, dBodyID body1, dBodyID body2) {
@@ -53,8 +60,9 @@ void SpeculativeSetup::set_up(const PairMaterial& pair, std::span<dContact> cont
   if (is_elastic_) record.body1 = index_of(body1), record.body2 = index_of(body2);
   if (pair.is_speculative && pair.restitution > 0 && ode::looks_ahead(contacts.front().geom)) {
     record.count = contacts.size();
-    const bool can_move = bodies_[record.body1].inverse_mass + bodies_[record.body2].inverse_mass > 0;
-    record.may_bounce = can_move && !is_attached(body1) && !is_attached(body2);
+    const MovingBody& one = bodies_[record.body1];
+    const MovingBody& other = bodies_[record.body2];
+    record.may_bounce = one.inverse_mass + other.inverse_mass > 0 && !one.is_attached && !other.is_attached;
     contacts_.insert(contacts_.end(), contacts.begin(), contacts.end());
     set_up_alone(record, contacts);
   } else {

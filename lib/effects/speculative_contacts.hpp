@@ -13,13 +13,13 @@
 
 namespace supernormal::effects {
 
-/// Whether a joint holds the body in place. Moved alone, it would violate the joint.
-bool is_attached(dBodyID body);
-
 class SpeculativeSetup {
  public:
   /// `step`: s. `is_elastic`: whether any bodies bounce.
   SpeculativeSetup(double step, bool is_elastic) : step_(step), is_elastic_(is_elastic) {}
+
+  /// Whether the bodies overlap at an impact, because a joint holds one of them, which is not moved to touch.
+  bool lets_in(const PairMaterial& pair, dBodyID body1, dBodyID body2);
 
   /// Turns the contacts of one pair with negative depths into constraints on the motion of the step: their gaps may close, or the
   /// bodies bounce. The contacts are all that will be attached, in this order.
