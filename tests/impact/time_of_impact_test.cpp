@@ -13,6 +13,7 @@
 #include "random_motions.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/rounded.hpp"
+#include "support/draw.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;
@@ -286,7 +287,7 @@ TEST_CASE("random pairs: no impact is missed, late or early by a slow search") {
     RandomMotions random(6);
     long evaluations = 0;
     int hits = 0, not_converged = 0, most = 0;
-    constexpr int kPairs = 400;
+    const int kPairs = draws(400);
     for (int k = 0; k < kPairs; ++k) {
       const std::string name = std::string(kind.name) + " " + std::to_string(k);
       CAPTURE(name);

@@ -4,6 +4,7 @@
 #include "ode/collider_fixture.hpp"
 #include "ode/mesh_fixture.hpp"
 #include "ode/terrain.hpp"
+#include "support/draw.hpp"
 #include "support/painted_stack.hpp"
 #include "support/traps.hpp"
 
@@ -11,7 +12,7 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr int kPairs = 400;  // for each kind of collider
+const int kPairs = draws(400);  // for each kind of collider
 
 struct Answer {
   bool is_told = false;

@@ -11,6 +11,7 @@
 
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
+#include "support/draw.hpp"
 #include "support/random_bodies.hpp"
 #include "support/refusal.hpp"
 
@@ -35,7 +36,7 @@ TEST_CASE("is_farther_than: right for all kinds, and 1.2 evaluations at most whe
   Count twice, warm, all;
   for (const RandomKind& kind : random_kinds()) {
     RandomBodies bodies(kind, 71);
-    for (int k = 0; k < 400; ++k) {
+    for (int k = 0; k < draws(400); ++k) {
       const bool is_near = k % 4 == 0;
       const RandomPair pair = bodies.draw(is_near ? bodies.uniform(0.02, 0.5) : bodies.uniform(0.5, 8));
       const Proximity answer = find_proximity(*pair.shape1, {}, *pair.shape2, pair.pose2);
@@ -69,7 +70,7 @@ TEST_CASE("is_farther_than: overlapping bodies are not farther than 0; round one
   for (const RandomKind& kind : random_kinds()) {
     RandomBodies bodies(kind, 74);
     Count all;
-    for (int k = 0; k < 200; ++k) {
+    for (int k = 0; k < draws(200); ++k) {
       const RandomPair pair = bodies.draw(-bodies.uniform(0.001, 0.5));
       if (!(find_proximity(*pair.shape1, {}, *pair.shape2, pair.pose2).gap < -1e-6)) continue;
       int evaluations = 0;

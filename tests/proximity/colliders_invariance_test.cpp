@@ -6,6 +6,7 @@
 
 #include "collider_pairs.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/draw.hpp"
 #include "support/reference_pairs.hpp"
 
 using namespace supernormal;
@@ -22,7 +23,7 @@ template <typename Check>
 void for_each_pair(const Check& check) {
   for (const ColliderKind kind : kColliderKinds) {
     ColliderPairs random(kind, 400 + static_cast<unsigned>(kind));
-    for (int k = 0; k < kPairsPerGap; ++k) {
+    for (int k = 0; k < draws(kPairsPerGap); ++k) {
       for (const double gap : kColliderGaps) check(random.draw(gap));
     }
   }

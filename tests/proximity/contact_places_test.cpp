@@ -24,6 +24,7 @@
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/shapes/superovoid.hpp"
+#include "support/draw.hpp"
 #include "support/rotation_between.hpp"
 #include "support/without_hessian.hpp"
 
@@ -306,7 +307,7 @@ TEST_CASE("all kinds of bodies and sizes: a contact acts within the overlap of b
 TEST_CASE("slender bodies in any orientation, at any depth: a contact acts within the overlap of both bodies") {
   Placing placing(36);
   int deep = 0;
-  for (int k = 0; k < 6000; ++k) {
+  for (int k = 0; k < draws(6000); ++k) {
     const PlacedPair pair = placing.draw_slender();
     const Proximity out = pair.query();
     if (out.status != Status::Converged) continue;
@@ -314,7 +315,7 @@ TEST_CASE("slender bodies in any orientation, at any depth: a contact acts withi
     const double beside = excess(pair, out, out.contact);
     if (!(beside <= kTolerance)) FAIL_CHECK("pair ", k, ", gap ", out.gap / pair.unit, ": ", beside, " outside");
   }
-  CHECK(deep > 2500);
+  CHECK(deep > draws(2500));
 }
 
 TEST_CASE("the place of a contact takes no evaluation where bodies are round") {

@@ -8,6 +8,7 @@
 
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/draw.hpp"
 #include "support/random_bodies.hpp"
 #include "support/traps.hpp"
 
@@ -16,9 +17,9 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr int kProvedPairs = 600, kDeepPairs = 1500;  // of each kind
-constexpr double kDeepest = 0.3;                      // of the smallest half-extent
-constexpr double kMissed = 1e-6;                      // of the same
+const int kProvedPairs = draws(600), kDeepPairs = draws(1500);  // of each kind
+constexpr double kDeepest = 0.3;                                // of the smallest half-extent
+constexpr double kMissed = 1e-6;                                // of the same
 constexpr double kMissedShare = 0.002;
 
 std::string describe(const RandomKind& kind, int k, const Proximity& answer, double known) {
@@ -112,7 +113,7 @@ TEST_CASE("deep overlaps: the interval holds for every pair, and one in five hun
 }
 
 TEST_CASE("a followed normal is left for one of a depth that is less by more than a sixth") {
-  constexpr int kPairs = 150;      // of each kind, half of them shallow
+  const int kPairs = draws(150);   // of each kind, half of them shallow
   constexpr double kGain = 0.17;   // Tuning::leaving_gain
   constexpr double kLooks = 0.02;  // of the unit, Tuning::unsearched_depth
   int followed = 0;
@@ -132,5 +133,5 @@ TEST_CASE("a followed normal is left for one of a depth that is less by more tha
       CHECK(best.gap <= (1 - kGain) * answer.gap + 1e-9 * pair.unit);
     }
   }
-  CHECK(followed > 2400);
+  CHECK(followed > draws(2400));
 }

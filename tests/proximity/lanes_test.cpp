@@ -13,6 +13,7 @@
 #include "shapes/lanes/powers.hpp"
 #include "supernormal/proximity/batch.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/draw.hpp"
 #include "support/painted_stack.hpp"
 #include "support/random_queries.hpp"
 #include "support/traps.hpp"
@@ -29,7 +30,7 @@ class ManyPairs : public RandomQueries {
     for (const RandomKind& kind : random_kinds()) {
       if (!all_shapes && kind.partner != RandomPartner::Superellipsoid) continue;
       RandomBodies& bodies = bodies_of(kind, 11);
-      for (int round = 0; round < 6; ++round) {
+      for (int round = 0; round < draws(6); ++round) {
         for (const double gap : {1e3, 0.3, 1e-2, 1e-9, 0.0, -1e-9, -1e-3, -0.02, -0.3}) add(bodies.draw(gap));
       }
       RandomPair concentric = bodies.draw(0);

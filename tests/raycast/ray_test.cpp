@@ -17,13 +17,14 @@
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "support/draw.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;
 
 namespace {
 
-constexpr int kRaysPerClass = 2000;
+const int kRaysPerClass = draws(2000);
 
 /// Checks the conditions on every hit of a superellipsoid, against the implicit equation.
 void check_hit(const Superellipsoid& shape, const Ray& ray, const RayHit& hit, double expected, double normal_tolerance,

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "supernormal/shapes/superovoid.hpp"
+#include "support/draw.hpp"
 #include "support/refusal.hpp"
 #include "support/relative.hpp"
 
@@ -47,7 +48,7 @@ TEST_CASE("superovoid: the limit of convexity is exact: chords of the surface, s
   std::mt19937_64 engine(13);
   std::uniform_real_distribution<double> uniform(-1, 1);
   int convex = 0, refused = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < draws(400); ++i) {
     const double delta = 1.05 + 4 * std::abs(uniform(engine)) * (i % 2 == 0 ? 1 : 0.02);
     const double epsilon = i % 4 == 3 ? 2.05 + 4 * std::abs(uniform(engine)) : 1.1 + 0.9 * std::abs(uniform(engine));
     const double x = 1.1 * uniform(engine), y = i % 4 >= 2 ? x : 1.1 * uniform(engine);
@@ -76,6 +77,6 @@ TEST_CASE("superovoid: the limit of convexity is exact: chords of the surface, s
     if (least < -0.05) CHECK_MESSAGE(!accepted, "delta ", delta, " epsilon ", epsilon, " tapers ", x, " ", y, " least ", least);
     if (least > 0.05) CHECK_MESSAGE(accepted, "delta ", delta, " epsilon ", epsilon, " tapers ", x, " ", y, " least ", least);
   }
-  CHECK(convex > 50);
+  CHECK(convex > draws(50));
   CHECK(refused > 50);
 }

@@ -3,6 +3,7 @@
 
 #include "sample.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/draw.hpp"
 #include "support/painted_stack.hpp"
 #include "support/traps.hpp"
 
@@ -12,7 +13,7 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr std::uint64_t kStackSamples = 4000;
+const std::uint64_t kStackSamples = draws(4000);
 
 void check_stack(const samples::HardCase& one, const Settings& settings) {
   const Vector3* const start = one.first_normal ? &*one.first_normal : nullptr;

@@ -12,10 +12,11 @@
 #include <vector>
 
 #include "supernormal/supernormal.h"
+#include "support/draw.hpp"
 
 namespace supernormal::test {
 
-inline constexpr int kRepetitions = 10000;  ///< repetitions in a battery, each with its own bodies and poses
+inline const int kRepetitions = draws(10000);  ///< repetitions in a battery, each with its own bodies and poses
 
 /// A program that uses ODE and this library, from its start to its end. Nothing remains for the next test case.
 class OdeSession {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/draw.hpp"
 
 namespace supernormal::test {
 
@@ -87,7 +88,7 @@ inline std::vector<Superellipsoid> superellipsoids(double min_exponent, double m
       for (const Vector3& half_axes : proportions) shapes.emplace_back(half_axes, delta, epsilon);
     }
   }
-  return shapes;
+  return some_of(shapes);
 }
 
 /// Two unit vectors orthogonal to n and to one another.

@@ -9,6 +9,7 @@
 
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/draw.hpp"
 #include "support/mesh_samples.hpp"
 
 using namespace supernormal;
@@ -134,7 +135,7 @@ TEST_CASE("a body that moves towards the other side of a valley has the normals 
   MeshContactsAhead ahead;
   Draw draw(55);
   int of_far_side = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < draws(3000); ++i) {
     CAPTURE(i);
     const Shape& body = i % 2 == 0 ? static_cast<const Shape&>(pebble) : brick;
     // Up to 2 mm deep in the floor, where the body overlaps the triangles of the other side by their edge first.
@@ -148,7 +149,7 @@ TEST_CASE("a body that moves towards the other side of a valley has the normals 
       of_far_side += (normal - sides[1]).norm() < 1e-9 ? 1 : 0;
     }
   }
-  CHECK(of_far_side > 300);
+  CHECK(of_far_side > draws(300));
 }
 
 TEST_CASE("a ball over waves has contacts on its surface, at rest, sliding and rolling") {
@@ -160,7 +161,7 @@ TEST_CASE("a ball over waves has contacts on its surface, at rest, sliding and r
   MeshContacts contacts;
   MeshContactsAhead ahead;
   Draw draw(56);
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < draws(3000); ++i) {
     CAPTURE(i);
     Vector3 centre = draw.in_box({1, 1, 0}) + Vector3(0, 0, 0.3);
     for (int step = 0; step < 6; ++step)

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "support/draw.hpp"
 #include "support/mesh_samples.hpp"
 
 using namespace supernormal;
@@ -30,7 +31,7 @@ TEST_CASE("the search of an arc finds a higher maximum exactly if there is one")
   Draw draw(71);
   int found_count = 0;
   int other_count = 0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < draws(1000); ++i) {
     CAPTURE(i);
     const std::unique_ptr<Shape> body = draw.body();
     SupportProbe probe(*body, draw.rotation());
@@ -71,8 +72,8 @@ TEST_CASE("the search of an arc finds a higher maximum exactly if there is one")
     const ArcMaximum local = maximize_between(probe, arc, first, last, 1e-11, 1000);
     if (!local.is_apart && local.gap < top.gap - 1e-9) ++other_count;
   }
-  CHECK(found_count > 200);
-  CHECK(other_count > 10);
+  CHECK(found_count > draws(200));
+  CHECK(other_count > draws(10));
 }
 
 TEST_CASE("an arc that its ends rule out costs no evaluation") {

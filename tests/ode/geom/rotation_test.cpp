@@ -10,6 +10,7 @@
 #include "ode/collider_fixture.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/draw.hpp"
 
 using namespace supernormal::test;
 using supernormal::Matrix3;
@@ -18,7 +19,7 @@ using supernormal::Vector3;
 
 namespace {
 
-constexpr int kPairs = 20000;
+const int kPairs = draws(20000);
 constexpr double kExponent = 60;
 constexpr double kTolerance = 1e-9;  // relative to the smallest half-axis: the default of a query
 

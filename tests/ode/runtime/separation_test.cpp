@@ -7,6 +7,7 @@
 #include "ode/colliders/contact.hpp"
 #include "ode/colliders/solve_pair.hpp"
 #include "ode/runtime/warm_start.hpp"
+#include "support/draw.hpp"
 
 using namespace supernormal;
 using namespace supernormal::ode;
@@ -79,7 +80,7 @@ TEST_CASE("pairs that cannot have met: the contacts of a query, bit for bit, for
       CAPTURE(size);
       for (const double share : {0.0, 1e-4, 1e-3, 1e-2, 0.1}) {
         CAPTURE(share);
-        for (int i = 0; i < 30; ++i) {
+        for (int i = 0; i < draws(30); ++i) {
           CAPTURE(i);
           Walk walk(random, size);
           walk.set_solver(solver);
@@ -101,8 +102,8 @@ TEST_CASE("pairs that cannot have met: the contacts of a query, bit for bit, for
     }
   }
   CAPTURE(asked);
-  CHECK(skipped > 20000);
-  CHECK(touched > 5000);
+  CHECK(skipped > draws(20000));
+  CHECK(touched > draws(5000));
 }
 
 TEST_CASE("pairs that cannot have met: the bound holds for every motion, and is the gap itself without a motion") {

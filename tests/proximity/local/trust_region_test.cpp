@@ -9,6 +9,8 @@
 #include <numbers>
 #include <random>
 
+#include "support/draw.hpp"
+
 using namespace supernormal;
 
 namespace {
@@ -53,7 +55,7 @@ void check(const QuadraticModel& model, double radius) {
 TEST_CASE("random models: definite, indefinite and negative") {
   std::mt19937_64 engine(61);
   std::normal_distribution<double> gauss;
-  for (int trial = 0; trial < 300; ++trial) {
+  for (int trial = 0; trial < draws(300); ++trial) {
     const QuadraticModel model{{gauss(engine), gauss(engine)}, {2 * gauss(engine), gauss(engine), 2 * gauss(engine)}};
     for (const double radius : {1e-3, 0.3, 1.0, 4.0}) check(model, radius);
   }
