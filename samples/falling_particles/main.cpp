@@ -47,7 +47,9 @@ void list() {
   std::puts("A scene has these sections and keys, and those below. Where no default is named, a key is needed.\n");
   std::fputs(falling_particles::list_sections().c_str(), stdout);
   std::puts(
-      "\nA scene runs with the effects whose sections it has, and with nothing else. Rigid contact itself is 1 row a contact.\n");
+      "\nA scene runs with the effects whose sections it has, and with nothing else. With `enabled = false` in its section an "
+      "effect "
+      "is left out.\nRigid contact itself is 1 row a contact.\n");
   for (const supernormal::effects::Description& effect : supernormal::effects::descriptions()) {
     std::printf("[%s]\n  parameters  %s\n  cost        %d rows per contact; passes per step: %s\n  source      %s\n", effect.name,
                 falling_particles::scene_parameters(effect).c_str(), effect.rows, effect.passes, effect.source);
@@ -127,7 +129,7 @@ ExitCode simulate(const Options& options) {
 ExitCode run_program(int argc, char** argv) {
   CLI::App app("Simulates falling grains in a container with ODE and Supernormal.", "falling_particles");
   Options options;
-  CLI::Option* const scene = app.add_option("-s,--scene", options.scene_path, "scene file (TOML)");
+  CLI::Option* const scene = app.add_option("-s,--scene,SCENE", options.scene_path, "scene file (TOML)");
   CLI::Option* const checked =
       app.add_option("--check", options.check_path,
                      "scene file: say what its run would do and take, and end. Takes a second or two, and writes nothing");

@@ -131,7 +131,7 @@ bad_input_leaves_nothing() {
   expect 2 "$program" --out "$work/bad"
   expect 2 "$program" --scene "$work/scenes/short.toml" --out "$work/bad" --speed 3
   expect 2 "$program" --scen "$work/scenes/short.toml" --out "$work/bad"
-  grep -q -- '--scen ' "$work/log" || fail "the misspelt option is not named: $(cat "$work/log")"
+  grep -q -- 'not expected: --scen$' "$work/log" || fail "the misspelt option is not named: $(cat "$work/log")"
   expect 2 "$program" --out "$work/bad"
   grep -q -- '--scene is required' "$work/log" || fail "the missing option is not named: $(cat "$work/log")"
   [ ! -e "$work/bad" ] || fail "an output folder after bad input"
@@ -268,7 +268,7 @@ stdout_is_checked() {
   local got command
   for command in '>/dev/full' '>&-'; do
     got=0
-    eval '"$program" -q --scene "$work/scenes/brief.toml" --out "$work/stdout" 2>"$work/log"' "$command" || got=$?
+    eval '"$program" -q "$work/scenes/brief.toml" --out "$work/stdout" 2>"$work/log"' "$command" || got=$?
     [ "$got" -eq 1 ] || fail "exit code $got with stdout $command"
     grep -q 'cannot write to stdout' "$work/log" || fail "does not say what failed with stdout $command"
     ! grep -q '^\[' "$work/stdout/brief/trajectory.csv" || fail "the summary went into the trajectory"

@@ -36,10 +36,13 @@ class Section {
   Interval allowed_;
 };
 
+/// None without the section, and with `enabled = false` in it.
 std::optional<Section> find_section(const TomlTable& root, const std::string& name, std::vector<std::string> keys) {
   const auto description = std::ranges::find(fx::descriptions(), name, &fx::Description::name);
+  keys.emplace_back("enabled");
   std::optional<TomlTable> table = root.find_table(name, std::move(keys));
-  return table ? std::optional(Section(*std::move(table), description->parameters)) : std::nullopt;
+  if (!table || (table->has("enabled") && !table->boolean("enabled"))) return std::nullopt;
+  return Section(*std::move(table), description->parameters);
 }
 
 class Reader {
@@ -122,9 +125,8 @@ class Reader {
 
   // A compression works by overlaps, which speculative contacts prevent.
   bool has_speculative_contacts() const {
-    const auto section = find_section(root_, "speculative_contacts", {"enabled"});
-    if (!section) return kSpeculativeByDefault && !root_.has("compression");
-    return !section->has("enabled") || section->table().boolean("enabled");
+    if (!root_.has("speculative_contacts")) return kSpeculativeByDefault && !root_.has("compression");
+    return find_section(root_, "speculative_contacts", {}).has_value();
   }
 
   const TomlTable& root_;
@@ -138,8 +140,7 @@ std::string scene_parameters(const fx::Description& effect) {
   const std::string name = effect.name;
   if (name == "surface_layer") return "relative_depth (0, 0.1], of the smallest half-axis of all grains";
   if (name == "speculative_contacts") {
-    return std::string("enabled: true or false; true without it; a scene without the section has ") +
-           (kSpeculativeByDefault ? "them, but for a compression" : "none");
+    return std::string("none; a scene without the section has ") + (kSpeculativeByDefault ? "them, but for a compression" : "none");
   }
   std::string text = effect.parameters;
   if (name == "friction") text += "; walls (0, 100], of grains on walls, as among grains without it";

@@ -18,6 +18,7 @@ namespace {
 RunEnd finish(StepwiseRun& run, const OutputFolder& folder, bool quiet) {
   run.finish();
   std::fputs(run.summary().c_str(), stdout);
+  std::fflush(stdout);  // before what follows on stderr, where both go to one file
   if (!run.is_at_end()) {
     std::fprintf(stderr, "Interrupted after step %d of %d: what there is was written.\n", run.step(), run.scene().time.steps());
   }

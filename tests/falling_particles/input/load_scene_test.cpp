@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -88,6 +89,27 @@ TEST_CASE("an effect without a section is absent") {
   const Scene scene = scene_of(std::string(kSceneText, std::strstr(kSceneText, "[gravity]")));
   CHECK(scene.gravity() == nullptr);
   CHECK(scene.effects.size() == 2);
+}
+
+TEST_CASE("every effect may be left out by a key of its section, whether the scene has the section or not") {
+  const auto names_of = [](const Scene& scene) {
+    std::vector<std::string> names;
+    for (const fx::Effect& each : scene.effects) names.emplace_back(fx::descriptions()[each.index()].name);
+    return names;
+  };
+  const TemporaryFolder folder;
+  folder.write("grains.toml", kCatalogueText);
+  const std::filesystem::path path = folder.write("scene.toml", kSceneText);
+  const std::vector<std::string> all = names_of(load_scene(path));
+  for (const fx::Description& description : fx::descriptions()) {
+    const std::string name = description.name;
+    CAPTURE(name);
+    std::vector<std::string> others = all;
+    std::erase(others, name);
+    CHECK(names_of(load_scene(path, {name + ".enabled=false"})) == others);
+  }
+  CHECK(names_of(load_scene(path, {"friction.enabled=true"})) == all);
+  CHECK(complaint(std::string(kSceneText) + "[damping]\nenabled = 0\n").find("damping.enabled is 0") != std::string::npos);
 }
 
 TEST_CASE("fractions become counts that sum to the total") {

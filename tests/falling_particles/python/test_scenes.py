@@ -239,7 +239,11 @@ def test_a_change_of_gravity_is_that_of_a_scene():
         assert world.energy().kinetic == energy.kinetic
         world.step(100)
         np.testing.assert_allclose(world.grains().velocity - before.velocity, [[0.1, 0, 0]], atol=1e-13)
-        world.change({"stokes_drag": {"viscosity": 1.0}})  # added on the way; gravity stays changed
+        world.change({"gravity": None})  # left out
+        velocity = world.grains().velocity
+        world.step(10)
+        np.testing.assert_array_equal(world.grains().velocity, velocity)
+        world.change({"gravity": {"acceleration": [1.0, 0.0, 0.0]}, "stokes_drag": {"viscosity": 1.0}})  # added on the way
         world.step(500)
         speed = world.grains().velocity[0]
         assert abs(speed[2]) < 1e-6 and 0 < speed[0] < 0.1
