@@ -134,8 +134,8 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   lines.add("grains", grains);
   if (scene.start) lines.add("start", describe(*scene.start));
   if (const std::optional<Fall> fall = fall_from_start(scene)) {
-    lines.add("start", rounded(fall->height) + " m high: without drag grains fall with up to " + rounded(fall->speed) + " m/s, " +
-                           rounded(fall->way) + " m a step, " + rounded(fall->way / scene.smallest_half_axis()) +
+    lines.add("start", "grains fall up to " + rounded(fall->height) + " m, without drag with up to " + rounded(fall->speed) +
+                           " m/s, " + rounded(fall->way) + " m a step, " + rounded(fall->way / scene.smallest_half_axis()) +
                            " of the smallest half-axis");
   }
   if (scene.query) {

@@ -15,6 +15,7 @@
 #include "common/interval.hpp"
 #include "input/load_drive.hpp"
 #include "input/state_table.hpp"
+#include "model/container_walls.hpp"
 #include "model/grain_shape.hpp"
 #include "model/lattice.hpp"
 #include "model/wall_doubts.hpp"
@@ -92,13 +93,46 @@ void add_rounded_times(const Time& time, std::vector<std::string>& doubts) {
   add("time.frame", time.frame, time.steps_per_frame());
 }
 
+// m, the largest way along gravity from the lattice, which fills the plan, to the end of the room; infinite where the container is
+// open. 0 without gravity, and where grains do not start on a lattice.
+double height_of_fall(const Scene& scene) {
+  const auto* const gravity = scene.gravity();
+  const bool is_on_lattice = scene.grains_at_start() > 0 && !scene.start && !std::holds_alternative<Periodic>(scene.container);
+  if (gravity == nullptr || !is_on_lattice) return 0;
+  const Lattice lattice = filled_lattice(scene);
+  const auto* const cell = std::get_if<Cell>(&scene.container);  // its planes are around the start
+  const Region room = cell != nullptr ? cell->start : room_of(scene.container);
+  double height = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double down = gravity->acceleration[axis] / gravity->acceleration.norm();
+    if (!(std::abs(down) > 0)) continue;
+    // The bounds of an open container may be far below all parts, on which grains land.
+    const bool is_bottomless = axis == 2 && is_open(scene.container);
+    const double low = is_bottomless ? lowest_start(scene.container) : room.corner[axis],
+                 high = room.corner[axis] + room.size[axis];
+    const double first = axis == 2 ? lattice.corner()[2] : low, last = axis == 2 ? lattice.top() : high;
+    height += down > 0 ? down * (high - first) : -down * (last - low);
+  }
+  return height;
+}
+
+// Adds a doubt about a scene without gravity in which nothing else moves grains.
+void add_gravity(const Scene& scene, std::vector<std::string>& doubts) {
+  const bool is_at_rest = scene.grains_at_start() > 0 && !scene.start && scene.feeders.empty() &&
+                          !std::holds_alternative<Periodic>(scene.container) && std::ranges::none_of(scene.walls, &Wall::moves) &&
+                          std::ranges::none_of(walls_in(scene.container), &Wall::moves);
+  if (scene.gravity() == nullptr && is_at_rest) {
+    doubts.push_back("the scene has no section [gravity]: grains stay where they start, and nothing moves them");
+  }
+}
+
 // Adds a doubt about the height of the start. Grains that look ahead are exempt, since they do not pass through what they fall
 // onto.
 void add_fall(const Scene& scene, std::vector<std::string>& doubts) {
   if (scene.looks_ahead()) return;
   const std::optional<Fall> fall = fall_from_start(scene);
   if (!fall || fall->way <= scene.smallest_half_axis()) return;
-  doubts.push_back("the start is " + rounded(fall->height) + " m high, and " +
+  doubts.push_back("from the start grains fall up to " + rounded(fall->height) + " m, and " +
                    moves_too_far("without drag its last grains fall with " + rounded(fall->speed) + " m/s,", fall->way, scene) +
                    "a container with a larger plan, feeders, or time.step up to " +
                    rounded(scene.smallest_half_axis() / fall->speed) + " s would do");
@@ -632,13 +666,9 @@ std::string moves_too_far(const std::string& who, double way, const Scene& scene
 }
 
 std::optional<Fall> fall_from_start(const Scene& scene) {
-  const auto* const gravity = scene.gravity();
-  const bool is_on_lattice = scene.grains_at_start() > 0 && !scene.start && !std::holds_alternative<Periodic>(scene.container);
-  if (gravity == nullptr || !is_on_lattice) return std::nullopt;
-  // The bounds of an open container may be far below all parts, on which grains land.
-  const double bottom = is_open(scene.container) ? lowest_start(scene.container) : room_of(scene.container).corner[2];
-  const double height = filled_lattice(scene).top() - bottom;
-  const double speed = std::sqrt(2 * gravity->acceleration.norm() * height);
+  const double height = height_of_fall(scene);
+  if (!(height > 0 && std::isfinite(height))) return std::nullopt;
+  const double speed = std::sqrt(2 * scene.gravity()->acceleration.norm() * height);
   return Fall{height, speed, speed * scene.time.step};
 }
 
@@ -678,6 +708,7 @@ double normal_way_of(const Wall& wall, const Scene& scene) {
 std::vector<std::string> doubts_about(const Scene& scene) {
   std::vector<std::string> doubts;
   add_rounded_times(scene.time, doubts);
+  add_gravity(scene, doubts);
   add_fall(scene, doubts);
   add_speed(scene, doubts);
   add_sinking(scene, doubts);

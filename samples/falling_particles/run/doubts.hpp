@@ -11,15 +11,16 @@ namespace falling_particles {
 
 class World;
 
-/// The fall of the highest grain of the start to the bottom of the container, without drag and contacts; of an open container to
-/// the lowest start.
+/// The fall along gravity from the start to the end of the container, without drag and contacts; down an open container to the
+/// lowest start.
 struct Fall {
-  double height;  ///< m
+  double height;  ///< m, along gravity
   double speed;   ///< m/s, at the end of the fall
   double way;     ///< m, in a step at the end of the fall
 };
 
-/// Empty if grains do not fall: without gravity, without grains at the start, from a state, or in a periodic container.
+/// Empty if grains do not fall, or have no end of their fall: without gravity, without grains at the start, from a state, in a
+/// periodic container, and where the container is open.
 std::optional<Fall> fall_from_start(const Scene& scene);
 
 /// s, the longest step with overlaps of about 1e-3 of the smallest half-axis in a bed at rest, for grains that look ahead under

@@ -94,7 +94,35 @@ TEST_CASE("doubts: the fall from the start is compared with the step") {
   CHECK(low->speed == relative(std::sqrt(2 * 9.81 * low->height)).epsilon(1e-12));
   CHECK(low->way == relative(scene.time.step * low->speed).epsilon(1e-12));
   scene.drop.height = 300;
-  check_one_doubt(scene, {"the start is 300 m high", "76.7 m/s", "of the smallest half-axis (0.003 m)", "time.step up to"});
+  check_one_doubt(scene,
+                  {"from the start grains fall up to 300 m", "76.7 m/s", "of the smallest half-axis (0.003 m)", "time.step up to"});
+}
+
+TEST_CASE("doubts: grains fall along gravity, to the end of the container") {
+  const auto with = [](const Container& container, const supernormal::Vector3& acceleration) {
+    Scene scene = scene_of(container, {{ball(), 1}});
+    for (auto& effect : scene.effects) {
+      if (auto* const gravity = std::get_if<supernormal::effects::Gravity>(&effect)) gravity->acceleration = acceleration;
+    }
+    return scene;
+  };
+  const Cell cell{{{{0, 0, 0}, {0.2, 0.1, 40}}, {{-99, -99, -99}, {198, 198, 198}}}};
+  const double down = fall_from_start(with(cell, {0, 0, -9.81}))->height, up = fall_from_start(with(cell, {0, 0, 9.81}))->height;
+  CHECK(down < 0.05);
+  CHECK(up > 39.9);
+  CHECK(fall_from_start(with(cell, {3, 0, 0}))->height == relative(0.2).epsilon(1e-12));
+  CHECK(fall_from_start(with(cell, {0, 3, 4}))->height == relative(0.6 * 0.1 + 0.8 * up).epsilon(1e-12));
+  CHECK(doubts_about(with(cell, {0, 0, -9.81})).empty());
+  check_one_doubt(with(cell, {0, 0, 9.81}), {"from the start grains fall up to ", "28 m/s", "time.step up to"});
+  CHECK(!fall_from_start(with(Box{{0.1, 0.1}}, {0, 0, 9.81})));  // out of the box
+}
+
+TEST_CASE("doubts: a scene without gravity in which nothing moves") {
+  Scene scene = scene_of(Box{{0.1, 0.1}}, {{ball(), 1}});
+  std::erase_if(scene.effects, [](const auto& effect) { return std::holds_alternative<supernormal::effects::Gravity>(effect); });
+  check_one_doubt(scene, {"the scene has no section [gravity]"});
+  scene.feeders.emplace_back();
+  for (const std::string& doubt : doubts_about(scene)) CHECK(doubt.find("[gravity]") == std::string::npos);
 }
 
 TEST_CASE("doubts: grains fall out of a hopper to its tray") {
@@ -112,7 +140,7 @@ TEST_CASE("doubts: grains fall out of a hopper to its tray") {
   CHECK(height_in(hopper(0.1)) > 0.1);
   CHECK(height_in(hopper(2)) == relative(height_in(hopper(0.1)) + 1.9).epsilon(1e-12));
   Scene scene = scene_of(hopper(300), {{ball(), 1}});
-  check_one_doubt(scene, {"m high", "without drag its last grains fall with 76.", "time.step up to"});
+  check_one_doubt(scene, {"grains fall up to 300 m", "without drag its last grains fall with 76.", "time.step up to"});
 }
 
 TEST_CASE("doubts: a step in which grains fall far from rest is named, and a longer one is allowed to grains that look ahead") {
@@ -374,7 +402,7 @@ TEST_CASE("doubts: a heavy grain on light ones is compared with the iterations, 
   CHECK(doubts_about(scene_with(1.01 * ratio, 40, 5e-4)).size() == 1);
   Scene weightless = scene_with(8000, 40, 5e-4);
   weightless.effects.clear();
-  CHECK(doubts_about(weightless).empty());
+  check_one_doubt(weightless, {"no section [gravity]"});
 }
 
 TEST_CASE("doubts: a part with a mass is compared with the grains that bear it, and each remedy would do") {
