@@ -31,7 +31,7 @@ MAKERS = {
     "supernormal_add_host": "host_{}",
 }
 QUOTED = r'"(?:\\.|[^"\\])*"'
-LIBRARY_OBJECTS = re.compile(r"supernormal_(core|ode|effects)_objects")
+LIBRARY_OBJECTS = re.compile(r"supernormal_(core|ode|effects|stepper)_objects")
 
 
 class Tree:

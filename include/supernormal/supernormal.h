@@ -395,6 +395,48 @@ typedef void snContactsCallback(void* data, dGeomID g1, dGeomID g2, const dConta
 SUPERNORMAL_ODE_API int snBatchCollide(snBatchID batch, dSpaceID space, int max_contacts, void* data, snPairFilter* wanted,
                                        snContactsCallback* contacts);
 
+/* --- a step that remembers its contact forces ---------------------------------------------------------------------------- */
+
+/** Moves bodies in place of dWorldQuickStep: it starts from the contact forces of the last step, and takes sub-steps
+ * (lib/stepper/README.md). It knows the flags of dSurfaceParameters, kinematic and disabled bodies, gravity modes, damping, the
+ * largest angular speed and auto-disabling. A body rotates by finite steps, whatever its mode. The world's ERP and CFM count for
+ * contacts with dContactSoftCFM only. ODE tells nobody the moved callback of a body, so it is not called. */
+typedef struct snStepper* snStepperID;
+
+/** Creates a stepper for bodies of `world`. Returns 0 (and snLastError) if refused. */
+SUPERNORMAL_ODE_API snStepperID snStepperCreate(dWorldID world);
+
+/** Destroys it; its bodies stay. Does nothing for 0. */
+SUPERNORMAL_ODE_API void snStepperDestroy(snStepperID stepper);
+
+/** The stepper moves this body from now on. ODE cannot list the bodies of a world. dWorldQuickStep moves the other bodies; the
+ * stepper calls it. It also moves a body of the stepper that a joint of ODE holds, with all that touch it. Refuses a body that was
+ * added before, or of another world. Returns 1; 0 (and snLastError) if refused. */
+SUPERNORMAL_ODE_API int snStepperAddBody(snStepperID stepper, dBodyID body);
+
+/** The stepper leaves this body, and forgets the contacts that it was given with it. Call it before dBodyDestroy. Returns 1; 0 (and
+ * snLastError) if it is none of its bodies. */
+SUPERNORMAL_ODE_API int snStepperRemoveBody(snStepperID stepper, dBodyID body);
+
+/** Adds a contact for the next step, in place of dJointCreateContact and dJointAttach. A depth < 0 is a gap, as of geoms that look
+ * ahead; do not call snContactLookAhead. The bodies are bodies of the stepper; one may be 0, the world. Contacts of the same two
+ * geoms are added one after the other. Returns 1; 0 (and snLastError) if a number is out of range. */
+SUPERNORMAL_ODE_API int snStepperAddContact(snStepperID stepper, const dContact* contact, dBodyID body1, dBodyID body2);
+
+/** Moves the bodies by `step` (s, > 0), keeps the contact forces for the next call, and forgets the contacts. Returns the time
+ * done, s. It is less than `step` if bodies have left the paths for which their contacts were found, as after an impact: then
+ * collide again, and call it with the rest. Returns a number < 0 (and snLastError) if it refuses; it has then changed nothing. */
+SUPERNORMAL_ODE_API dReal snStepperStep(snStepperID stepper, dReal step);
+
+/** sag: the largest overlap of a contact at rest, relative to the least radius of gyration of its bodies, in [1e-12, 1]; default
+ * 2e-3. least and most: sub-steps of a step, in [1, 1000000]; default 8 and 64. The loads decide between them. Returns 1; 0 (and
+ * snLastError) if refused. */
+SUPERNORMAL_ODE_API int snStepperSetAccuracy(snStepperID stepper, dReal sag, int least, int most);
+
+/** The force (N) on body 1 of a contact in the last step, its mean. The contacts have the numbers 0, 1, ... in the order in which
+ * they were added. Returns 1; 0 (and snLastError) if there is no such contact. */
+SUPERNORMAL_ODE_API int snStepperContactForce(snStepperID stepper, int contact, dVector3 force);
+
 /* --- statistics --------------------------------------------------------------------------------------------------------- */
 
 /** A number of 64 bits. C90 has no long long; compilers that know __extension__ accept it there without a warning. */

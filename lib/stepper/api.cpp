@@ -1,0 +1,81 @@
+// The snStepper… functions.
+#include <algorithm>
+#include <memory>
+
+#include "ode/geom/convert.hpp"
+#include "ode/support/last_error.hpp"
+#include "ode/support/require.hpp"
+#include "stepper/stepper.hpp"
+#include "supernormal/supernormal.h"
+
+using supernormal::ode::guarded;
+using supernormal::ode::require_not_null;
+
+struct snStepper : supernormal::stepper::Stepper {
+  using Stepper::Stepper;
+};
+
+extern "C" snStepperID snStepperCreate(dWorldID world) {
+  return guarded("snStepperCreate", snStepperID{}, [&] {
+    require_not_null("world", world);
+    return std::make_unique<snStepper>(world).release();
+  });
+}
+
+extern "C" void snStepperDestroy(snStepperID stepper) { delete stepper; }
+
+extern "C" int snStepperAddBody(snStepperID stepper, dBodyID body) {
+  return guarded("snStepperAddBody", 0, [&] {
+    require_not_null("stepper", stepper);
+    require_not_null("body", body);
+    stepper->add_body(body);
+    return 1;
+  });
+}
+
+extern "C" int snStepperRemoveBody(snStepperID stepper, dBodyID body) {
+  return guarded("snStepperRemoveBody", 0, [&] {
+    require_not_null("stepper", stepper);
+    require_not_null("body", body);
+    stepper->remove_body(body);
+    return 1;
+  });
+}
+
+extern "C" int snStepperAddContact(snStepperID stepper, const dContact* contact, dBodyID body1, dBodyID body2) {
+  return guarded("snStepperAddContact", 0, [&] {
+    require_not_null("stepper", stepper);
+    require_not_null("contact", contact);
+    stepper->add_contact(*contact, body1, body2);
+    return 1;
+  });
+}
+
+extern "C" dReal snStepperStep(snStepperID stepper, dReal step) {
+  return guarded("snStepperStep", dReal(-1), [&] {
+    require_not_null("stepper", stepper);
+    const double done = stepper->step(step);
+    return done == double{step} ? step : supernormal::ode::to_real(done);
+  });
+}
+
+extern "C" int snStepperSetAccuracy(snStepperID stepper, dReal sag, int least, int most) {
+  return guarded("snStepperSetAccuracy", 0, [&] {
+    constexpr int kMostSubSteps = 1000000;
+    require_not_null("stepper", stepper);
+    supernormal::require_in("sag", sag, 1e-12, 1);
+    supernormal::require_in("least", least, 1, kMostSubSteps);
+    supernormal::require_in("most", most, least, kMostSubSteps);
+    stepper->set_accuracy({sag, least, most});
+    return 1;
+  });
+}
+
+extern "C" int snStepperContactForce(snStepperID stepper, int contact, dVector3 force) {
+  return guarded("snStepperContactForce", 0, [&] {
+    require_not_null("stepper", stepper);
+    require_not_null("force", force);
+    supernormal::ode::from_vector(stepper->contact_force(contact), force);
+    return 1;
+  });
+}

@@ -1,0 +1,88 @@
+// A body of ODE within a step.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <Eigen/Geometry>
+
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal::stepper {
+
+struct Body {
+  /// Reads state, mass and forces from ODE. Throws std::invalid_argument if a number is not finite.
+  void read(const Vector3& gravity);
+
+  /// Adds what forces and torques change in `time` (s).
+  void apply_forces(double time);
+
+  /// Moves the body on by `time` (s). The angular momentum stays as it is in the world, so no gyroscopic torque is needed.
+  void advance(double time);
+
+  /// Gives place, orientation and velocities to ODE and removes the forces, as a step of ODE does. `fraction` of ODE's damping of a
+  /// step is applied.
+  void write(double fraction);
+
+  /// Makes it immovable for this step.
+  void hold_still();
+
+  /// Sets is_restless after `time` (s) of motion. A body must not sleep unless it has been slower than ODE's thresholds for
+  /// auto-disabling for as long as they say.
+  void watch(double time);
+
+  /// Whether the body is far from the path that it had when the step began, `time` (s) ago, so that its contacts are no longer
+  /// those that it meets.
+  bool has_left_path(double time) const;
+
+  bool is_dynamic() const { return inverse_mass > 0; }
+
+  /// The centre of mass, m.
+  Vector3 centre() const { return start + moved; }
+
+  // What sweeps read and write.
+  Vector3 velocity = Vector3::Zero();          ///< m/s
+  Vector3 angular_velocity = Vector3::Zero();  ///< rad/s
+  double inverse_mass = 0;                     ///< 1/kg; 0 for what no force moves
+  Vector3 moved = Vector3::Zero();             ///< m, since the step began
+  Vector3 rotated = Vector3::Zero();           ///< rad, since the step began
+
+  dBodyID id = nullptr;                             ///< null: what does not move
+  Vector3 start = Vector3::Zero();                  ///< m; the centre of mass when the step began
+  Eigen::Quaterniond orientation{1, 0, 0, 0};       ///< now
+  Matrix3 rotation = Matrix3::Identity();           ///< now
+  Matrix3 world_inverse_inertia = Matrix3::Zero();  ///< 1/(kg m^2), when the step began; now, if is_followed
+  double size = 0;                                  ///< m; the smallest radius of gyration
+  bool is_touched = false;                          ///< whether it has a contact
+  bool is_followed = false;                         ///< whether a contact follows its motion within the step
+  bool is_free = false;                             ///< whether it is not kinematic
+  bool stirs = false;                               ///< whether it wakes what it touches: kinematic bodies at rest do not
+  bool is_awake = false;                            ///< whether it moves; spreads by contacts
+  bool is_held = false;                             ///< whether a joint holds it, so that quickstep moves it; spreads by contacts
+  bool is_restless = true;                          ///< whether it must not sleep; spreads by contacts
+
+ private:
+  void read_mass();
+  void limit_angular_speed();
+  Vector3 spin_of(const Matrix3& at, const Vector3& momentum) const {
+    return at * (inverse_inertia_ * (at.transpose() * momentum));
+  }
+
+  Matrix3 inertia_ = Matrix3::Zero();          // kg m^2, body's frame
+  Matrix3 inverse_inertia_ = Matrix3::Zero();  // 1/(kg m^2), body's frame
+  Vector3 acceleration_ = Vector3::Zero();     // m/s^2, of forces
+  Vector3 torque_ = Vector3::Zero();           // N m
+  Vector3 first_velocity_ = Vector3::Zero();   // m/s, when the step began
+  Vector3 first_angular_velocity_ = Vector3::Zero();
+  double max_angular_speed_ = 0;  // rad/s
+  bool keeps_momentum_ = false;
+
+  struct Rest {
+    double idle_time = 0;  // s, for which the body has been slow
+    int idle_steps = 0;
+    Vector3 travelled = Vector3::Zero(), turned = Vector3::Zero();  // m, rad; since the last mean of its velocities
+    double time = 0;                                                // s
+    int samples = 0;
+  } rest_;
+};
+
+}  // namespace supernormal::stepper

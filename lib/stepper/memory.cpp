@@ -1,0 +1,92 @@
+#include "stepper/memory.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <span>
+
+namespace supernormal::stepper {
+
+// Contacts that a program makes without geoms are those of the two bodies.
+Memory::Key Memory::key_of(const Contact& contact, const System& system) {
+  const void* one = contact.geom1;
+  const void* two = contact.geom2;
+  if (one == nullptr) one = system.body1(contact).id;
+  if (two == nullptr) two = system.body2(contact).id;
+  return std::less<>()(two, one) ? Key{two, one} : Key{one, two};
+}
+
+bool Memory::is_before(const Key& a, const Key& b) {
+  const std::less<> is_less;
+  return is_less(a.low, b.low) || (a.low == b.low && is_less(a.high, b.high));
+}
+
+bool Memory::is_swapped(const Contact& contact, const System& system, const Key& key) {
+  const void* const one = contact.geom1 != nullptr ? static_cast<const void*>(contact.geom1) : system.body1(contact).id;
+  return one != key.low;
+}
+
+void Memory::recall(System& system, double time) {
+  for (const Pair& pair : system.pairs) recall_pair(system, pair, time);
+}
+
+void Memory::recall_pair(System& system, const Pair& pair, double time) {
+  const Key key = key_of(system.contact(pair.first), system);
+  const auto begin = std::ranges::lower_bound(forces_, key, is_before, &Force::key);
+  auto end = begin;
+  while (end != forces_.end() && !is_before(key, end->key)) ++end;
+  const std::span<Force> known(begin, end);
+  for (int k = 0; k < pair.count; ++k) {
+    Contact& contact = system.contact(pair.first + k);
+    const bool swapped = is_swapped(contact, system, key);
+    const bool by_first = system.body1(contact).is_dynamic();
+    Force* nearest = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (Force& force : known) {
+      if (force.is_taken) continue;
+      const Vector3& place = by_first == swapped ? force.place_high : force.place_low;
+      const double distance = (place - (by_first ? contact.place1 : contact.place2)).squaredNorm();
+      if (distance >= least) continue;
+      least = distance;
+      nearest = &force;
+    }
+    if (nearest == nullptr) return;
+    nearest->is_taken = true;
+    const double sign = swapped ? -1 : 1;
+    contact.rows[0].impulse = time * nearest->normal;
+    for (std::size_t i = 1; i < 3; ++i) contact.rows[i].impulse = sign * time * nearest->tangential.dot(contact.rows[i].direction);
+    if (Rolling* const torques = system.rolling_of(contact)) {
+      for (Row& row : *torques) row.impulse = sign * time * nearest->torque.dot(row.lever1);
+    }
+    if (!contact.moves || known.size() > 1) continue;
+    for (Row& row : contact.rows) row.centring = sign * nearest->centring.dot(row.direction);
+  }
+}
+
+void Memory::keep(System& system, double time) {
+  forces_.clear();
+  for (const Contact& contact : system.contacts) {
+    Force& force = forces_.emplace_back();
+    force.key = key_of(contact, system);
+    force.order = static_cast<int>(forces_.size());
+    const bool swapped = is_swapped(contact, system, force.key);
+    force.place_low = swapped ? contact.place2 : contact.place1;
+    force.place_high = swapped ? contact.place1 : contact.place2;
+    const double sign = swapped ? -1 : 1;
+    const auto& rows = contact.rows;
+    force.normal = rows[0].impulse / time;
+    force.tangential = sign / time * (rows[1].impulse * rows[1].direction + rows[2].impulse * rows[2].direction);
+    force.torque.setZero();
+    if (const Rolling* const torques = system.rolling_of(contact)) {
+      for (const Row& row : *torques) force.torque += sign / time * row.impulse * row.lever1;
+    }
+    force.centring =
+        sign * (rows[0].centring * rows[0].direction + rows[1].centring * rows[1].direction + rows[2].centring * rows[2].direction);
+  }
+  // By the order among themselves, or the addresses would decide between two contacts at one place.
+  std::ranges::sort(forces_, [](const Force& a, const Force& b) {
+    return is_before(a.key, b.key) || (!is_before(b.key, a.key) && a.order < b.order);
+  });
+}
+
+}  // namespace supernormal::stepper

@@ -1,0 +1,44 @@
+// The contact forces of the last step.
+#pragma once
+
+#include <vector>
+
+#include "stepper/contact.hpp"
+
+namespace supernormal::stepper {
+
+class Memory {
+ public:
+  /// Gives each contact the impulse in `time` (s) of the nearest contact that the same two geoms had, in the frame of the first
+  /// body that moves. There the manifold points of a body that slides are the same ones, and the point of a body that rolls is the
+  /// nearest.
+  void recall(System& system, double time);
+
+  /// Keeps the forces that act in the present sub-step of `time` (s).
+  void keep(System& system, double time);
+
+ private:
+  // Of two geoms, that with the lower address is the first. The addresses decide only who is who, so they change no digit.
+  struct Key {
+    const void* low = nullptr;
+    const void* high = nullptr;
+  };
+  struct Force {
+    Key key;
+    int order = 0;                  // among the contacts of the step
+    Vector3 place_low, place_high;  // m, in the frames of the bodies
+    double normal = 0;              // N
+    Vector3 tangential;             // N, world frame, on the body of the geom `low`
+    Vector3 torque;                 // N m, world frame, on the same body
+    Vector3 centring;               // m/s, of a contact that moves
+    bool is_taken = false;
+  };
+  static Key key_of(const Contact& contact, const System& system);
+  static bool is_before(const Key& a, const Key& b);
+  static bool is_swapped(const Contact& contact, const System& system, const Key& key);
+  void recall_pair(System& system, const Pair& pair, double time);
+
+  std::vector<Force> forces_;  // sorted by their keys
+};
+
+}  // namespace supernormal::stepper

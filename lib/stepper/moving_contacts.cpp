@@ -1,0 +1,188 @@
+#include "stepper/moving_contacts.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ode/geom/body.hpp"
+#include "ode/geom/convert.hpp"
+#include "supernormal/proximity/gap_function.hpp"
+#include "supernormal/proximity/proximity.hpp"
+#include "supernormal/proximity/solve.hpp"
+
+namespace supernormal::stepper {
+namespace {
+
+// Relative to the size: what is farther apart hardly meets in the step.
+constexpr double kNear = 0.01;
+
+// rad, and relative to the size: bodies that move less in a step rest. Their contact stays.
+constexpr double kRests = 1e-5;
+
+// rad; flat bodies that turn less in a step have a contact that stays, up to the manifold of the next step.
+constexpr double kRestsFlat = 0.002;
+
+// rad; a manifold of which one point touches follows if the body turns more in a step, as the rim of a coin that spins.
+constexpr double kSpins = 0.02;
+
+// Relative to the size: contacts whose gaps differ by less touch together.
+constexpr double kTogether = 1e-4;
+
+// The largest change of a normal in a sub-step: beyond, a step of Newton's method is no step to the maximum.
+constexpr double kLargestChange = 0.2;
+
+bool is_round(const Shape* shape) { return shape == nullptr || shape->traits().is_round; }
+
+Pose pose_of(const Body& body, const Pose& in_body) {
+  return {body.centre() + body.rotation * in_body.position, body.rotation * in_body.rotation};
+}
+
+/// Moves a contact. The impulses across the normal turn with it.
+void place_at(System& system, Contact& contact, const Vector3& place, const Vector3& normal, double gap) {
+  set_rows(system, contact, place, normal, contact.rows[1].direction);
+  contact.gap = gap;
+}
+
+struct Answer {
+  Vector3 place, normal;  // world frame; the normal points into body 1
+  double gap;
+};
+
+/// The common normal of round bodies, one step of Newton's method from `first`, the last one (body 1's frame). The gap is then
+/// right to the fourth order of the change.
+bool step_to_normal(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Vector3& first,
+                    Answer& answer) {
+  GapFunction function(shape1, pose1, shape2, pose2);
+  GapJet jet;
+  function.evaluate(first, Order::Hessian, jet);
+  const Matrix3 H2 = function.rotation() * jet.jet2.H * function.rotation().transpose();
+  const Matrix3 curvature = jet.jet1.H + H2 + jet.s * Matrix3::Identity();
+  const Vector3 slope = jet.d - jet.s * first;
+  // Regular in three dimensions, with the same solution in the tangent plane.
+  const Vector3 change = (curvature + curvature.trace() * first * first.transpose()).inverse() * slope;
+  const double turn = change.norm();
+  if (!(turn < std::numeric_limits<double>::infinity())) return false;
+  const Vector3 dn = turn > kLargestChange ? Vector3(kLargestChange / turn * change) : change;
+  const Vector3 point1 = jet.jet1.r + jet.jet1.H * dn;
+  const Vector3 point2 = function.offset() + function.rotation() * jet.jet2.r - H2 * dn;
+  answer.place = pose1.position + pose1.rotation * (0.5 * (point1 + point2));
+  answer.normal = pose1.rotation * -(first + dn).normalized();
+  answer.gap = jet.s + 0.5 * slope.dot(dn);
+  return true;
+}
+
+}  // namespace
+
+void MovingContacts::choose(System& system, double step) {
+  list_.clear();
+  for (const Pair& pair : system.pairs) choose_of(system, pair, step);
+}
+
+void MovingContacts::choose_of(System& system, const Pair& pair, double step) {
+  const Contact& contact = system.contact(pair.first);
+  if (contact.gap >= kNear * contact.size) return;
+  const Body& one = system.body1(contact);
+  const Body& two = system.body2(contact);
+  const double turn = step * (one.angular_velocity - two.angular_velocity).norm();
+  const double motion =
+      step * (one.angular_velocity.norm() + two.angular_velocity.norm() + (one.velocity - two.velocity).norm() / contact.size);
+  if (motion < kRests) return;
+  Moving moving;
+  if (!moving.read_sides(system, contact)) return;
+  const bool has_plane = moving.side1.shape == nullptr || moving.side2.shape == nullptr;
+  if (!(is_round(moving.side1.shape) && is_round(moving.side2.shape)) && turn < kRestsFlat) return;
+  if (pair.count > 1) {
+    int touching = 0;
+    for (int k = 0; k < pair.count; ++k)
+      touching += system.contact(pair.first + k).gap < contact.gap + kTogether * contact.size ? 1 : 0;
+    if (!has_plane || turn < kSpins || touching > 1) return;
+  }
+  for (int k = 0; k < pair.count; ++k) {
+    moving.contact = pair.first + k;
+    moving.is_fixed = k > 0;
+    Contact& moved = system.contact(moving.contact);
+    if (moved.gap >= kNear * moved.size) continue;
+    moved.moves = true;
+    moving.first_gap = moved.gap;
+    list_.push_back(moving);
+  }
+  for (Body* const body : {&system.body1(contact), &system.body2(contact)}) body->is_followed = body->is_dynamic();
+}
+
+bool MovingContacts::Moving::read_sides(const System& system, const Contact& at) {
+  const auto read = [&](dGeomID geom, const Body& body, Side& side) {
+    if (geom == nullptr) return false;
+    if (dGeomGetClass(geom) == dPlaneClass) {
+      dVector4 plane;
+      dGeomPlaneGetParams(geom, plane);
+      plane_normal = ode::to_vector(plane);
+      plane_offset = plane[3];
+      return true;
+    }
+    const ode::Body* const ours = ode::find_body(geom);
+    if (ours == nullptr) return false;
+    const Pose pose = ode::pose_of(geom);
+    side.shape = &ours->shape();
+    side.in_body = {body.rotation.transpose() * (pose.position - body.start), body.rotation.transpose() * pose.rotation};
+    return true;
+  };
+  return read(at.geom1, system.body1(at), side1) && read(at.geom2, system.body2(at), side2) &&
+         (side1.shape != nullptr || side2.shape != nullptr);
+}
+
+void MovingContacts::Moving::follow(System& system) const {
+  Contact& at = system.contact(contact);
+  const Body& one = system.body1(at);
+  const Body& two = system.body2(at);
+  if (is_fixed) {
+    const Vector3 point1 = one.centre() + one.rotation * at.place1;
+    const Vector3 point2 = two.centre() + two.rotation * at.place2;
+    const Vector3 normal = at.normal().direction;
+    const Vector3 place = at.body1 == 0 ? point2 : at.body2 == 0 ? point1 : Vector3(0.5 * (point1 + point2));
+    place_at(system, at, place, normal, first_gap + normal.dot(point1 - point2));
+    return;
+  }
+  if (side1.shape == nullptr || side2.shape == nullptr) {
+    const bool is_first = side1.shape != nullptr;
+    const Pose pose = is_first ? pose_of(one, side1.in_body) : pose_of(two, side2.in_body);
+    const Shape& shape = is_first ? *side1.shape : *side2.shape;
+    const Vector3 place = pose.position + pose.rotation * shape.point(pose.rotation.transpose() * -plane_normal);
+    if (!place.allFinite()) return;
+    place_at(system, at, place, is_first ? plane_normal : Vector3(-plane_normal), plane_normal.dot(place) - plane_offset);
+    return;
+  }
+  const Pose pose1 = pose_of(one, side1.in_body);
+  const Pose pose2 = pose_of(two, side2.in_body);
+  const Vector3 first = (pose1.rotation.transpose() * -at.normal().direction).normalized();
+  Answer answer;
+  if (is_round(side1.shape) && is_round(side2.shape)) {
+    if (!step_to_normal(*side1.shape, pose1, *side2.shape, pose2, first, answer)) return;
+  } else {
+    const Proximity found = find_proximity(*side1.shape, pose1, *side2.shape, pose2, {}, &first);
+    if (found.status == Status::InvalidInput) return;
+    answer = {found.contact, -found.normal, found.gap};
+  }
+  place_at(system, at, answer.place, answer.normal, answer.gap);
+}
+
+void MovingContacts::follow(System& system) const {
+  for (const Moving& moving : list_) moving.follow(system);
+}
+
+void MovingContacts::begin_turn(const System& system) {
+  for (Moving& moving : list_) {
+    const Contact& contact = system.contact(moving.contact);
+    for (std::size_t k = 0; k < 3; ++k) moving.before[k] = system.velocity(contact, contact.rows[k]);
+  }
+}
+
+void MovingContacts::end_turn(System& system) const {
+  for (const Moving& moving : list_) {
+    Contact& contact = system.contact(moving.contact);
+    for (std::size_t k = 0; k < 3; ++k)
+      contact.rows[k].centring = -0.5 * (system.velocity(contact, contact.rows[k]) - moving.before[k]);
+  }
+}
+
+}  // namespace supernormal::stepper

@@ -1,0 +1,236 @@
+#include "stepper/stepper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "ode/geom/convert.hpp"
+#include "ode/support/require.hpp"
+#include "stepper/impacts.hpp"
+#include "stepper/softness.hpp"
+#include "stepper/sweep.hpp"
+#include "supernormal/supernormal.h"
+
+namespace supernormal::stepper {
+
+double Stepper::step(double time) {
+  ode::require_positive("step", time, "s");
+  read_bodies();
+  set_up_contacts();
+  const bool is_rest = left_ > 0 && std::abs(time - left_) <= 1e-6 * whole_;
+  if (!is_rest) whole_ = time;
+  const int count = sub_steps_.choose(time, whole_);
+  time_ = time / count;
+  soften(whole_);
+  moving_.choose(system_, time);
+  memory_.recall(system_, time_);
+  moving_.follow(system_);  // a contact ahead has the normal of the place where the bodies will meet
+  double done = 0;
+  int made = 0;
+  do {
+    sub_step(made++);
+    done = made < count ? made * time_ : time;
+  } while (made < count && !has_left_path(done));
+  left_ = time - done;
+  sub_steps_.learn(system_, done);
+  memory_.keep(system_, time_);
+  keep_forces(done);
+  step_others(time, done);
+  for (Body& body : system_.bodies) {
+    if (body.is_awake && !body.is_held) body.write(done / whole_);
+  }
+  let_sleep(done);
+  given_.clear();
+  return done;
+}
+
+void Stepper::sub_step(int number) {
+  for (Body& body : system_.bodies) body.apply_forces(time_ / 2);
+  bounce(system_, time_);
+  system_.for_each_row([&](const Contact& contact, Row& row) {
+    row.later = row.impulse = row.impulse / 2;
+    system_.push(contact, row, row.later);
+  });
+  sweep(system_, {Sweep::Biased, number % 2 != 0, time_, number * time_, fastest_out_});
+  moving_.begin_turn(system_);
+  for (Body& body : system_.bodies) body.advance(time_);
+  moving_.follow(system_);
+  moving_.end_turn(system_);
+  for (Body& body : system_.bodies) body.apply_forces(time_ / 2);
+  system_.for_each_row([&](const Contact& contact, Row& row) {
+    row.impulse += row.later;
+    system_.push(contact, row, row.later);
+  });
+  sweep(system_, {Sweep::Relaxing, number % 2 == 0, time_, (number + 1) * time_, fastest_out_});
+  system_.for_each_row([](const Contact&, Row& row) { row.total += row.impulse; });
+}
+
+bool Stepper::has_left_path(double time) const {
+  return std::ranges::any_of(system_.bodies, [&](const Body& body) { return body.is_touched && body.has_left_path(time); });
+}
+
+void Stepper::read_bodies() {
+  dVector3 gravity;
+  dWorldGetGravity(world_, gravity);
+  fastest_out_ = dWorldGetContactMaxCorrectingVel(world_);
+  for (Body& body : system_.bodies) {
+    if (body.id == nullptr) continue;
+    body.read(ode::to_vector(gravity));
+  }
+  spread(&Body::is_awake, &Body::stirs);
+  spread(&Body::is_held, &Body::is_free);
+  for (Body& body : system_.bodies) {
+    if (!body.is_awake || (body.is_held && body.is_free)) body.hold_still();
+  }
+}
+
+// A kinematic body takes a property from what it touches, and passes it on only if it is a source.
+void Stepper::spread(bool Body::*property, bool Body::*source) {
+  for (bool has_spread = true; has_spread;) {
+    has_spread = false;
+    for (const Given& given : given_) {
+      if (given.body1 <= 0 || given.body2 <= 0) continue;
+      Body& one = body(given.body1);
+      Body& two = body(given.body2);
+      const Body& from = one.*property ? one : two;
+      if (one.*property == two.*property || !(from.*source)) continue;
+      one.*property = two.*property = has_spread = true;
+    }
+  }
+}
+
+// Bodies that were not added, and those that joints hold, are quickstep's.
+void Stepper::step_others(double planned, double time) {
+  for (Given& given : given_) {
+    if (!is_of_quickstep(given)) continue;
+    snContactLookAhead(&given.contact, ode::to_real(planned));
+    const dJointID joint = dJointCreateContact(world_, joints_, &given.contact);
+    dJointSetFeedback(joint, &given.feedback);
+    dJointAttach(joint, body(given.body1).id, body(given.body2).id);
+  }
+  stopped_.clear();
+  for (const Body& body : system_.bodies) {
+    if (body.id == nullptr || body.is_held || dBodyIsEnabled(body.id) == 0) continue;
+    dBodyDisable(body.id);
+    stopped_.push_back(body.id);
+  }
+  dWorldQuickStep(world_, ode::to_real(time));
+  for (const dBodyID body : stopped_) dBodyEnable(body);
+  for (std::size_t i = 0; i < given_.size(); ++i) {
+    if (!is_of_quickstep(given_[i])) continue;
+    const Vector3 force = ode::to_vector(given_[i].feedback.f1);  // on body 2, if body 1 is the world
+    forces_[i] = given_[i].body1 == 0 ? Vector3(-force) : force;
+  }
+  dJointGroupEmpty(joints_);
+}
+
+bool Stepper::is_of_quickstep(const Given& given) const {
+  if (given.body1 < 0 || given.body2 < 0) return false;
+  const Body& one = body(given.body1);
+  const Body& two = body(given.body2);
+  return (one.is_held && one.is_free) || (two.is_held && two.is_free);
+}
+
+// Bodies that touch one another sleep together.
+void Stepper::let_sleep(double time) {
+  for (Body& body : system_.bodies) {
+    if (body.id != nullptr && !body.is_held) body.watch(time);
+  }
+  spread(&Body::is_restless, &Body::stirs);
+  for (const Body& body : system_.bodies) {
+    if (!body.is_dynamic() || !body.is_touched || body.is_restless) continue;
+    dBodySetLinearVel(body.id, 0, 0, 0);
+    dBodySetAngularVel(body.id, 0, 0, 0);
+    dBodyDisable(body.id);
+  }
+}
+
+void Stepper::set_up_contacts() {
+  system_.contacts.clear();
+  system_.pairs.clear();
+  system_.rolling.clear();
+  const double layer = dWorldGetContactSurfaceLayer(world_);
+  for (const Given& given : given_) {
+    if (given.body1 < 0 || given.body2 < 0) continue;
+    Contact contact = contact_of(system_, given.contact, given.surface, given.body1, given.body2);
+    if (!(system_.body1(contact).is_dynamic() || system_.body2(contact).is_dynamic())) continue;
+    contact.layer = layer;
+    contact.given = static_cast<int>(&given - given_.data());
+    const Contact* const last = system_.contacts.empty() ? nullptr : &system_.contacts.back();
+    const bool is_same_pair = last != nullptr && last->geom1 == contact.geom1 && last->geom2 == contact.geom2 &&
+                              last->body1 == contact.body1 && last->body2 == contact.body2;
+    if (!is_same_pair) system_.pairs.push_back({static_cast<int>(system_.contacts.size()), 0});
+    ++system_.pairs.back().count;
+    system_.contacts.push_back(contact);
+  }
+}
+
+void Stepper::soften(double step) {
+  const Softness own = softness_in(time_);
+  for (Contact& contact : system_.contacts) {
+    const Surface& surface = *contact.surface;
+    if (surface.erp < 0 && !(surface.cfm > 0)) {
+      contact.softness = own;
+      contact.deepest = kDeep * contact.size;
+      continue;
+    }
+    const double erp = surface.erp < 0 ? double{dWorldGetERP(world_)} : surface.erp;
+    contact.deepest = std::numeric_limits<double>::infinity();
+    contact.softness = softness_of(erp, std::max(0.0, surface.cfm), contact.normal().mobility, step, time_);
+  }
+}
+
+void Stepper::keep_forces(double time) {
+  forces_.assign(given_.size(), Vector3::Zero());
+  for (const Contact& contact : system_.contacts) {
+    Vector3& force = forces_[static_cast<std::size_t>(contact.given)];
+    for (const Row& row : contact.rows) force += row.total / time * row.direction;
+  }
+}
+
+int Stepper::index_of(const char* name, dBodyID body) const {
+  if (body == nullptr) return 0;
+  const auto found = indices_.find(body);
+  if (found == indices_.end()) {
+    throw std::invalid_argument(std::string(name) + " is not a body of the stepper: add it by snStepperAddBody");
+  }
+  return found->second;
+}
+
+void Stepper::add_body(dBodyID body) {
+  if (dBodyGetWorld(body) != world_) throw std::invalid_argument("body is of another world than the stepper");
+  if (indices_.contains(body)) throw std::invalid_argument("body is a body of the stepper already: it must be added once");
+  system_.bodies.emplace_back().id = body;
+  indices_[body] = static_cast<int>(system_.bodies.size()) - 1;
+}
+
+// The last body takes the place of the removed one.
+void Stepper::remove_body(dBodyID body) {
+  const int removed = index_of("body", body);
+  const int last = static_cast<int>(system_.bodies.size()) - 1;
+  for (Given& given : given_) {
+    for (int* const index : {&given.body1, &given.body2}) *index = *index == removed ? -1 : *index == last ? removed : *index;
+  }
+  indices_[system_.bodies.back().id] = removed;
+  system_.bodies[static_cast<std::size_t>(removed)] = system_.bodies.back();
+  system_.bodies.pop_back();
+  indices_.erase(body);
+}
+
+void Stepper::add_contact(const dContact& contact, dBodyID body1, dBodyID body2) {
+  if (body1 == body2) throw std::invalid_argument("body1 = body2, but a contact must have two bodies, or one and NULL");
+  given_.push_back({contact, surface_of(contact), index_of("body1", body1), index_of("body2", body2), {}});
+}
+
+const Vector3& Stepper::contact_force(int contact) const {
+  const int count = static_cast<int>(forces_.size());
+  if (contact < 0 || contact >= count) {
+    throw std::invalid_argument("contact = " + std::to_string(contact) + " is not one of the " + std::to_string(count) +
+                                " contacts of the last step");
+  }
+  return forces_[static_cast<std::size_t>(contact)];
+}
+
+}  // namespace supernormal::stepper

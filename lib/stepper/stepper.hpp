@@ -1,0 +1,75 @@
+// A step that remembers its contact forces, in place of dWorldQuickStep.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <unordered_map>
+#include <vector>
+
+#include "stepper/contact.hpp"
+#include "stepper/memory.hpp"
+#include "stepper/moving_contacts.hpp"
+#include "stepper/sub_steps.hpp"
+
+namespace supernormal::stepper {
+
+/// All functions throw std::invalid_argument for a bad argument, and then change nothing.
+class Stepper {
+ public:
+  explicit Stepper(dWorldID world) : world_(world), joints_(dJointGroupCreate(0)) {}
+  ~Stepper() { dJointGroupDestroy(joints_); }
+  Stepper(const Stepper&) = delete;
+  Stepper(Stepper&&) = delete;
+  Stepper& operator=(const Stepper&) = delete;
+  Stepper& operator=(Stepper&&) = delete;
+
+  void add_body(dBodyID body);
+  void remove_body(dBodyID body);
+  void add_contact(const dContact& contact, dBodyID body1, dBodyID body2);
+  void set_accuracy(const Accuracy& accuracy) { sub_steps_.accuracy = accuracy; }
+
+  /// The time done, s: less than `time` if bodies have left the paths that their contacts were found for.
+  double step(double time);
+
+  /// N; on body 1, the mean over the last step. The number counts the contacts of that step in the order in which they were added.
+  const Vector3& contact_force(int contact) const;
+
+ private:
+  struct Given {
+    dContact contact;
+    Surface surface;
+    int body1, body2;  // in system_.bodies; -1: the body was removed
+    dJointFeedback feedback;
+  };
+
+  int index_of(const char* name, dBodyID body) const;
+  Body& body(int index) { return system_.bodies[static_cast<std::size_t>(index)]; }
+  const Body& body(int index) const { return system_.bodies[static_cast<std::size_t>(index)]; }
+  bool is_of_quickstep(const Given& given) const;
+  void read_bodies();
+  void spread(bool Body::*property, bool Body::*source);
+  void set_up_contacts();
+  void soften(double step);
+  void sub_step(int number);
+  void keep_forces(double time);
+  bool has_left_path(double time) const;
+  void step_others(double planned, double time);
+  void let_sleep(double time);
+
+  dWorldID world_;
+  dJointGroupID joints_;  // contacts of bodies that quickstep moves
+  System system_;
+  std::unordered_map<dBodyID, int> indices_;  // in system_.bodies
+  std::vector<Given> given_;
+  Memory memory_;
+  MovingContacts moving_;
+  SubSteps sub_steps_;
+  std::vector<dBodyID> stopped_;  // while quickstep moves the others
+  std::vector<Vector3> forces_;   // N, of the contacts of the last step
+  double time_ = 0;               // s, of a sub-step
+  double whole_ = 0;              // s; the step of which `left_` is the rest
+  double left_ = 0;               // s; after a step that ended early
+  double fastest_out_ = 0;        // m/s; ODE's largest correcting velocity
+};
+
+}  // namespace supernormal::stepper

@@ -1,0 +1,53 @@
+#include "stepper/sub_steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "stepper/softness.hpp"
+
+namespace supernormal::stepper {
+namespace {
+
+// A sub-step is longer or shorter than the last by this factor at most: what a load has pressed in is thrown if its spring jumps.
+constexpr double kChange = 1.2;
+
+// Within these factors it stays as it is, because the sag goes with its square: one that flickers shakes what rests.
+constexpr double kLittleLess = 0.95;
+constexpr double kLittleMore = 1.3;
+
+// rad; two bodies whose contact moves turn no farther against each other in a sub-step.
+constexpr double kLargestTurn = 0.03;
+
+}  // namespace
+
+int SubSteps::choose(double time, double step) {
+  const double longest = step / accuracy.least;
+  const double shortest = step / accuracy.most;
+  if (duration_ == 0) {
+    duration_ = shortest;  // the first loads are not known
+  } else {
+    double next = std::clamp(needed_, shortest, longest);
+    if (next > kLittleLess * duration_ && next < kLittleMore * duration_) next = duration_;
+    duration_ = std::min(std::clamp(next, duration_ / kChange, duration_ * kChange), longest);
+  }
+  const double duration = std::min(duration_, std::max(turning_, shortest));
+  constexpr double kRounding = 1e-9;
+  return std::max(1, static_cast<int>(std::ceil(time / duration - kRounding)));
+}
+
+void SubSteps::learn(const System& system, double time) {
+  double stiffness = 0;  // 1/s^2; the square of the frequency that the sag needs
+  double spin = 0;       // rad/s
+  for (const Contact& contact : system.contacts) {
+    const Row& row = contact.normal();
+    stiffness = std::max(stiffness, row.total / time * row.mobility / (accuracy.sag * contact.size));
+    if (!contact.moves || row.total == 0) continue;
+    spin = std::max(spin, (system.body1(contact).angular_velocity - system.body2(contact).angular_velocity).norm());
+  }
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  needed_ = stiffness > 0 ? kPhase / std::sqrt(stiffness) : kAny;
+  turning_ = spin > 0 ? kLargestTurn / spin : kAny;
+}
+
+}  // namespace supernormal::stepper

@@ -1,0 +1,34 @@
+// How many sub-steps a step takes: as many as its loads need.
+#pragma once
+
+#include "stepper/contact.hpp"
+
+namespace supernormal::stepper {
+
+/// What a user asks for.
+struct Accuracy {
+  double sag = 2e-3;  ///< the largest overlap of a contact at rest, relative to the size of its body (the least radius of gyration)
+  int least = 8;      ///< sub-steps of a step
+  int most = 64;
+};
+
+/// A tall stack of soft contacts buckles as a column does, so the stiffness follows the load: no contact may give way to the force
+/// of the last step by more than the accuracy. A contact's spring turns by a fixed phase in a sub-step, so a stiffer one takes
+/// shorter sub-steps.
+class SubSteps {
+ public:
+  Accuracy accuracy;
+
+  /// The number of sub-steps for the next `time` (s) of a `step` (s).
+  int choose(double time, double step);
+
+  /// Takes the forces of the sub-steps that were made, which lasted `time` (s).
+  void learn(const System& system, double time);
+
+ private:
+  double duration_ = 0;  // s, of a sub-step; 0 before the first step
+  double needed_ = 0;    // s; the longest sub-step for the forces of the last step
+  double turning_ = 0;   // s; the longest sub-step for the contacts that move
+};
+
+}  // namespace supernormal::stepper

@@ -1,0 +1,22 @@
+// One pass over all contacts, each of which is solved for itself (projected Gauss-Seidel).
+#pragma once
+
+#include "stepper/contact.hpp"
+
+namespace supernormal::stepper {
+
+/// A biased sweep comes before the positions: it also takes a little of every overlap away, and only half of the last impulses act
+/// yet. A relaxing sweep comes after them and takes the velocity of that away again.
+enum class Sweep { Biased, Relaxing };
+
+struct SweepSettings {
+  Sweep kind = Sweep::Biased;
+  bool is_backward = false;
+  double time = 0;         ///< s, of the sub-step
+  double elapsed = 0;      ///< s, since the step began
+  double fastest_out = 0;  ///< m/s; overlaps are corrected no faster
+};
+
+void sweep(System& system, const SweepSettings& settings);
+
+}  // namespace supernormal::stepper

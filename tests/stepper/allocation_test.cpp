@@ -1,0 +1,26 @@
+// Tests that the stepper does not allocate. counted_allocations.cpp replaces operator new for everything in this executable.
+#include <doctest/doctest.h>
+
+#include "stepper/stepper_world.hpp"
+#include "support/counted_allocations.hpp"
+
+using namespace supernormal::test;
+
+TEST_CASE("once warm, no step allocates") {
+  OdeSession session;
+  StepperWorld scene(0.01, dSimpleSpaceCreate(nullptr));  // ODE's hash space allocates
+  scene.surface.mode |= dContactRolling | dContactBounce;
+  scene.surface.mu = dReal(0.5);
+  scene.surface.rho = dReal(1e-4);
+  scene.surface.bounce = dReal(0.3);
+  scene.world.add_plane();
+  for (int i = 0; i < 6; ++i) {
+    scene.add_brick(i % 2 == 0 ? 8 : 2, 1000, {0.3 * i, 0, 0.06});
+    scene.add_brick(i % 2 == 0 ? 8 : 2, 1000, {0.3 * i, 0, 0.18});
+  }
+  scene.run(0.3);
+  const long before = allocations();
+  scene.run(0.3);
+  CHECK(allocations() == before);
+  CHECK(scene.contacts > 12);
+}

@@ -1,0 +1,159 @@
+// Motions with known answers, moved by the stepper.
+#include <doctest/doctest.h>
+
+#include "stepper/stepper_world.hpp"
+#include "support/relative.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+/// The acceleration of a brick down an incline (rad), m/s^2, once it has settled.
+double acceleration_down(double angle, double step, double friction) {
+  StepperWorld scene(step);
+  scene.surface.mu = dReal(friction);
+  scene.world.add_plane();
+  tilt_gravity(scene, angle);
+  const dBodyID brick = scene.add_brick(8, 1000, {0, 0, 0.05});
+  scene.run(1);
+  const double before = velocity_of(brick)[0];
+  scene.run(0.5);
+  return (velocity_of(brick)[0] - before) / 0.5;
+}
+
+/// The velocity with which a body leaves a plane that it met with 1 m/s.
+double restitution(bool is_brick, double coefficient, double step) {
+  StepperWorld scene(step);
+  scene.surface.mode |= dContactBounce;
+  scene.surface.bounce = dReal(coefficient);
+  scene.world.add_plane();
+  dWorldSetGravity(scene.world.id(), 0, 0, 0);
+  const dBodyID body = is_brick ? scene.add_brick(8, 1000, {0, 0, 0.1}) : scene.add_ball(0.05, {0, 0, 0.1});
+  set_velocity(body, {0, 0, -1});
+  scene.run(0.2);
+  CHECK(norm(spin_of(body)) < 1e-9);
+  return velocity_of(body)[2];
+}
+
+}  // namespace
+
+TEST_CASE("a brick below the angle of friction does not creep, and above it slides as it must") {
+  OdeSession session;
+  for (const double step : {0.002, 0.01}) {
+    CHECK(std::abs(acceleration_down(25 * kDegree, step, 0.5)) < within_rounding(1e-12));
+    const double angle = 35 * kDegree;
+    const double right = kGravity * (std::sin(angle) - 0.5 * std::cos(angle));
+    CHECK(acceleration_down(angle, step, 0.5) == relative(right).epsilon(within_rounding(1e-10)));
+  }
+}
+
+TEST_CASE("a ball that slides ends up rolling at five sevenths of its velocity") {
+  OdeSession session;
+  StepperWorld scene(0.01);
+  scene.surface.mu = dReal(0.5);
+  scene.world.add_plane();
+  const dBodyID ball = scene.add_ball(0.05, {0, 0, 0.05});
+  set_velocity(ball, {1, 0, 0});
+  scene.run(1);
+  CHECK(velocity_of(ball)[0] == relative(5.0 / 7).epsilon(within_rounding(1e-9)));
+  CHECK(std::abs(velocity_of(ball)[0] - 0.05 * spin_of(ball)[1]) < within_rounding(1e-9));
+}
+
+TEST_CASE("balls and bricks bounce with their restitution at every step") {
+  OdeSession session;
+  for (const double step : {0.001, 0.01, 0.02}) {
+    for (const double coefficient : {0.5, 0.8, 1.0}) {
+      CHECK(restitution(false, coefficient, step) == relative(coefficient).epsilon(within_rounding(1e-9)));
+      CHECK(restitution(true, coefficient, step) == relative(coefficient).epsilon(within_rounding(1e-9)));
+    }
+  }
+}
+
+TEST_CASE("a cradle passes its momentum on, whether its balls touch or not") {
+  OdeSession session;
+  for (const double gap : {0.0, 1e-4, 3e-3}) {
+    StepperWorld scene(0.01);
+    scene.surface.mode |= dContactBounce;
+    scene.surface.bounce = 1;
+    dWorldSetGravity(scene.world.id(), 0, 0, 0);
+    std::array<dBodyID, 5> balls{};
+    for (std::size_t i = 0; i < 5; ++i) balls[i] = scene.add_ball(0.05, {double(i) * (0.1 + gap) - (i == 0 ? 0.2 : 0), 0, 0});
+    set_velocity(balls.front(), {1, 0, 0});
+    scene.run(0.6);
+    for (std::size_t i = 0; i < 5; ++i) CHECK(std::abs(velocity_of(balls[i])[0] - (i == 4 ? 1 : 0)) < within_rounding(1e-9));
+  }
+}
+
+TEST_CASE("a free body keeps its angular momentum and its energy") {
+  OdeSession session;
+  StepperWorld scene(0.01);
+  dWorldSetGravity(scene.world.id(), 0, 0, 0);
+  const dBodyID body = scene.add(snCreateEllipsoid(scene.world.space(), dReal(0.1), dReal(0.07), dReal(0.03)), 1000, {0, 0, 0});
+  set_spin(body, {0.1, 10, 0.1});  // about the middle axis, so it tumbles
+  const double energy_before = kinetic_energy(body);
+  const Vec momentum = spin_momentum(body);
+  scene.run(5);
+  CHECK(kinetic_energy(body) == relative(energy_before).epsilon(within_rounding(3e-6)));
+  CHECK(norm(spin_momentum(body) - momentum) < within_rounding(1e-10) * norm(momentum));
+}
+
+TEST_CASE("bodies that meet keep their momentum and angular momentum") {
+  OdeSession session;
+  StepperWorld scene(0.001);
+  scene.surface.mu = dReal(0.3);
+  dWorldSetGravity(scene.world.id(), 0, 0, 0);
+  const dBodyID one = scene.add_brick(8, 1000, {0, 0, 0});
+  const dBodyID two = scene.add_brick(3, 2000, {-0.3, 0.05, 0.03});
+  set_velocity(two, {3, 0, 0});
+  const auto momentum = [&] { return mass_of(one) * velocity_of(one) + mass_of(two) * velocity_of(two); };
+  const auto angular = [&] {
+    Vec sum{};
+    for (const dBodyID body : {one, two}) {
+      const Vec x = place_of(body);
+      const Vec p = mass_of(body) * velocity_of(body);
+      sum = sum + spin_momentum(body) + Vec{x[1] * p[2] - x[2] * p[1], x[2] * p[0] - x[0] * p[2], x[0] * p[1] - x[1] * p[0]};
+    }
+    return sum;
+  };
+  const Vec before = momentum();
+  const Vec angular_before = angular();
+  scene.run(0.5);
+  CHECK(norm(velocity_of(one)) > 0.5);
+  CHECK(norm(momentum() - before) < within_rounding(1e-13) * norm(before));
+  // Levers are those of the start of the step, 3 mm before the impact.
+  CHECK(norm(angular() - angular_before) < 2e-3 * norm(angular_before));
+}
+
+TEST_CASE("an ellipsoid that rocks keeps its energy") {
+  OdeSession session;
+  for (const double step : {0.002, 0.01}) {
+    StepperWorld scene(step);
+    scene.surface.mu = dReal(0.5);
+    scene.world.add_plane();
+    const dGeomID geom = snCreateEllipsoid(scene.world.space(), dReal(0.1), dReal(0.07), dReal(0.05));
+    const dBodyID body = scene.add(geom, 1000, {0, 0, 0});
+    turn(body, {0, 1, 0}, 0.3);
+    const dVector3 down = {0, 0, -1};
+    dVector3 lowest;
+    REQUIRE(snGeomSupport(geom, down, lowest) == 1);
+    dBodySetPosition(body, 0, 0, -lowest[2]);
+    const double rest = mass_of(body) * kGravity * 0.05;
+    const double before = energy(body) - rest;
+    scene.run(5);
+    CHECK(energy(body) - rest == relative(before).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("a body that balances on another keeps its energy") {
+  OdeSession session;
+  StepperWorld scene(0.005);
+  scene.surface.mu = dReal(0.8);
+  snCreateEllipsoid(scene.world.space(), dReal(0.1), dReal(0.1), dReal(0.1));
+  const dBodyID body = scene.add(snCreateEllipsoid(scene.world.space(), dReal(0.1), dReal(0.08), dReal(0.02)), 1000, {0, 0, 0.12});
+  set_spin(body, {0.1, 0.3, 0});
+  const double rest = mass_of(body) * kGravity * 0.12;
+  scene.run(0.1);
+  const double before = energy(body) - rest;
+  scene.run(4);
+  CHECK(energy(body) - rest == relative(before).epsilon(0.01));
+}

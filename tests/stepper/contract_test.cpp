@@ -1,0 +1,270 @@
+// What the snStepper… functions promise besides motions.
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <memory>
+
+#include "stepper/stepper_world.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+constexpr dReal kNotANumber = std::numeric_limits<dReal>::quiet_NaN();
+
+dContact contact_at(const Vec& place) {
+  dContact contact{};
+  contact.surface.mode = dContactApprox1;
+  for (std::size_t k = 0; k < 3; ++k) contact.geom.pos[k] = dReal(place[k]);
+  contact.geom.normal[2] = 1;
+  return contact;
+}
+
+/// Positions and velocities after a fall of grains.
+std::vector<double> fall() {
+  OdeSession session;
+  StepperWorld scene(0.005);
+  scene.surface.mu = dReal(0.5);
+  scene.world.add_plane();
+  Random random(3);
+  std::vector<dBodyID> bodies;
+  for (int i = 0; i < 12; ++i) {
+    const auto exponent = dReal(i % 2 == 0 ? 2 : 8);
+    const dGeomID geom = snCreateSuperellipsoid(scene.world.space(), dReal(0.05), dReal(0.04), dReal(0.03), exponent, exponent);
+    bodies.push_back(scene.add(geom, 1000, {0.01 * (i % 3), 0.01 * (i % 2), 0.1 + 0.1 * i}));
+    random.turn(geom);
+  }
+  scene.run(0.7);
+  std::vector<double> digits;
+  for (const dBodyID body : bodies) {
+    for (const Vec& v : {place_of(body), velocity_of(body), spin_of(body)}) digits.insert(digits.end(), v.begin(), v.end());
+  }
+  return digits;
+}
+
+}  // namespace
+
+TEST_CASE("two runs give the same digits, wherever their geoms are in memory") {
+  const std::vector<double> first = fall();
+  std::array<std::unique_ptr<char[]>, 100> in_the_way;
+  for (std::size_t i = 0; i < in_the_way.size(); ++i) in_the_way[i] = std::make_unique<char[]>(50 + 37 * i);
+  CHECK(fall() == first);
+}
+
+TEST_CASE("bodies, contacts, steps and accuracies out of range are refused, and nothing changes") {
+  OdeSession session;
+  CHECK(snStepperCreate(nullptr) == nullptr);
+  CHECK(refused_with("snStepperCreate: world = NULL"));
+  StepperWorld scene(0.01);
+  const World other;
+  const snStepperID stepper = scene.stepper;
+  const dBodyID ball = scene.add_ball(0.05, {0, 0, 0.05});
+  const dBodyID stranger = dBodyCreate(scene.world.id());
+  CHECK(snStepperAddBody(stepper, ball) == 0);
+  CHECK(refused_with("it must be added once"));
+  CHECK(snStepperAddBody(stepper, dBodyCreate(other.id())) == 0);
+  CHECK(refused_with("another world"));
+  CHECK(snStepperRemoveBody(stepper, stranger) == 0);
+  CHECK(refused_with("body is not a body of the stepper"));
+
+  dContact contact = contact_at({0, 0, 0});
+  CHECK(snStepperAddContact(stepper, &contact, ball, stranger) == 0);
+  CHECK(refused_with("body2 is not a body of the stepper"));
+  CHECK(snStepperAddContact(stepper, &contact, ball, ball) == 0);
+  CHECK(snStepperAddContact(stepper, nullptr, ball, nullptr) == 0);
+  const auto refuses = [&](dReal& number, dReal value, const char* message) {
+    const dReal before = number;
+    number = value;
+    CHECK_MESSAGE(snStepperAddContact(stepper, &contact, ball, nullptr) == 0, message);
+    CHECK_MESSAGE(refused_with(message), snLastError());
+    number = before;
+  };
+  refuses(contact.geom.depth, kNotANumber, "geom.depth = nan m");
+  refuses(contact.geom.pos[1], kNotANumber, "geom.pos = (0, nan, 0)");
+  refuses(contact.geom.normal[2], 2, "length of geom.normal = 2");
+  refuses(contact.surface.mu, -1, "surface.mu = -1");
+  contact.surface.mode |=
+      dContactMu2 | dContactBounce | dContactSoftERP | dContactSoftCFM | dContactMotion1 | dContactSlip1 | dContactRolling;
+  refuses(contact.surface.mu2, -1, "surface.mu2 = -1");
+  refuses(contact.surface.bounce, 2, "surface.bounce = 2");
+  refuses(contact.surface.soft_erp, 2, "surface.soft_erp = 2");
+  refuses(contact.surface.soft_cfm, -1, "surface.soft_cfm = -1");
+  refuses(contact.surface.motion1, kNotANumber, "surface.motion1 = nan");
+  refuses(contact.surface.slip1, -1, "surface.slip1 = -1");
+  refuses(contact.surface.rho, kNotANumber, "surface.rho = nan");
+  contact.surface.mode |= dContactFDir1;
+  refuses(contact.fdir1[2], 1, "length of fdir1 along the surface = 0");
+
+  for (const dReal step : {dReal(0), dReal(-1), kNotANumber, std::numeric_limits<dReal>::infinity()}) {
+    CHECK(snStepperStep(stepper, step) < 0);
+    CHECK(refused_with("snStepperStep: step = "));
+  }
+  CHECK(snStepperSetAccuracy(stepper, 0, 8, 64) == 0);
+  CHECK(snStepperSetAccuracy(stepper, dReal(1e-3), 0, 64) == 0);
+  CHECK(snStepperSetAccuracy(stepper, dReal(1e-3), 8, 7) == 0);
+  CHECK(refused_with("most = 7 is outside [8, "));
+  dVector3 force;
+  CHECK(snStepperContactForce(stepper, 0, force) == 0);
+  CHECK(refused_with("contact = 0 is not one of the 0 contacts"));
+
+  dBodyAddForce(ball, kNotANumber, 0, 0);
+  CHECK(snStepperStep(stepper, dReal(0.01)) < 0);
+  CHECK(refused_with("force or torque on a body is not finite"));
+  dBodySetForce(ball, 0, 0, 0);
+  set_velocity(ball, {std::numeric_limits<double>::infinity(), 0, 0});
+  CHECK(snStepperStep(stepper, dReal(0.01)) < 0);
+  CHECK(refused_with("velocity of a body is not finite"));
+  set_velocity(ball, {0, 0, 0});
+  CHECK(place_of(ball) == Vec{0, 0, dReal(0.05)});
+  CHECK(snStepperStep(stepper, dReal(0.01)) == dReal(0.01));
+}
+
+TEST_CASE("a body that is removed, and then destroyed, takes its contacts with it") {
+  OdeSession session;
+  StepperWorld scene(0.01);
+  scene.world.add_plane();
+  const dBodyID first = scene.add_ball(0.05, {0, 0, 0.05});
+  const dBodyID second = scene.add_ball(0.05, {0, 0, 0.15});
+  const dBodyID third = scene.add_ball(0.05, {0.5, 0, 0.05});
+  scene.run(0.2);
+  scene.collide();
+  REQUIRE(scene.contacts == 3);
+  REQUIRE(snStepperRemoveBody(scene.stepper, first) == 1);
+  dGeomDestroy(dBodyGetFirstGeom(first));
+  dBodyDestroy(first);
+  REQUIRE(snStepperStep(scene.stepper, dReal(0.01)) > 0);
+  CHECK(velocity_of(second)[2] == doctest::Approx(-0.01 * kGravity));
+  CHECK(std::abs(velocity_of(third)[2]) < 1e-6);  // carried, though the last body is now in the place of the first
+  dVector3 force;
+  double carried = 0;
+  for (int i = 0; i < 3; ++i) {
+    REQUIRE(snStepperContactForce(scene.stepper, i, force) == 1);
+    carried += double{force[2]};
+  }
+  CHECK(std::abs(carried) == doctest::Approx(kGravity * mass_of(third)).epsilon(1e-3));
+}
+
+TEST_CASE("a step ends early where a bullet throws a brick on, and the brick does not pass a wall") {
+  OdeSession session;
+  StepperWorld scene(0.01);
+  dWorldSetGravity(scene.world.id(), 0, 0, 0);
+  const dBodyID bullet =
+      scene.add(snCreateEllipsoid(scene.world.space(), dReal(0.02), dReal(0.02), dReal(0.02)), 7800, {-0.5, 0, 0});
+  const dBodyID brick = scene.add_brick(8, 1000, {0, 0, 0});
+  const dGeomID wall = dCreateBox(scene.world.space(), dReal(0.01), 2, 2);
+  dGeomSetPosition(wall, dReal(0.3), 0, 0);
+  set_velocity(bullet, {1000, 0, 0});
+  dGeomMoved(dBodyGetFirstGeom(bullet));
+  int parts = 0;
+  for (int i = 0; i < 20; ++i) {
+    scene.step();
+    parts = std::max(parts, scene.parts);
+  }
+  CHECK(parts > 1);
+  CHECK(place_of(brick)[0] < 0.25);
+  CHECK(place_of(bullet)[0] < place_of(brick)[0]);
+}
+
+TEST_CASE("kinematic bodies move as told, and push what they meet") {
+  OdeSession session;
+  StepperWorld scene(0.01);
+  scene.surface.mu = dReal(0.3);
+  scene.world.add_plane();
+  const dBodyID brick = scene.add_brick(8, 1000, {0, 0, 0.05});
+  const dBodyID pusher = scene.add_brick(8, 1000, {-0.25, 0, 0.051});
+  dBodySetKinematic(pusher);
+  set_velocity(pusher, {0.1, 0, 0});
+  scene.run(2);
+  CHECK(place_of(pusher)[0] == doctest::Approx(-0.05));
+  CHECK(place_of(brick)[0] - place_of(pusher)[0] == doctest::Approx(0.2).epsilon(1e-3));
+  CHECK(velocity_of(brick)[0] == doctest::Approx(0.1));
+}
+
+TEST_CASE("gravity modes, damping and the largest angular speed are those of the bodies") {
+  OdeSession session;
+  StepperWorld scene(0.01);
+  const dBodyID floating = scene.add_ball(0.05, {0, 0, 1});
+  dBodySetGravityMode(floating, 0);
+  set_velocity(floating, {1, 0, 0});
+  dBodySetLinearDamping(floating, dReal(0.1));
+  set_spin(floating, {0, 0, 100});
+  dBodySetMaxAngularSpeed(floating, 10);
+  scene.run(0.1);
+  CHECK(velocity_of(floating)[0] == doctest::Approx(std::pow(0.9, 10)));
+  CHECK(velocity_of(floating)[2] == 0);
+  CHECK(spin_of(floating)[2] == doctest::Approx(10));
+}
+
+TEST_CASE("a disabled body sleeps until something that moves touches it") {
+  OdeSession session;
+  StepperWorld scene(0.01);
+  scene.world.add_plane();
+  const dBodyID brick = scene.add_brick(8, 1000, {0, 0, 0.2});
+  dBodyDisable(brick);
+  scene.run(0.1);
+  CHECK(place_of(brick)[2] == dReal(0.2));
+  CHECK(dBodyIsEnabled(brick) == 0);
+  scene.add_ball(0.05, {0, 0, 0.35});
+  scene.run(0.5);
+  CHECK(dBodyIsEnabled(brick) == 1);
+  CHECK(place_of(brick)[2] < 0.06);
+}
+
+TEST_CASE("bodies at rest fall asleep together, stay, and wake together") {
+  OdeSession session;
+  StepperWorld scene(0.01);
+  scene.surface.mu = dReal(0.5);
+  scene.world.add_plane();
+  dWorldSetAutoDisableFlag(scene.world.id(), 1);
+  dWorldSetAutoDisableTime(scene.world.id(), dReal(0.2));
+  dWorldSetAutoDisableAverageSamplesCount(scene.world.id(), 5);
+  std::array<dBodyID, 3> tower{};
+  for (std::size_t i = 0; i < 3; ++i) tower[i] = scene.add_brick(8, 1000, {0, 0, 0.05 + 0.1 * double(i)});
+  const dBodyID apart = scene.add_ball(0.05, {1, 0, 0.05});
+  set_velocity(apart, {0, 0.5, 0});
+  scene.run(1);
+  for (const dBodyID body : tower) CHECK(dBodyIsEnabled(body) == 0);
+  CHECK(dBodyIsEnabled(apart) == 1);
+  const Vec before = place_of(tower[2]);
+  scene.run(0.1);
+  CHECK(place_of(tower[2]) == before);
+  dBodyEnable(tower[2]);
+  set_velocity(tower[2], {0.5, 0, 0});
+  scene.step();
+  for (const dBodyID body : tower) CHECK(dBodyIsEnabled(body) == 1);
+  scene.run(1);
+  for (const dBodyID body : tower) CHECK(dBodyIsEnabled(body) == 0);
+  CHECK(place_of(tower[2])[0] > 0.01);
+  CHECK(place_of(tower[2])[2] == doctest::Approx(0.25).epsilon(1e-3));
+}
+
+TEST_CASE("quickstep moves bodies that were not added, and bodies that joints hold with all that they touch") {
+  OdeSession session;
+  StepperWorld scene(0.01);
+  scene.surface.mu = dReal(0.5);
+  scene.world.add_plane();
+  const dBodyID free = scene.world.add(snCreateEllipsoid(scene.world.space(), 1, 1, 1), 1000);
+  dBodySetPosition(free, 0, 50, 100);
+  const dBodyID left = scene.add_ball(0.05, {0, 0, 0.05});
+  const dBodyID right = scene.add_ball(0.05, {0.12, 0, 0.05});
+  const dBodyID top = scene.add_brick(8, 1000, {0.06, 0, 0.152});
+  const dBodyID aside = scene.add_brick(8, 1000, {1, 0, 0.05});
+  const dJointID rod = dJointCreateFixed(scene.world.id(), nullptr);
+  dJointAttach(rod, left, right);
+  dJointSetFixed(rod);
+  scene.run(1);
+  CHECK(place_of(free)[2] == doctest::Approx(100 - 0.5 * kGravity * 1.01));  // 100 steps of ODE
+  CHECK(place_of(right)[0] - place_of(left)[0] == doctest::Approx(0.12).epsilon(1e-3));
+  CHECK(place_of(top)[2] == doctest::Approx(0.15).epsilon(1e-2));
+  CHECK(place_of(aside)[2] == doctest::Approx(0.05).epsilon(1e-3));
+  scene.collide();
+  REQUIRE(snStepperStep(scene.stepper, dReal(0.01)) > 0);
+  double on_floor = 0;
+  for (int i = 0; i < scene.contacts; ++i) {
+    dVector3 force;
+    REQUIRE(snStepperContactForce(scene.stepper, i, force) == 1);
+    on_floor += std::abs(double{force[2]});
+  }
+  const double weight = kGravity * (2 * mass_of(left) + 2 * mass_of(top) + mass_of(aside));  // the brick on top is carried twice
+  CHECK(on_floor == doctest::Approx(weight).epsilon(0.05));
+}
