@@ -16,6 +16,10 @@ struct Body {
   /// Adds what forces and torques change in `time` (s).
   void apply_forces(double time);
 
+  /// The part of the forces of a sub-step that acts before the positions: half where the sub-step is centred in time. In stacks
+  /// that rest all of it, or light bodies under heavy ones hop (README).
+  double part_before() const { return is_centred ? 0.5 : 1; }
+
   /// Moves the body on by `time` (s). The angular momentum stays as it is in the world, so no gyroscopic torque is needed.
   void advance(double time);
 
@@ -58,6 +62,7 @@ struct Body {
   bool stirs = false;                               ///< whether it wakes what it touches: kinematic bodies at rest do not
   bool is_awake = false;                            ///< whether it moves; spreads by contacts
   bool is_held = false;                             ///< whether a joint holds it, so that quickstep moves it; spreads by contacts
+  bool is_centred = false;                          ///< whether its sub-steps are centred in time; spreads by contacts
   bool is_restless = true;                          ///< whether it must not sleep; spreads by contacts
 
  private:

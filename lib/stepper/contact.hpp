@@ -19,7 +19,7 @@ struct Row {
       response2;        ///< 1/(kg m); the changes of the angular velocities by a unit impulse, of body 2 with the sign of body 1
   double mobility = 0;  ///< 1/kg; the change of velocity by a unit impulse
   double impulse = 0;   ///< N s; in the present sub-step, so far
-  double later = 0;     ///< N s; the half of the last impulse that follows after the positions
+  double later = 0;     ///< N s; the part of the last impulse that follows after the positions
   double total = 0;     ///< N s; in the sub-steps so far
   double motion = 0;    ///< m/s; the velocity that the surface asks for
   double centring = 0;  ///< m/s; half of what turning geometry takes from the velocity in a sub-step (moving_contacts.hpp)
@@ -44,6 +44,7 @@ struct Contact {
   double impact = 0;            ///< N s; along the normal, of an impact
   double separation_speed = 0;  ///< m/s; after the impact
   const Surface* surface = nullptr;
+  double part_before = 1;  ///< the part of its last impulse that acts before the positions
   bool moves = false;      ///< whether place and normal follow the bodies within the step
   int rolling = -1;        ///< in System::rolling; -1: none
   int given = 0;           ///< its number in the order in which the program added it

@@ -107,7 +107,8 @@ void MovingContacts::choose_of(System& system, const Pair& pair, double step) {
     moving.first_gap = moved.gap;
     list_.push_back(moving);
   }
-  for (Body* const body : {&system.body1(contact), &system.body2(contact)}) body->is_followed = body->is_dynamic();
+  for (Body* const body : {&system.body1(contact), &system.body2(contact)})
+    body->is_followed = body->is_centred = body->is_dynamic();
 }
 
 bool MovingContacts::Moving::read_sides(const System& system, const Contact& at) {

@@ -25,6 +25,7 @@ double Stepper::step(double time) {
   time_ = time / count;
   soften(whole_);
   moving_.choose(system_, time);
+  centre();
   memory_.recall(system_, time_);
   moving_.follow(system_);  // a contact ahead has the normal of the place where the bodies will meet
   double done = 0;
@@ -46,20 +47,32 @@ double Stepper::step(double time) {
   return done;
 }
 
+// Bodies that touch one another are centred together, or a contact would push against half of a weight.
+void Stepper::centre() {
+  spread(&Body::is_centred, &Body::is_free);
+  for (Body& body : system_.bodies) body.is_centred = body.is_dynamic() && (body.is_centred || !body.is_touched);
+  for (Contact& contact : system_.contacts) {
+    contact.part_before = std::min(system_.body1(contact).part_before(), system_.body2(contact).part_before());
+  }
+}
+
 void Stepper::sub_step(int number) {
-  for (Body& body : system_.bodies) body.apply_forces(time_ / 2);
+  for (Body& body : system_.bodies) body.apply_forces(time_ * body.part_before());
   bounce(system_, time_);
   system_.for_each_row([&](const Contact& contact, Row& row) {
-    row.later = row.impulse = row.impulse / 2;
-    system_.push(contact, row, row.later);
+    const double last = row.impulse;
+    row.impulse = last * contact.part_before;
+    row.later = last - row.impulse;
+    system_.push(contact, row, row.impulse);
   });
   sweep(system_, {Sweep::Biased, number % 2 != 0, time_, number * time_, fastest_out_});
   moving_.begin_turn(system_);
   for (Body& body : system_.bodies) body.advance(time_);
   moving_.follow(system_);
   moving_.end_turn(system_);
-  for (Body& body : system_.bodies) body.apply_forces(time_ / 2);
+  for (Body& body : system_.bodies) body.apply_forces(time_ * (1 - body.part_before()));
   system_.for_each_row([&](const Contact& contact, Row& row) {
+    if (row.later == 0) return;
     row.impulse += row.later;
     system_.push(contact, row, row.later);
   });

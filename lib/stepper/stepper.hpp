@@ -50,6 +50,7 @@ class Stepper {
   void spread(bool Body::*property, bool Body::*source);
   void set_up_contacts();
   void soften(double step);
+  void centre();
   void sub_step(int number);
   void keep_forces(double time);
   bool has_left_path(double time) const;

@@ -51,7 +51,7 @@ class Sweeper {
 
   void solve_friction(Contact& contact) const {
     const Surface& surface = *contact.surface;
-    const double time = is_biased() ? settings_.time / 2 : settings_.time;
+    const double time = is_biased() ? settings_.time * contact.part_before : settings_.time;
     const Pairwise limits = {surface.friction[0].in(time, contact.normal().impulse),
                              surface.friction[1].in(time, contact.normal().impulse)};
     const double largest = std::max(limits[0], limits[1]);
@@ -72,7 +72,7 @@ class Sweeper {
   void solve_rolling(const Contact& contact) const {
     Rolling* const torques = system_.rolling_of(contact);
     if (torques == nullptr) return;
-    const double time = is_biased() ? settings_.time / 2 : settings_.time;
+    const double time = is_biased() ? settings_.time * contact.part_before : settings_.time;
     for (std::size_t k = 0; k < 3; ++k) {
       Row& row = (*torques)[k];
       const double largest = contact.surface->rolling[k].in(time, contact.normal().impulse);

@@ -5,8 +5,8 @@
 
 namespace supernormal::stepper {
 
-/// A biased sweep comes before the positions: it also takes a little of every overlap away, and only half of the last impulses act
-/// yet. A relaxing sweep comes after them and takes the velocity of that away again.
+/// A biased sweep comes before the positions and also takes a little of every overlap away. A relaxing sweep comes after them and
+/// takes the velocity of that away again.
 enum class Sweep { Biased, Relaxing };
 
 struct SweepSettings {
