@@ -34,6 +34,7 @@ double Stepper::step(double time) {
     sub_step(made++);
     done = made < count ? made * time_ : time;
   } while (made < count && !has_left_path(done));
+  system_.for_each_row([](const Contact&, Row& row) { row.total += row.impulse; });
   left_ = time - done;
   sub_steps_.learn(system_, done);
   memory_.keep(system_, time_);
@@ -61,6 +62,11 @@ void Stepper::sub_step(int number) {
   bounce(system_, time_);
   system_.for_each_row([&](const Contact& contact, Row& row) {
     const double last = row.impulse;
+    if (number > 0) row.total += last;
+    if (last == 0) {
+      row.later = 0;
+      return;
+    }
     row.impulse = last * contact.part_before;
     row.later = last - row.impulse;
     system_.push(contact, row, row.impulse);
@@ -77,7 +83,6 @@ void Stepper::sub_step(int number) {
     system_.push(contact, row, row.later);
   });
   sweep(system_, {Sweep::Relaxing, number % 2 == 0, time_, (number + 1) * time_, fastest_out_});
-  system_.for_each_row([](const Contact&, Row& row) { row.total += row.impulse; });
 }
 
 bool Stepper::has_left_path(double time) const {

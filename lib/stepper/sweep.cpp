@@ -50,10 +50,11 @@ class Sweeper {
   }
 
   void solve_friction(Contact& contact) const {
+    const double normal = contact.normal().impulse;
+    if (normal == 0 && contact.rows[1].impulse == 0 && contact.rows[2].impulse == 0) return;
     const Surface& surface = *contact.surface;
     const double time = is_biased() ? settings_.time * contact.part_before : settings_.time;
-    const Pairwise limits = {surface.friction[0].in(time, contact.normal().impulse),
-                             surface.friction[1].in(time, contact.normal().impulse)};
+    const Pairwise limits = {surface.friction[0].in(time, normal), surface.friction[1].in(time, normal)};
     const double largest = std::max(limits[0], limits[1]);
     const double slip = std::max(surface.slip[0], surface.slip[1]) / settings_.time;  // 1/kg
     const double mass = contact.tangent_mass / (1 + contact.tangent_mass * slip);
@@ -88,6 +89,7 @@ class Sweeper {
   double pending(const Row& row) const { return is_biased() ? row.later : 0; }
 
   void add(const Contact& contact, Row& row, double impulse) const {
+    if (impulse == row.impulse) return;  // most contacts ahead have none
     system_.push(contact, row, impulse - row.impulse);
     row.impulse = impulse;
   }
