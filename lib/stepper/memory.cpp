@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <span>
 
 namespace supernormal::stepper {
 
@@ -26,16 +25,22 @@ bool Memory::is_swapped(const Contact& contact, const System& system, const Key&
   return one != key.low;
 }
 
+std::span<Memory::Force> Memory::forces_of(const Key& key) {
+  const auto known = std::ranges::equal_range(forces_, key, is_before, &Force::key);
+  return {known.begin(), known.end()};
+}
+
+void Memory::leave(const Contact& contact, const System& system) {
+  for (Force& force : forces_of(key_of(contact, system))) force.is_left = true;
+}
+
 void Memory::recall(System& system, double time) {
   for (const Pair& pair : system.pairs) recall_pair(system, pair, time);
 }
 
 void Memory::recall_pair(System& system, const Pair& pair, double time) {
   const Key key = key_of(system.contact(pair.first), system);
-  const auto begin = std::ranges::lower_bound(forces_, key, is_before, &Force::key);
-  auto end = begin;
-  while (end != forces_.end() && !is_before(key, end->key)) ++end;
-  const std::span<Force> known(begin, end);
+  const std::span<Force> known = forces_of(key);
   for (int k = 0; k < pair.count; ++k) {
     Contact& contact = system.contact(pair.first + k);
     const bool swapped = is_swapped(contact, system, key);
@@ -64,7 +69,8 @@ void Memory::recall_pair(System& system, const Pair& pair, double time) {
 }
 
 void Memory::keep(System& system, double time) {
-  forces_.clear();
+  std::erase_if(forces_, [](const Force& force) { return !force.is_left || force.is_taken; });
+  for (Force& force : forces_) force.is_left = false;
   for (const Contact& contact : system.contacts) {
     Force& force = forces_.emplace_back();
     force.key = key_of(contact, system);

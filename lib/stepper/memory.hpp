@@ -1,6 +1,7 @@
 // The contact forces of the last step.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "stepper/contact.hpp"
@@ -13,6 +14,9 @@ class Memory {
   /// body that moves. There the manifold points of a body that slides are the same ones, and the point of a body that rolls is the
   /// nearest.
   void recall(System& system, double time);
+
+  /// Before keep(): leaves the forces of the contact's geoms as they are, because their bodies sleep.
+  void leave(const Contact& contact, const System& system);
 
   /// Keeps the forces that act in the present sub-step of `time` (s).
   void keep(System& system, double time);
@@ -32,10 +36,12 @@ class Memory {
     Vector3 torque;                 // N m, world frame, on the same body
     Vector3 centring;               // m/s, of a contact that moves
     bool is_taken = false;
+    bool is_left = false;
   };
   static Key key_of(const Contact& contact, const System& system);
   static bool is_before(const Key& a, const Key& b);
   static bool is_swapped(const Contact& contact, const System& system, const Key& key);
+  std::span<Force> forces_of(const Key& key);
   void recall_pair(System& system, const Pair& pair, double time);
 
   std::vector<Force> forces_;  // sorted by their keys

@@ -7,6 +7,7 @@
 
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
+#include "stepper/softness.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/proximity.hpp"
 #include "supernormal/proximity/solve.hpp"
@@ -81,7 +82,7 @@ void MovingContacts::choose(System& system, double step) {
 
 void MovingContacts::choose_of(System& system, const Pair& pair, double step) {
   const Contact& contact = system.contact(pair.first);
-  if (contact.gap >= kNear * contact.size) return;
+  if (contact.gap >= kNear * contact.size || contact.gap < -kDeep * contact.size) return;
   const Body& one = system.body1(contact);
   const Body& two = system.body2(contact);
   const double turn = step * (one.angular_velocity - two.angular_velocity).norm();

@@ -36,7 +36,7 @@ double Stepper::step(double time) {
   } while (made < count && !has_left_path(done));
   system_.for_each_row([](const Contact&, Row& row) { row.total += row.impulse; });
   left_ = time - done;
-  sub_steps_.learn(system_, done);
+  if (!system_.contacts.empty()) sub_steps_.learn(system_, done);  // what sleeps keeps its stiffness
   memory_.keep(system_, time_);
   keep_forces(done);
   step_others(time, done);
@@ -172,8 +172,16 @@ void Stepper::set_up_contacts() {
   const double layer = dWorldGetContactSurfaceLayer(world_);
   for (const Given& given : given_) {
     if (given.body1 < 0 || given.body2 < 0) continue;
+    if (!body(given.body1).is_dynamic() && !body(given.body2).is_dynamic()) {
+      Contact asleep;
+      asleep.body1 = given.body1;
+      asleep.body2 = given.body2;
+      asleep.geom1 = given.contact.geom.g1;
+      asleep.geom2 = given.contact.geom.g2;
+      memory_.leave(asleep, system_);
+      continue;
+    }
     Contact contact = contact_of(system_, given.contact, given.surface, given.body1, given.body2);
-    if (!(system_.body1(contact).is_dynamic() || system_.body2(contact).is_dynamic())) continue;
     contact.layer = layer;
     contact.given = static_cast<int>(&given - given_.data());
     const Contact* const last = system_.contacts.empty() ? nullptr : &system_.contacts.back();
