@@ -7,12 +7,11 @@
 namespace supernormal::stepper {
 
 // Contacts that a program makes without geoms are those of the two bodies.
-Memory::Key Memory::key_of(const Contact& contact, const System& system) {
-  const void* one = contact.geom1;
-  const void* two = contact.geom2;
-  if (one == nullptr) one = system.body1(contact).id;
-  if (two == nullptr) two = system.body2(contact).id;
-  return std::less<>()(two, one) ? Key{two, one} : Key{one, two};
+Memory::Key Memory::key_of(dGeomID geom1, const Body& body1, dGeomID geom2, const Body& body2) {
+  const void* const one = geom1 != nullptr ? static_cast<const void*>(geom1) : body1.id;
+  const void* const two = geom2 != nullptr ? static_cast<const void*>(geom2) : body2.id;
+  const bool is_swapped = std::less<>()(two, one);
+  return {is_swapped ? two : one, is_swapped ? one : two, is_swapped};
 }
 
 bool Memory::is_before(const Key& a, const Key& b) {
@@ -20,18 +19,13 @@ bool Memory::is_before(const Key& a, const Key& b) {
   return is_less(a.low, b.low) || (a.low == b.low && is_less(a.high, b.high));
 }
 
-bool Memory::is_swapped(const Contact& contact, const System& system, const Key& key) {
-  const void* const one = contact.geom1 != nullptr ? static_cast<const void*>(contact.geom1) : system.body1(contact).id;
-  return one != key.low;
-}
-
 std::span<Memory::Force> Memory::forces_of(const Key& key) {
   const auto known = std::ranges::equal_range(forces_, key, is_before, &Force::key);
   return {known.begin(), known.end()};
 }
 
-void Memory::leave(const Contact& contact, const System& system) {
-  for (Force& force : forces_of(key_of(contact, system))) force.is_left = true;
+void Memory::leave(dGeomID geom1, const Body& body1, dGeomID geom2, const Body& body2) {
+  for (Force& force : forces_of(key_of(geom1, body1, geom2, body2))) force.is_left = true;
 }
 
 void Memory::recall(System& system, double time) {
@@ -39,17 +33,17 @@ void Memory::recall(System& system, double time) {
 }
 
 void Memory::recall_pair(System& system, const Pair& pair, double time) {
-  const Key key = key_of(system.contact(pair.first), system);
+  const Contact& of = system.contact(pair.first);
+  const Key key = key_of(of.geom1, system.body1(of), of.geom2, system.body2(of));
   const std::span<Force> known = forces_of(key);
   for (int k = 0; k < pair.count; ++k) {
     Contact& contact = system.contact(pair.first + k);
-    const bool swapped = is_swapped(contact, system, key);
     const bool by_first = system.body1(contact).is_dynamic();
     Force* nearest = nullptr;
     double least = std::numeric_limits<double>::infinity();
     for (Force& force : known) {
       if (force.is_taken) continue;
-      const Vector3& place = by_first == swapped ? force.place_high : force.place_low;
+      const Vector3& place = by_first == key.is_swapped ? force.place_high : force.place_low;
       const double distance = (place - (by_first ? contact.place1 : contact.place2)).squaredNorm();
       if (distance >= least) continue;
       least = distance;
@@ -57,7 +51,7 @@ void Memory::recall_pair(System& system, const Pair& pair, double time) {
     }
     if (nearest == nullptr) return;
     nearest->is_taken = true;
-    const double sign = swapped ? -1 : 1;
+    const double sign = key.is_swapped ? -1 : 1;
     contact.rows[0].impulse = time * nearest->normal;
     for (std::size_t i = 1; i < 3; ++i) contact.rows[i].impulse = sign * time * nearest->tangential.dot(contact.rows[i].direction);
     if (Rolling* const torques = system.rolling_of(contact)) {
@@ -73,9 +67,9 @@ void Memory::keep(System& system, double time) {
   for (Force& force : forces_) force.is_left = false;
   for (const Contact& contact : system.contacts) {
     Force& force = forces_.emplace_back();
-    force.key = key_of(contact, system);
+    force.key = key_of(contact.geom1, system.body1(contact), contact.geom2, system.body2(contact));
     force.order = static_cast<int>(forces_.size());
-    const bool swapped = is_swapped(contact, system, force.key);
+    const bool swapped = force.key.is_swapped;
     force.place_low = swapped ? contact.place2 : contact.place1;
     force.place_high = swapped ? contact.place1 : contact.place2;
     const double sign = swapped ? -1 : 1;

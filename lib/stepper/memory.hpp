@@ -15,8 +15,8 @@ class Memory {
   /// nearest.
   void recall(System& system, double time);
 
-  /// Before keep(): leaves the forces of the contact's geoms as they are, because their bodies sleep.
-  void leave(const Contact& contact, const System& system);
+  /// Before keep(): leaves the forces of two geoms as they are, because their bodies sleep.
+  void leave(dGeomID geom1, const Body& body1, dGeomID geom2, const Body& body2);
 
   /// Keeps the forces that act in the present sub-step of `time` (s).
   void keep(System& system, double time);
@@ -26,6 +26,7 @@ class Memory {
   struct Key {
     const void* low = nullptr;
     const void* high = nullptr;
+    bool is_swapped = false;  // whether the second geom is the first here
   };
   struct Force {
     Key key;
@@ -38,9 +39,8 @@ class Memory {
     bool is_taken = false;
     bool is_left = false;
   };
-  static Key key_of(const Contact& contact, const System& system);
+  static Key key_of(dGeomID geom1, const Body& body1, dGeomID geom2, const Body& body2);
   static bool is_before(const Key& a, const Key& b);
-  static bool is_swapped(const Contact& contact, const System& system, const Key& key);
   std::span<Force> forces_of(const Key& key);
   void recall_pair(System& system, const Pair& pair, double time);
 

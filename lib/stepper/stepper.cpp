@@ -173,12 +173,7 @@ void Stepper::set_up_contacts() {
   for (const Given& given : given_) {
     if (given.body1 < 0 || given.body2 < 0) continue;
     if (!body(given.body1).is_dynamic() && !body(given.body2).is_dynamic()) {
-      Contact asleep;
-      asleep.body1 = given.body1;
-      asleep.body2 = given.body2;
-      asleep.geom1 = given.contact.geom.g1;
-      asleep.geom2 = given.contact.geom.g2;
-      memory_.leave(asleep, system_);
+      memory_.leave(given.contact.geom.g1, body(given.body1), given.contact.geom.g2, body(given.body2));
       continue;
     }
     Contact contact = contact_of(system_, given.contact, given.surface, given.body1, given.body2);
