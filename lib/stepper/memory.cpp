@@ -20,8 +20,8 @@ bool Memory::is_before(const Key& a, const Key& b) {
 }
 
 std::span<Memory::Force> Memory::forces_of(const Key& key) {
-  const auto known = std::ranges::equal_range(forces_, key, is_before, &Force::key);
-  return {known.begin(), known.end()};
+  return {std::ranges::lower_bound(forces_, key, is_before, &Force::key),
+          std::ranges::upper_bound(forces_, key, is_before, &Force::key)};
 }
 
 void Memory::leave(dGeomID geom1, const Body& body1, dGeomID geom2, const Body& body2) {
