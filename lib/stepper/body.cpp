@@ -15,8 +15,8 @@ namespace {
 using ode::to_real;
 using ode::to_vector;
 
-// A body this far off its path, relative to its size, asks for new contacts: half as much, and beds are asked 1.6 times as often;
-// ten times as much, and a brick that a bullet hits goes through a wall (README).
+// A body this far off its path, relative to its size, asks for new contacts. Half as much: more calls; without: what a bullet
+// throws on passes a wall (README).
 constexpr double kFarOff = 0.25;
 constexpr double kFarTurned = 0.5;  // rad; the same for a body as long as twice its size
 

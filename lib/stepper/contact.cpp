@@ -31,7 +31,7 @@ void set_rows(System& system, Contact& contact, const Vector3& place, const Vect
     for (std::size_t k = 0; k < 3; ++k) set((*torques)[k], Vector3::Zero(), directions[(k + 1) % 3], directions[(k + 1) % 3]);
   }
   // One mass for all directions across the normal, the smallest: then friction opposes the slip. The exact 2 x 2 solution, cut to
-  // the friction cone, does not: a body that slides obliquely has 1.8 times the acceleration (README).
+  // the friction cone, would not.
   const Row& u = contact.rows[1];
   const Row& v = contact.rows[2];
   const double mixed = u.lever1.dot(v.response1) + u.lever2.dot(v.response2);

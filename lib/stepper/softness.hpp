@@ -5,11 +5,11 @@
 
 namespace supernormal::stepper {
 
-// rad; the phase of a contact's spring in a sub-step. From 1.25 times as much on, stacks shake; half of it takes 1.4 times the
-// sub-steps for the same sag (README).
+// rad; the phase of a contact's spring in a sub-step. With half of it loads press in four times as far, with twice as much they are
+// thrown (README).
 inline constexpr double kPhase = 0.4 * 3.14159265358979323846;
 
-// The damping ratio of a contact's spring: it corrects an overlap in about 20 sub-steps and does not swing. (README: 1, 3, 30.)
+// The damping ratio of a contact's spring: an overlap is corrected in some 20 sub-steps, and nothing swings (README).
 inline constexpr double kDampingRatio = 10;
 
 // Relative to the size: a deeper overlap is corrected no faster than this one, or bodies that a program puts into one another are
