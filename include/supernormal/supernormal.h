@@ -219,11 +219,20 @@ SUPERNORMAL_ODE_API int snSetDefaultLookAhead(dReal time);
  * 0: the next dWorldStep's or dWorldQuickStep's. The contact's depth becomes 0, its surface gets dContactMotionN, and -gap/step
  * is added to the motionN that it has by this flag. A contact of geoms that look ahead gets a dContactSoftERP of 0.8, if it has
  * none: it corrects 0.8 of its overlap in a step, whatever the world's ERP. Other contacts stay unchanged. Call it after setting
- * contact->surface.
- * dContactBounce does not suit a contact ahead, because ODE would throw the body back before it touches. A body that is stopped
- * ahead has lost its velocity when it touches, and bounces by it no more. Restitution with look-ahead is in the effects of C++; a
- * C program leaves the time of geoms that shall bounce at 0. Set dContactApprox1: without it mu is a force, which acts before the
- * bodies touch. With a step that is refused (snLastError), or NULL, nothing is changed. */
+ * contact->surface, and bodies' velocities and forces.
+ *
+ * dContactBounce acts as in ODE: bodies that approach faster than bounce_vel leave with `bounce` (in [0, 1]) times their
+ * velocity. They turn back before they touch, in the step in which they would touch, because a contact moves no body. They get
+ * the velocity that they would have there on their way back. So a body that falls rises to the square of `bounce` times its
+ * height, at any step, if it hits faster than 2 g step / bounce^2. A slower one that would rise less than it is high at the
+ * start of this step closes the gap first, and bounces in the next step with what is left of its velocity. Resting bodies do
+ * not bounce, and overlapping bodies that part are not pushed apart. For this the call may change surface.mode, bounce and
+ * motionN. The velocities and forces are those of the bodies of contact->geom.g1 and g2; a geom without a body, as one in a
+ * dGeomTransform, stands still. The impacts of one step are simultaneous: for Newton's cradle take the effects of C++, which
+ * move bodies until they touch.
+ *
+ * Set dContactApprox1: without it mu is a force, which acts before the bodies touch. With a step or a bounce that is refused
+ * (snLastError), or NULL, nothing is changed. */
 SUPERNORMAL_ODE_API void snContactLookAhead(dContact* contact, dReal step);
 
 /* --- queries of two bodies --------------------------------------------------------------------------------------------- */

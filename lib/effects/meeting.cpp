@@ -16,6 +16,7 @@
 
 #include "effects/motion.hpp"
 #include "ode/geom/body.hpp"
+#include "ode/geom/bounce.hpp"
 
 namespace supernormal::effects {
 namespace {
@@ -68,15 +69,12 @@ struct Bounce {
 /// the bodies bounce with the velocity that they have where they touch.
 std::optional<Bounce> find_bounce(const PairMaterial& pair, const Separation& separation, double step, bool is_moved = true) {
   if (!(pair.restitution > 0) || !(separation.velocity < 0)) return std::nullopt;
+  const auto touch = ode::find_touch(separation.gap, separation.velocity, separation.acceleration, step);
+  if (!touch) return std::nullopt;
   const double change = separation.acceleration * step / 2;
-  const double rate = separation.velocity + change;
-  const double square = rate * rate - 2 * separation.acceleration * separation.gap;
-  if (!(square >= 0)) return std::nullopt;
-  const double closing = std::sqrt(square) - rate;
-  if (!(2 * separation.gap <= step * closing)) return std::nullopt;
-  const double speed = is_moved ? std::sqrt(square) : -rate;
+  const double speed = is_moved ? touch->speed : -(separation.velocity + change);
   if (!(speed > pair.threshold) || !(pair.restitution * speed > separation.load * step / 2)) return std::nullopt;
-  return Bounce{2 * separation.gap / closing, pair.restitution * speed - change};
+  return Bounce{touch->time, pair.restitution * speed - change};
 }
 
 /// The change of the separating velocity by a unit impulse, 1/kg.

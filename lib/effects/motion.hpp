@@ -6,23 +6,12 @@
 #include <Eigen/Geometry>
 
 #include "ode/geom/convert.hpp"
-#include "ode/geom/look_ahead.hpp"
+#include "ode/geom/motion.hpp"
 
 namespace supernormal::effects {
 
-/// m/s^2; the acceleration known before the step, from gravity and the forces so far. 0 for `body` = 0, a wall.
-inline Vector3 acceleration_of(dBodyID body) {
-  if (body == nullptr || dBodyIsKinematic(body) != 0) return Vector3::Zero();
-  dMass mass;
-  dBodyGetMass(body, &mass);
-  return ode::acceleration_of(body, mass);
-}
-
-inline Vector3 velocity_at(dBodyID body, const Vector3& point) {
-  if (body == nullptr) return Vector3::Zero();
-  const Vector3 lever = point - ode::to_vector(dBodyGetPosition(body));
-  return ode::to_vector(dBodyGetLinearVel(body)) + ode::to_vector(dBodyGetAngularVel(body)).cross(lever);
-}
+using ode::acceleration_of;
+using ode::velocity_at;
 
 inline Vector3 spin_of(dBodyID body) {
   return body == nullptr ? Vector3(Vector3::Zero()) : ode::to_vector(dBodyGetAngularVel(body));

@@ -388,9 +388,33 @@ def test_refusals_of_contacts_before_overlap():
         so.contactLookAhead(geom, 0.01)
     mode = contact.getMode()
     contact.setContactGeomParams((0, 0, 0), (0, 0, 1), -1, geom, geom)
-    with pytest.raises(ValueError, match="ode.ContactBounce"):
+    contact.setBounce(1.5)
+    with pytest.raises(ValueError, match=r"surface.bounce = 1.5 is outside \[0, 1\]"):
         so.contactLookAhead(contact, 0.01)
     assert contact.getContactGeomParams()[2] == -1 and contact.getMode() == mode
+
+
+def test_restitution_of_contacts_before_overlap():
+    world, space, step = pyode.World(), pyode.Space(), 0.01
+    world.setGravity((0, 0, -9.81))
+    contacts = pyode.JointGroup()
+    floor = pyode.GeomPlane(space, (0, 0, 1), 0)
+    ball = so.Ellipsoid(space, (0.05, 0.05, 0.05))
+    body = pyode.Body(world)
+    ball.setBodyAndMass(body, 1000)
+    body.setPosition((0, 0, 0.55))
+    ball.setLookAhead(step)
+    while body.getLinearVel()[2] <= 0:
+        for contact in pyode.collide(ball, floor):
+            contact.setMode(pyode.ContactApprox1 | pyode.ContactBounce)
+            contact.setBounce(0.8)
+            so.contactLookAhead(contact, step)
+            pyode.ContactJoint(world, contacts, contact).attach(body, None)
+        world.quickStep(step)
+        contacts.empty()
+    velocity = body.getLinearVel()[2] - 9.81 * step / 2
+    height = body.getPosition()[2] - 0.05 + velocity**2 / (2 * 9.81)
+    assert height == pytest.approx(0.64 * 0.5, rel=1e-3)
 
 
 def test_wrong_types():

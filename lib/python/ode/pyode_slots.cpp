@@ -77,17 +77,13 @@ py::ssize_t find_contact(const py::handle& contact, double mu, double motion2, d
 
 void look_ahead(const py::handle& contact, py::ssize_t offset, double step) {
   const auto duration = static_cast<dReal>(step);
+  dContact held = read_contact(contact, offset);
   dContact probe{};
   probe.geom.depth = -1;
+  probe.surface.mode = held.surface.mode & dContactBounce;
+  probe.surface.bounce = held.surface.bounce;
   snContactLookAhead(&probe, duration);
   if (probe.geom.depth < 0) throw std::invalid_argument(snLastError());
-  dContact held = read_contact(contact, offset);
-  if (held.geom.depth < 0 && (held.surface.mode & dContactBounce) != 0) {
-    throw std::invalid_argument(
-        "contact: its mode has ode.ContactBounce (an ode.Contact starts with it) and its depth is negative; allowed: no bounce "
-        "before "
-        "touch, as by setMode(ode.ContactApprox1)");
-  }
   snContactLookAhead(&held, duration);
   std::memcpy(reinterpret_cast<char*>(contact.ptr()) + offset, &held, sizeof held);
 }

@@ -310,8 +310,8 @@ def contactLookAhead(contact: Any, step: float) -> None:
     step: s, > 0, the same as in the next World.step() or quickStep().
 
     Call it after the contact's parameters are set and before the ContactJoint is made. It leaves other contacts unchanged. Set
-    ode.ContactApprox1: without it mu is a force, which acts before the bodies touch. Raises ValueError for a negative depth with
-    ode.ContactBounce, the default mode of ode.Contact: ODE would repel the body before it touches.
+    ode.ContactApprox1: without it mu is a force, which acts before the bodies touch. With ode.ContactBounce, in the default mode of
+    ode.Contact, bodies bounce ahead of touch: see snContactLookAhead. Raises ValueError for a bounce outside [0, 1].
     """
     if not isinstance(contact, _pyode.Contact):
         raise TypeError(f"contact is a {type(contact).__name__}, but must be an ode.Contact")
