@@ -26,68 +26,113 @@ double most_swing(const MotionAhead& motion1, const MotionAhead& motion2, double
 }
 
 /// Two single contacts of a round body with the same normal, now and at the end of the free motion, as one manifold.
-void add_end(const BodyAhead& body1, const BodyAhead& body2, double time, double share, const ContactManifold& ahead,
-             ContactManifold& contacts) {
-  limit_rotation(body1, body2, time, share, contacts);
+template <class Pair>
+void add_end(const Pair& pair, const ContactManifold& ahead, ContactManifold& contacts) {
+  limit_rotation(pair.body1, pair.body2, pair.time, pair.share, contacts);
   const ManifoldCorner end{contacts.deepest.contact, -contacts.deepest.gap};
   const ManifoldCorner now{ahead.deepest.contact, -ahead.deepest.gap};
   if (now.depth > end.depth) contacts.deepest = ahead.deepest;
   contacts.corners = {now, now, end, end};
   contacts.corner_count = ContactManifold::kMaxCorners;
-  contacts.same_place = kSamePlace * smaller_thickness(body1.shape, body2.shape);
+  contacts.same_place = kSamePlace * smaller_thickness(pair.body1.shape, pair.body2.shape);
   contacts.shallow = kShallow * contacts.same_place;
 }
 
-/// The contacts after the free motion, for two bodies or a body and a plane. Of these it asks, for a motion and a normal: `planes`,
-/// the gap of the tangent planes at the end; `proximity` at the end; `impact`, the first on the way; and for a proximity at the end
-/// the `manifold`.
-template <class Planes, class FindProximity, class FindManifold, class FindImpact>
-std::optional<ContactManifold> find_after(const BodyAhead& body1, const BodyAhead& body2, double time, double share,
-                                          const Settings& settings, const Proximity& now, const ContactManifold& ahead,
-                                          const Planes& planes, const FindProximity& proximity, const FindManifold& manifold,
-                                          const FindImpact& impact) {
-  const FreeMotion free(body1, body2, time);
+/// Two bodies that move freely. `planes`: the gap of the tangent planes at the end of a motion. `impact`: the first on the way.
+struct TwoBodies {
+  const BodyAhead& body1;
+  const BodyAhead& body2;
+  double time;   // s
+  double share;  // of body 1 in the gap, where contacts are
+  const Settings& settings;
+
+  double planes(const FreeMotion& motion, const Vector3& normal) const {
+    GapJet jet;
+    const Pose end1 = motion.end1();
+    GapFunction(body1.shape, end1, body2.shape, motion.end2()).evaluate(end1.rotation.transpose() * normal, Order::Point, jet);
+    return jet.s;
+  }
+  Proximity proximity(const FreeMotion& motion, const Vector3& normal) const {
+    const Pose end1 = motion.end1();
+    const Vector3 first = end1.rotation.transpose() * normal;
+    return find_proximity(body1.shape, end1, body2.shape, motion.end2(), settings, &first);
+  }
+  ContactManifold manifold(const FreeMotion& motion, const Proximity& there) const {
+    return find_manifold_of_gaps(body1.shape, motion.end1(), body2.shape, motion.end2(), there, share);
+  }
+  Impact impact(const FreeMotion& motion, const Vector3& normal) const {
+    const Vector3 first = body1.pose.rotation.transpose() * normal;
+    return find_time_of_impact(body1.shape, motion.motion1(), body2.shape, motion.motion2(), time, settings, &first);
+  }
+};
+
+/// A body and a plane at rest. Body 2 has the shape of body 1, but no motion.
+struct BodyAndPlane {
+  const BodyAhead& body1;
+  double time;      // s
+  Vector3 upwards;  // unit, world frame
+  double offset;    // m
+  BodyAhead body2{body1.shape, body1.pose, {}};
+  double share = 1;
+  Settings settings{};
+
+  double planes(const FreeMotion& motion, const Vector3& normal) const { return proximity(motion, normal).gap; }
+  Proximity proximity(const FreeMotion& motion, const Vector3& /*normal*/) const {
+    return find_plane_proximity(body1.shape, motion.end1(), upwards, offset);
+  }
+  ContactManifold manifold(const FreeMotion& motion, const Proximity& there) const {
+    return find_plane_manifold_of_gaps(body1.shape, motion.end1(), there);
+  }
+  Impact impact(const FreeMotion& motion, const Vector3& /*normal*/) const {
+    return find_plane_time_of_impact(body1.shape, motion.motion1(), upwards, offset, time);
+  }
+};
+
+/// The contacts after the free motion of a pair, in place of those of `now` and `ahead`.
+template <class Pair>
+std::optional<ContactManifold> find_after(const Pair& pair, const Proximity& now, const ContactManifold& ahead) {
+  const FreeMotion free(pair.body1, pair.body2, pair.time);
   const double held_back = free.bends() ? free.held_back_by(ahead) : 0;
-  const double size = smaller_thickness(body1.shape, body2.shape);
+  const double size = smaller_thickness(pair.body1.shape, pair.body2.shape);
   const double graze = kGraze * size;
   const bool may_be_free = now.gap > 0 && held_back > now.error;
-  const bool may_swing_in = ahead.corner_count == 0 && most_swing(body1.motion, body2.motion, time) > graze;
+  const bool may_swing_in = ahead.corner_count == 0 && most_swing(pair.body1.motion, pair.body2.motion, pair.time) > graze;
   const Vector3& normal = ahead.deepest.normal;
   int evaluations = ahead.deepest.evaluations;
   if (!may_be_free) {
     if (!may_swing_in) return std::nullopt;
     ++evaluations;
     // The tangent planes with the normal of the contact prove that the end is no deeper than they say.
-    if (!(-planes(free, normal) > held_back + graze)) return std::nullopt;
+    if (!(-pair.planes(free, normal) > held_back + graze)) return std::nullopt;
   }
   const auto contacts_at = [&](const FreeMotion& motion, const Proximity& end) {
-    ContactManifold contacts = manifold(motion, end);
-    motion.take_back(share, contacts);
+    ContactManifold contacts = pair.manifold(motion, end);
+    motion.take_back(pair.share, contacts);
     contacts.reach = ahead.reach;
     return contacts;
   };
-  const Proximity there = proximity(free, normal);
+  const Proximity there = pair.proximity(free, normal);
   if (there.status == Status::InvalidInput) return std::nullopt;
   evaluations += there.evaluations;
   if (may_swing_in && -there.gap > held_back + graze && (there.normal - normal).norm() < kParallel) {
     ContactManifold contacts = contacts_at(free, there);
     remove_overlaps(contacts);
-    add_end(body1, body2, time, share, ahead, contacts);
+    add_end(pair, ahead, contacts);
     contacts.deepest.evaluations = evaluations;
     return contacts;
   }
   if (!may_be_free || !(there.gap > 0)) return std::nullopt;
   const auto contacts_after = [&](const FreeMotion& motion) -> std::optional<ContactManifold> {
-    const Proximity end = &motion == &free ? there : proximity(motion, normal);
+    const Proximity end = &motion == &free ? there : pair.proximity(motion, normal);
     if (&motion != &free) evaluations += end.evaluations;
     if (end.status == Status::InvalidInput || !(end.gap > 0)) return std::nullopt;
-    const Impact first = impact(motion, now.normal);
+    const Impact first = pair.impact(motion, now.normal);
     evaluations += first.evaluations;
     if (first.may_hit()) return std::nullopt;
     return contacts_at(motion, end);
   };
-  const FreeMotion borne(without_forces(body1), without_forces(body2), time);
-  std::optional<ContactManifold> contacts = choose_contacts(free, borne, graze, settings.tolerance * size, contacts_after);
+  const FreeMotion borne(without_forces(pair.body1), without_forces(pair.body2), pair.time);
+  std::optional<ContactManifold> contacts = choose_contacts(free, borne, graze, pair.settings.tolerance * size, contacts_after);
   if (contacts) contacts->deepest.evaluations = evaluations;
   return contacts;
 }
@@ -153,45 +198,14 @@ void remove_overlaps(ContactManifold& contacts) {
 std::optional<ContactManifold> find_contacts_after_free_motion(const BodyAhead& body1, const BodyAhead& body2, double time,
                                                                double share, const Settings& settings, const Proximity& now,
                                                                const ContactManifold& ahead) {
-  const Shape& shape1 = body1.shape;
-  const Shape& shape2 = body2.shape;
-  const auto planes = [&](const FreeMotion& motion, const Vector3& normal) {
-    GapJet jet;
-    const Pose end1 = motion.end1();
-    GapFunction(shape1, end1, shape2, motion.end2()).evaluate(end1.rotation.transpose() * normal, Order::Point, jet);
-    return jet.s;
-  };
-  const auto proximity = [&](const FreeMotion& motion, const Vector3& normal) {
-    const Pose end1 = motion.end1();
-    const Vector3 first = end1.rotation.transpose() * normal;
-    return find_proximity(shape1, end1, shape2, motion.end2(), settings, &first);
-  };
-  const auto manifold = [&](const FreeMotion& motion, const Proximity& there) {
-    return find_manifold_of_gaps(shape1, motion.end1(), shape2, motion.end2(), there, share);
-  };
-  const auto impact = [&](const FreeMotion& motion, const Vector3& normal) {
-    const Vector3 first = body1.pose.rotation.transpose() * normal;
-    return find_time_of_impact(shape1, motion.motion1(), shape2, motion.motion2(), time, settings, &first);
-  };
-  return find_after(body1, body2, time, share, settings, now, ahead, planes, proximity, manifold, impact);
+  return find_after(TwoBodies{body1, body2, time, share, settings}, now, ahead);
 }
 
 std::optional<ContactManifold> find_plane_contacts_after_free_motion(const BodyAhead& body, double time, const Proximity& now,
                                                                      const ContactManifold& ahead) {
   if (body.motion.angular_velocity.isZero(0) && body.motion.angular_acceleration.isZero(0)) return std::nullopt;
   const Vector3 upwards = -now.normal;
-  const double offset = upwards.dot(now.point2);
-  const auto proximity = [&](const FreeMotion& motion, const Vector3&) {
-    return find_plane_proximity(body.shape, motion.end1(), upwards, offset);
-  };
-  const auto planes = [&](const FreeMotion& motion, const Vector3& normal) { return proximity(motion, normal).gap; };
-  const auto manifold = [&](const FreeMotion& motion, const Proximity& there) {
-    return find_plane_manifold_of_gaps(body.shape, motion.end1(), there);
-  };
-  const auto impact = [&](const FreeMotion& motion, const Vector3&) {
-    return find_plane_time_of_impact(body.shape, motion.motion1(), upwards, offset, time);
-  };
-  return find_after(body, {body.shape, body.pose, {}}, time, 1, Settings{}, now, ahead, planes, proximity, manifold, impact);
+  return find_after(BodyAndPlane{body, time, upwards, upwards.dot(now.point2)}, now, ahead);
 }
 
 }  // namespace supernormal
