@@ -40,13 +40,13 @@ double height_of(dBodyID body) { return double{dBodyGetPosition(body)[2]} - kHal
 /// m; from where a body falls that ODE starts with velocity 0 at a height: that of the middle of the step before.
 double start_of_fall(double height, double step) { return height + kGravity * step * step / 8; }
 
-/// m; how high a falling body rises after its first bounce. ODE's velocity is that of the middle of the last step.
+/// m; how high a falling body rises when it falls no longer. ODE's velocity is that of the middle of the last step.
 double rise_after_bounce(World& world, dBodyID body, double step) {
   int steps = 0;
   do {
     world.quick_step(step);
     REQUIRE(++steps < 10000);
-  } while (!(dBodyGetLinearVel(body)[2] > 0));
+  } while (!(dBodyGetLinearVel(body)[2] > -1e-3 * kGravity * step));
   const double velocity = double{dBodyGetLinearVel(body)[2]} - kGravity * step / 2;
   return height_of(body) + velocity * velocity / (2 * kGravity);
 }
