@@ -122,7 +122,7 @@ void add_gravity(const Scene& scene, std::vector<std::string>& doubts) {
                           !std::holds_alternative<Periodic>(scene.container) && std::ranges::none_of(scene.walls, &Wall::moves) &&
                           std::ranges::none_of(walls_in(scene.container), &Wall::moves);
   if (scene.gravity() == nullptr && is_at_rest) {
-    doubts.push_back("the scene has no section [gravity]: grains stay where they start, and nothing moves them");
+    doubts.emplace_back("the scene has no section [gravity]: grains stay where they start, and nothing moves them");
   }
 }
 
