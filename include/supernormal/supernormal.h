@@ -442,8 +442,8 @@ SUPERNORMAL_ODE_API dReal snStepperStep(snStepperID stepper, dReal step);
  * snLastError) if refused. */
 SUPERNORMAL_ODE_API int snStepperSetAccuracy(snStepperID stepper, dReal sag, int least, int most);
 
-/** The force (N) on body 1 of a contact in the last step, its mean. The contacts have the numbers 0, 1, ... in the order in which
- * they were added. Returns 1; 0 (and snLastError) if there is no such contact. */
+/** The force (N) on body 1 of a contact, its mean over the time that the last snStepperStep returned. The contacts have the numbers
+ * 0, 1, ... in the order in which they were added. Returns 1; 0 (and snLastError) if there is no such contact. */
 SUPERNORMAL_ODE_API int snStepperContactForce(snStepperID stepper, int contact, dVector3 force);
 
 /* --- statistics --------------------------------------------------------------------------------------------------------- */

@@ -51,7 +51,7 @@ void Body::read(const Vector3& gravity) {
   velocity = first_velocity_ = to_vector(dBodyGetLinearVel(id));
   angular_velocity = to_vector(dBodyGetAngularVel(id));
   moved = rotated = acceleration_ = torque_ = Vector3::Zero();
-  is_touched = is_followed = is_centred = false;
+  is_touched = is_borne = is_followed = is_centred = false;
   max_angular_speed_ = dBodyGetMaxAngularSpeed(id);
   limit_angular_speed();
   first_angular_velocity_ = angular_velocity;

@@ -40,6 +40,9 @@ struct Body {
 
   bool is_dynamic() const { return inverse_mass > 0; }
 
+  /// m/s^2, of forces; 0 for what no force moves.
+  Vector3 acceleration() const { return is_dynamic() ? acceleration_ : Vector3::Zero(); }
+
   /// The centre of mass, m.
   Vector3 centre() const { return start + moved; }
 
@@ -57,6 +60,7 @@ struct Body {
   Matrix3 world_inverse_inertia = Matrix3::Zero();  ///< 1/(kg m^2), when the step began; now, if is_followed
   double size = 0;                                  ///< m; the smallest radius of gyration
   bool is_touched = false;                          ///< whether it has a contact
+  bool is_borne = false;                            ///< whether it touches what it has a contact with
   bool is_followed = false;                         ///< whether a contact follows its motion within the step
   bool is_free = false;                             ///< whether it is not kinematic
   bool stirs = false;                               ///< whether it wakes what it touches: kinematic bodies at rest do not

@@ -54,6 +54,7 @@ Contact contact_of(System& system, const dContact& given, const Surface& surface
     if (!body->is_dynamic()) continue;
     contact.size = std::min(contact.size, body->size);
     body->is_touched = true;
+    body->is_borne = body->is_borne || contact.gap <= 0;
   }
   if (surface.rolls()) {
     contact.rolling = static_cast<int>(system.rolling.size());
@@ -61,10 +62,14 @@ Contact contact_of(System& system, const dContact& given, const Surface& surface
   }
   const Vector3 place = to_vector(given.geom.pos);
   const Vector3 normal = to_vector(given.geom.normal).normalized();
-  constexpr double kNotAlong = 0.6;  // below 1/sqrt(2), so that the axis is far from the normal
-  const Vector3 axis = std::abs(normal.x()) < kNotAlong ? Vector3::UnitX() : Vector3::UnitY();
-  set_rows(system, contact, place, normal, surface.has_direction ? to_vector(given.fdir1) : axis);
+  // If the first body is the world, ODE exchanges the bodies and reverses the normal, but not fdir1.
+  const double sign = body1 == 0 ? -1 : 1;
+  dVector3 facing, along, across;
+  ode::from_vector(sign * normal, facing);
+  dPlaneSpace(facing, along, across);
+  set_rows(system, contact, place, normal, to_vector(surface.has_direction ? given.fdir1 : along));
   for (std::size_t k = 0; k < 3; ++k) contact.rows[k].motion = surface.motion[k];
+  contact.rows[1].motion *= sign;
   contact.place1 = one.rotation.transpose() * (place - one.start);
   contact.place2 = two.rotation.transpose() * (place - two.start);
   return contact;

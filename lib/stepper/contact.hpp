@@ -41,8 +41,9 @@ struct Contact {
   double size = 0;           ///< m; of the smaller of its moving bodies
   double tangent_mass = 0;   ///< kg; for both directions across the normal
   Softness softness;
-  double impact = 0;            ///< N s; along the normal, of an impact
-  double separation_speed = 0;  ///< m/s; after the impact
+  double impact = 0;                     ///< N s; along the normal, of an impact
+  double separation_speed = 0;           ///< m/s; after the impact
+  Vector3 of_impacts = Vector3::Zero();  ///< N s; on body 1, of all impacts of the step
   const Surface* surface = nullptr;
   double part_before = 1;  ///< the part of its last impulse that acts before the positions
   bool moves = false;      ///< whether place and normal follow the bodies within the step

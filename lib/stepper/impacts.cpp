@@ -18,8 +18,19 @@ struct Impact {
 
   bool meets(const Contact& contact) const { return system.gap(contact) <= time * approach(contact); }
 
-  bool bounces(const Contact& contact) const {
-    return contact.surface->bounce > 0 && approach(contact) > std::max(contact.surface->bounce_speed, kStill) && meets(contact);
+  /// m/s; the velocity for this sub-step of a pair that bounces in it, 0 if it does not. Velocities of sub-steps are those of a
+  /// parabola half a sub-step away, and the pair turns back where the sub-step begins, before it touches. Without both it would
+  /// gain energy. A pair that would rise less than its gap, as one at rest, closes the gap first.
+  double leaving(const Contact& contact) const {
+    const Surface& surface = *contact.surface;
+    const double arriving = approach(contact);
+    if (!(surface.bounce > 0 && arriving > std::max(surface.bounce_speed, kStill) && meets(contact))) return 0;
+    const Vector3 falling = system.body2(contact).acceleration() - system.body1(contact).acceleration();
+    const double acceleration = contact.normal().direction.dot(falling);
+    const double here = std::max(0.0, arriving - acceleration * time / 2);
+    const double below = 2 * acceleration * std::max(0.0, system.gap(contact));
+    const double square = surface.bounce * surface.bounce * (here * here + below) - below;
+    return std::max(0.0, std::sqrt(std::max(0.0, square)) - acceleration * time / 2);
   }
 
   /// Whether the pair has bounced. All of its contacts leave together, or a brick would begin to spin.
@@ -27,17 +38,20 @@ struct Impact {
     bool has_bounced = false;
     for (int k = 0; k < pair.count; ++k) {
       Contact& contact = system.contact(pair.first + k);
-      const bool is_struck = bounces(contact);
-      contact.separation_speed = is_struck ? contact.surface->bounce * approach(contact) : 0;
+      contact.separation_speed = leaving(contact);
       contact.impact = 0;
-      has_bounced = has_bounced || is_struck;
+      has_bounced = has_bounced || contact.separation_speed > 0;
     }
     if (!has_bounced) return false;
     const int sweeps = pair.count > 1 ? kSweepsOfManifold : 1;
     for (int i = 0; i < sweeps; ++i) {
       for (int k = 0; k < pair.count; ++k) solve(system.contact(pair.first + k));
     }
-    for (int k = 0; k < pair.count; ++k) rub(system.contact(pair.first + k));
+    for (int k = 0; k < pair.count; ++k) {
+      Contact& contact = system.contact(pair.first + k);
+      contact.of_impacts += contact.impact * contact.normal().direction;
+      rub(contact);
+    }
     return true;
   }
 
@@ -49,7 +63,7 @@ struct Impact {
     contact.impact = impulse;
   }
 
-  void rub(const Contact& contact) {
+  void rub(Contact& contact) {
     if (contact.impact == 0) return;
     std::array<double, 2> impulses{};
     double beyond = 0;
@@ -61,7 +75,10 @@ struct Impact {
       beyond += impulses[k] / largest * (impulses[k] / largest);
     }
     const double factor = beyond > 1 ? 1 / std::sqrt(beyond) : 1;
-    for (std::size_t k = 0; k < 2; ++k) system.push(contact, contact.rows[k + 1], factor * impulses[k]);
+    for (std::size_t k = 0; k < 2; ++k) {
+      system.push(contact, contact.rows[k + 1], factor * impulses[k]);
+      contact.of_impacts += factor * impulses[k] * contact.rows[k + 1].direction;
+    }
   }
 };
 

@@ -51,7 +51,7 @@ double Stepper::step(double time) {
 // Bodies that touch one another are centred together, or a contact would push against half of a weight.
 void Stepper::centre() {
   spread(&Body::is_centred, &Body::is_free);
-  for (Body& body : system_.bodies) body.is_centred = body.is_dynamic() && (body.is_centred || !body.is_touched);
+  for (Body& body : system_.bodies) body.is_centred = body.is_dynamic() && (body.is_centred || !body.is_borne);
   for (Contact& contact : system_.contacts) {
     contact.part_before = std::min(system_.body1(contact).part_before(), system_.body2(contact).part_before());
   }
@@ -207,6 +207,7 @@ void Stepper::keep_forces(double time) {
   forces_.assign(given_.size(), Vector3::Zero());
   for (const Contact& contact : system_.contacts) {
     Vector3& force = forces_[static_cast<std::size_t>(contact.given)];
+    force = contact.of_impacts / time;
     for (const Row& row : contact.rows) force += row.total / time * row.direction;
   }
 }

@@ -69,6 +69,50 @@ TEST_CASE("balls and bricks bounce with their restitution at every step") {
   }
 }
 
+TEST_CASE("a ball under gravity rises to the square of its restitution times its height, and rests in the end") {
+  OdeSession session;
+  for (const double step : {0.001, 0.01, 0.033}) {
+    for (const double coefficient : {0.5, 0.9, 1.0}) {
+      CAPTURE(step);
+      CAPTURE(coefficient);
+      StepperWorld scene(step);
+      scene.surface.mode |= dContactBounce;
+      scene.surface.bounce = dReal(coefficient);
+      scene.surface.bounce_vel = dReal(0.001);
+      scene.world.add_plane();
+      const dBodyID ball = scene.add_ball(0.05, {0, 0, 0.55});
+      const double rest = mass_of(ball) * kGravity * 0.05;
+      double before = energy(ball) - rest;
+      for (int bounces = 0; bounces < 2; ++bounces) {
+        while (velocity_of(ball)[2] <= 0) scene.step();
+        while (velocity_of(ball)[2] > 0) scene.step();
+        const double after = energy(ball) - rest;
+        CHECK(after == relative(coefficient * coefficient * before).epsilon(within_rounding(1e-9)));
+        before = after;
+      }
+      if (coefficient > 0.5) continue;
+      scene.run(2);
+      CHECK(norm(velocity_of(ball)) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("the force of a contact holds the impulse of a bounce") {
+  OdeSession session;
+  StepperWorld scene(0.01);
+  scene.surface.mode |= dContactBounce;
+  scene.surface.bounce = dReal(0.5);
+  scene.world.add_plane();
+  dWorldSetGravity(scene.world.id(), 0, 0, 0);
+  const dBodyID ball = scene.add_ball(0.05, {0, 0, 0.0525});
+  set_velocity(ball, {0, 0, -1});
+  scene.collide();
+  const double done = snStepperStep(scene.stepper, dReal(0.01));
+  dVector3 force;
+  REQUIRE(snStepperContactForce(scene.stepper, 0, force) == 1);
+  CHECK(std::abs(double{force[2]}) * done == relative(1.5 * mass_of(ball)).epsilon(within_rounding(1e-9)));
+}
+
 TEST_CASE("a cradle passes its momentum on, whether its balls touch or not") {
   OdeSession session;
   for (const double gap : {0.0, 1e-4, 3e-3}) {

@@ -96,6 +96,32 @@ TEST_CASE("surfaces move") {
   CHECK(velocity_of(on.ball)[2] > 0.09);
 }
 
+TEST_CASE("a belt moves bodies as it does in quickstep, in both orders of the bodies, with and without fdir1") {
+  OdeSession session;
+  for (const bool is_first : {true, false}) {
+    for (const int direction : {0, int{dContactFDir1}}) {
+      BallOnFloor on;
+      on.contact.surface.mode = dContactApprox1 | dContactMotion1 | dContactMotion2 | direction;
+      on.contact.surface.mu = 1;
+      on.contact.surface.motion1 = dReal(0.3);
+      on.contact.surface.motion2 = dReal(0.1);
+      on.contact.geom.normal[2] = is_first ? 1 : -1;
+      on.contact.geom.pos[2] = 0;
+      const dBodyID other = on.scene.world.add(snCreateEllipsoid(nullptr, dReal(0.05), dReal(0.05), dReal(0.05)), 1000);
+      dBodySetPosition(other, 1, 0, dReal(0.05));
+      dContact beside = on.contact;
+      beside.geom.pos[0] = 1;
+      const dJointID joint = dJointCreateContact(on.scene.world.id(), nullptr, &beside);
+      dJointAttach(joint, is_first ? other : nullptr, is_first ? nullptr : other);
+      REQUIRE(snStepperAddContact(on.scene.stepper, &on.contact, is_first ? on.ball : nullptr, is_first ? nullptr : on.ball) == 1);
+      REQUIRE(snStepperStep(on.scene.stepper, dReal(kStep)) == dReal(kStep));  // quickstep moves the other one
+      CHECK(norm(velocity_of(on.ball)) > 0.01);
+      CHECK(dot(velocity_of(on.ball), velocity_of(other)) > 0.99 * norm(velocity_of(on.ball)) * norm(velocity_of(other)));
+      dJointDestroy(joint);
+    }
+  }
+}
+
 TEST_CASE("slip is proportional to the force") {
   OdeSession session;
   BallOnFloor on;
