@@ -125,6 +125,7 @@ void change_motions(Wall& wall, const Wall& changed, double now) {
   wall.motions = changed.motions;
   std::erase_if(wall.motions, [now](const WallMotion& motion) { return motion.until <= now; });
   for (WallMotion& motion : wall.motions) motion.from = std::max(motion.from, now);
+  if (!wall.moves()) wall.motions.push_back({.kind = Translation{supernormal::Vector3::Zero()}, .from = now});  // may move again
 }
 
 void change_drive(Drive& drive, const Drive& changed) {
