@@ -287,8 +287,8 @@ TEST_CASE("random pairs: no impact is missed, late or early by a slow search") {
     RandomMotions random(6);
     long evaluations = 0;
     int hits = 0, not_converged = 0, most = 0;
-    const int kPairs = draws(400);
-    for (int k = 0; k < kPairs; ++k) {
+    const int pairs = draws(400);
+    for (int k = 0; k < pairs; ++k) {
       const std::string name = std::string(kind.name) + " " + std::to_string(k);
       CAPTURE(name);
       const MovingPair pair = random.draw(kind, std::pow(10, random.uniform(-6, 0.3)));
@@ -306,9 +306,9 @@ TEST_CASE("random pairs: no impact is missed, late or early by a slow search") {
       evaluations += impact.evaluations;
       most = std::max(most, impact.evaluations);
     }
-    CHECK(not_converged <= kPairs / 100);
-    CHECK(hits > kPairs / 10);
-    MESSAGE(std::string(kind.name), ": evaluations ", static_cast<double>(evaluations) / kPairs, " on average, at most ", most,
+    CHECK(not_converged <= pairs / 100);
+    CHECK(hits > pairs / 10);
+    MESSAGE(std::string(kind.name), ": evaluations ", static_cast<double>(evaluations) / pairs, " on average, at most ", most,
             "; hits ", hits, ", not converged ", not_converged);
   }
 }

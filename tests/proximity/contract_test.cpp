@@ -113,13 +113,13 @@ TEST_CASE("deep overlaps: the interval holds for every pair, and one in five hun
 }
 
 TEST_CASE("a followed normal is left for one of a depth that is less by more than a sixth") {
-  const int kPairs = draws(150);   // of each kind, half of them shallow
+  const int pairs = draws(150);    // of each kind, half of them shallow
   constexpr double kGain = 0.17;   // Tuning::leaving_gain
   constexpr double kLooks = 0.02;  // of the unit, Tuning::unsearched_depth
   int followed = 0;
   for (const RandomKind& kind : random_kinds()) {
     RandomBodies bodies(kind, 93);
-    for (int k = 0; k < kPairs; ++k) {
+    for (int k = 0; k < pairs; ++k) {
       const RandomPair pair = bodies.draw(k % 2 == 0 ? bodies.uniform(-1, -0.1) : bodies.uniform(-0.2, -0.02));
       const Vector3 first = bodies.draw_apart().pose2.rotation.col(0);
       const Proximity answer = find_proximity(*pair.shape1, {}, *pair.shape2, pair.pose2, {}, &first);
