@@ -219,9 +219,9 @@ def _assignments(values: Optional[Values]) -> List[str]:
     for key in values:
         if not isinstance(key, str) or "=" in key:
             raise TypeError(f"values has the key {key!r}; allowed: a key of a scene, such as 'time.step' or 'grain[pea].count'")
-    return [
-        f"{key}.enabled=false" if value is None else f"{key}={_toml(f'values[{key!r}]', value)}" for key, value in values.items()
-    ]
+    left_out = [f"{key}.enabled=false" for key, value in values.items() if value is None and "." not in key]
+    kept = {key: value for key, value in values.items() if value is not None or "." in key}
+    return left_out + [f"{key}={_toml(f'values[{key!r}]', value)}" for key, value in kept.items()]
 
 
 def _integer(name: str, value: Any, lowest: int, highest: int) -> int:
