@@ -28,6 +28,10 @@ void Memory::leave(dGeomID geom1, const Body& body1, dGeomID geom2, const Body& 
   for (Force& force : forces_of(key_of(geom1, body1, geom2, body2))) force.is_left = true;
 }
 
+void Memory::forget(dBodyID body) {
+  std::erase_if(forces_, [body](const Force& force) { return force.body1 == body || force.body2 == body; });
+}
+
 void Memory::recall(System& system, double time) {
   for (const Pair& pair : system.pairs) recall_pair(system, pair, time);
 }
@@ -68,6 +72,8 @@ void Memory::keep(System& system, double time) {
   for (const Contact& contact : system.contacts) {
     Force& force = forces_.emplace_back();
     force.key = key_of(contact.geom1, system.body1(contact), contact.geom2, system.body2(contact));
+    force.body1 = system.body1(contact).id;
+    force.body2 = system.body2(contact).id;
     force.order = static_cast<int>(forces_.size());
     const bool swapped = force.key.is_swapped;
     force.place_low = swapped ? contact.place2 : contact.place1;

@@ -18,6 +18,9 @@ class Memory {
   /// Before keep(): leaves the forces of two geoms as they are, because their bodies sleep.
   void leave(dGeomID geom1, const Body& body1, dGeomID geom2, const Body& body2);
 
+  /// Forgets the forces on a body: another one may come to have its address, and its geoms'.
+  void forget(dBodyID body);
+
   /// Keeps the forces that act in the present sub-step of `time` (s).
   void keep(System& system, double time);
 
@@ -30,6 +33,7 @@ class Memory {
   };
   struct Force {
     Key key;
+    dBodyID body1 = nullptr, body2 = nullptr;
     int order = 0;                  // among the contacts of the step
     Vector3 place_low, place_high;  // m, in the frames of the bodies
     double normal = 0;              // N

@@ -239,6 +239,7 @@ void Stepper::remove_body(dBodyID body) {
   system_.bodies[static_cast<std::size_t>(removed)] = system_.bodies.back();
   system_.bodies.pop_back();
   indices_.erase(body);
+  memory_.forget(body);
 }
 
 void Stepper::add_contact(const dContact& contact, dBodyID body1, dBodyID body2) {

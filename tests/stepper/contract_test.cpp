@@ -144,6 +144,24 @@ TEST_CASE("a body that is removed, and then destroyed, takes its contacts with i
   CHECK(std::abs(carried) == doctest::Approx(kGravity * mass_of(third)).epsilon(1e-3));
 }
 
+TEST_CASE("a body at the address of a removed one does not take over its forces") {
+  OdeSession session;
+  StepperWorld scene(0.01);
+  scene.world.add_plane();
+  double highest = 0;
+  for (int i = 0; i < 6; ++i) {
+    const dBodyID brick = scene.add_brick(20, i % 2 == 0 ? 1e5 : 1, {0, 0, 0.05});
+    for (int k = 0; k < 20; ++k) {
+      scene.step();
+      highest = std::max(highest, place_of(brick)[2]);
+    }
+    REQUIRE(snStepperRemoveBody(scene.stepper, brick) == 1);
+    dGeomDestroy(dBodyGetFirstGeom(brick));
+    dBodyDestroy(brick);
+  }
+  CHECK(highest < 0.0501);
+}
+
 TEST_CASE("a step ends early where a bullet throws a brick on, and the brick does not pass a wall") {
   OdeSession session;
   StepperWorld scene(0.01);
