@@ -20,6 +20,7 @@ struct Row {
   double mobility = 0;  ///< 1/kg; the change of velocity by a unit impulse
   double impulse = 0;   ///< N s; in the present sub-step, so far
   double later = 0;     ///< N s; the part of the last impulse that follows after the positions
+  double recalled = 0;  ///< N s; the impulse in a sub-step by the force of the last step
   double total = 0;     ///< N s; in the sub-steps so far
   double motion = 0;    ///< m/s; the velocity that the surface asks for
   double centring = 0;  ///< m/s; half of what turning geometry takes from the velocity in a sub-step (moving_contacts.hpp)

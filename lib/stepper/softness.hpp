@@ -16,10 +16,11 @@ inline constexpr double kDampingRatio = 10;
 // thrown apart (README).
 inline constexpr double kDeep = 0.1;
 
-/// Of a contact in a sub-step of `time` (s).
-inline Softness softness_in(double time) {
-  constexpr double kDamping = kPhase * (2 * kDampingRatio + kPhase);
-  return {.rate = kPhase / (2 * kDampingRatio + kPhase) / time, .mass = kDamping / (1 + kDamping), .keep = 1 / (1 + kDamping)};
+/// Of a contact in a sub-step of `time` (s), with a spring that turns by kPhase in `spring` (s).
+inline Softness softness_in(double time, double spring) {
+  const double phase = kPhase * time / spring;
+  const double damping = phase * (2 * kDampingRatio + phase);
+  return {.rate = phase / (2 * kDampingRatio + phase) / time, .mass = damping / (1 + damping), .keep = 1 / (1 + damping)};
 }
 
 /// Of a contact with quickstep's ERP and CFM, m/(N s), in sub-steps of `time` of a `step` (s). It is the spring and the damper that

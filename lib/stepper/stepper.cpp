@@ -27,6 +27,7 @@ double Stepper::step(double time) {
   moving_.choose(system_, time);
   centre();
   memory_.recall(system_, time_);
+  system_.for_each_row([](const Contact&, Row& row) { row.recalled = row.impulse; });
   moving_.follow(system_);  // a contact ahead has the normal of the place where the bodies will meet
   double done = 0;
   int made = 0;
@@ -37,6 +38,7 @@ double Stepper::step(double time) {
   system_.for_each_row([](const Contact&, Row& row) { row.total += row.impulse; });
   left_ = time - done;
   if (!system_.contacts.empty()) sub_steps_.learn(system_, done);  // what sleeps keeps its stiffness
+  settle_forces();
   memory_.keep(system_, time_);
   keep_forces(done);
   step_others(time, done);
@@ -83,6 +85,13 @@ void Stepper::sub_step(int number) {
     system_.push(contact, row, row.later);
   });
   sweep(system_, {Sweep::Relaxing, number % 2 == 0, time_, (number + 1) * time_, fastest_out_});
+}
+
+// In a far shorter step than the last an impulse is no force that lasts: times the next step it would throw the bodies.
+void Stepper::settle_forces() {
+  const double part = time_ / sub_steps_.spring();
+  if (part == 1) return;
+  system_.for_each_row([part](const Contact&, Row& row) { row.impulse = row.recalled + part * (row.impulse - row.recalled); });
 }
 
 bool Stepper::has_left_path(double time) const {
@@ -189,7 +198,7 @@ void Stepper::set_up_contacts() {
 }
 
 void Stepper::soften(double step) {
-  const Softness own = softness_in(time_);
+  const Softness own = softness_in(time_, sub_steps_.spring());
   for (Contact& contact : system_.contacts) {
     const Surface& surface = *contact.surface;
     if (surface.erp < 0 && !(surface.cfm > 0)) {

@@ -52,6 +52,7 @@ class Stepper {
   void soften(double step);
   void centre();
   void sub_step(int number);
+  void settle_forces();
   void keep_forces(double time);
   bool has_left_path(double time) const;
   void step_others(double planned, double time);

@@ -29,11 +29,13 @@ int SubSteps::choose(double time, double step) {
   } else {
     double next = std::clamp(needed_, shortest, longest);
     if (next > kLittleLess * duration_ && next < kLittleMore * duration_) next = duration_;
-    duration_ = std::min(std::clamp(next, duration_ / kChange, duration_ * kChange), longest);
+    duration_ = std::max(std::clamp(next, duration_ / kChange, duration_ * kChange), shortest);
   }
-  const double duration = std::min(duration_, std::max(turning_, shortest));
+  const double duration = std::min({duration_, longest, std::max(turning_, shortest)});
   constexpr double kRounding = 1e-9;
-  return std::max(1, static_cast<int>(std::ceil(time / duration - kRounding)));
+  const int count = std::max(1, static_cast<int>(std::ceil(time / duration - kRounding)));
+  spring_ = std::max(time / count, spring_ / kChange);
+  return count;
 }
 
 void SubSteps::learn(const System& system, double time) {

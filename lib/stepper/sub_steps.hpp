@@ -22,11 +22,16 @@ class SubSteps {
   /// The number of sub-steps for the next `time` (s) of a `step` (s).
   int choose(double time, double step);
 
+  /// s; the sub-step that springs are made for, at least the present one. It follows a far shorter step slowly: a spring that
+  /// stiffens at once throws what it carries.
+  double spring() const { return spring_; }
+
   /// Takes the forces of the sub-steps that were made, which lasted `time` (s).
   void learn(const System& system, double time);
 
  private:
-  double duration_ = 0;  // s, of a sub-step; 0 before the first step
+  double duration_ = 0;  // s, of a sub-step, if the step is long enough; 0 before the first step
+  double spring_ = 0;    // s
   double needed_ = 0;    // s; the longest sub-step for the forces of the last step
   double turning_ = 0;   // s; the longest sub-step for the contacts that move
 };

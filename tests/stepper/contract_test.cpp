@@ -162,6 +162,29 @@ TEST_CASE("a body at the address of a removed one does not take over its forces"
   CHECK(highest < 0.0501);
 }
 
+TEST_CASE("a step that is far shorter than the others, as what rounding leaves of a frame, throws nothing and costs nothing") {
+  for (const double rest : {1e-4, 1e-6, 1e-9, 1e-15}) {
+    OdeSession session;
+    StepperWorld scene(0.02);
+    scene.surface.mu = dReal(0.5);
+    scene.world.add_plane();
+    std::array<dBodyID, 5> tower{};
+    for (std::size_t i = 0; i < 5; ++i) tower[i] = scene.add_brick(8, 1000, {0, 0, 0.05 + 0.1 * double(i)});
+    // One falls, so that the short step has an impact.
+    const dBodyID falling = scene.add_brick(8, 1000, {0.5, 0, 0.05 + 0.5 * kGravity * 0.25 * 0.25});
+    scene.run(0.24);
+    for (int i = 0; i < 3; ++i) {
+      scene.collide();
+      REQUIRE(snStepperStep(scene.stepper, dReal(rest)) > 0);
+      scene.step();
+      CHECK(std::abs(velocity_of(tower.back())[2]) < 0.05);
+    }
+    scene.run(0.4);
+    CHECK_MESSAGE(place_of(tower.back())[2] == doctest::Approx(0.45).epsilon(3e-3), rest);
+    CHECK_MESSAGE(place_of(falling)[2] == doctest::Approx(0.05).epsilon(2e-2), rest);
+  }
+}
+
 TEST_CASE("a step ends early where a bullet throws a brick on, and the brick does not pass a wall") {
   OdeSession session;
   StepperWorld scene(0.01);
