@@ -412,7 +412,8 @@ SUPERNORMAL_ODE_API int snBatchCollide(snBatchID batch, dSpaceID space, int max_
  * contacts with dContactSoftCFM only. ODE tells nobody the moved callback of a body, so it is not called. */
 typedef struct snStepper* snStepperID;
 
-/** Creates a stepper for bodies of `world`. Returns 0 (and snLastError) if refused. */
+/** Creates a stepper for bodies of `world`. A world must have only one: each calls dWorldQuickStep, which moves the bodies of the
+ * others once more. Returns 0 (and snLastError) if refused. */
 SUPERNORMAL_ODE_API snStepperID snStepperCreate(dWorldID world);
 
 /** Destroys it; its bodies stay. Does nothing for 0. */
