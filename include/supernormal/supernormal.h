@@ -435,7 +435,8 @@ SUPERNORMAL_ODE_API int snStepperAddContact(snStepperID stepper, const dContact*
 
 /** Moves the bodies by `step` (s, > 0), keeps the contact forces for the next call, and forgets the contacts. Returns the time
  * done, s. It is less than `step` if bodies have left the paths for which their contacts were found, as after an impact: then
- * collide again, and call it with the rest. Returns a number < 0 (and snLastError) if it refuses; it has then changed nothing. */
+ * collide again, and call it with the rest. Forces and torques on bodies act for the time done, and are then removed, as by a step
+ * of ODE: add them again for the rest. Returns a number < 0 (and snLastError) if it refuses; it has then changed nothing. */
 SUPERNORMAL_ODE_API dReal snStepperStep(snStepperID stepper, dReal step);
 
 /** sag: the largest overlap of a contact at rest, relative to the least radius of gyration of its bodies, in [1e-12, 1]; default
