@@ -107,7 +107,8 @@ TEST_CASE("a belt moves bodies as it does in quickstep, in both orders of the bo
       on.contact.surface.motion2 = dReal(0.1);
       on.contact.geom.normal[2] = is_first ? 1 : -1;
       on.contact.geom.pos[2] = 0;
-      const dBodyID other = on.scene.world.add(snCreateEllipsoid(nullptr, dReal(0.05), dReal(0.05), dReal(0.05)), 1000);
+      const dBodyID other =
+          on.scene.world.add(snCreateEllipsoid(on.scene.world.space(), dReal(0.05), dReal(0.05), dReal(0.05)), 1000);
       dBodySetPosition(other, 1, 0, dReal(0.05));
       dContact beside = on.contact;
       beside.geom.pos[0] = 1;
