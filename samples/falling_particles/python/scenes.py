@@ -219,9 +219,13 @@ def _assignments(values: Optional[Values]) -> List[str]:
     for key in values:
         if not isinstance(key, str) or "=" in key:
             raise TypeError(f"values has the key {key!r}; allowed: a key of a scene, such as 'time.step' or 'grain[pea].count'")
-    left_out = [f"{key}.enabled=false" for key, value in values.items() if value is None and "." not in key]
-    kept = {key: value for key, value in values.items() if value is not None or "." in key}
-    return left_out + [f"{key}={_toml(f'values[{key!r}]', value)}" for key, value in kept.items()]
+    return [_assignment(key, value) for key, value in values.items()]
+
+
+def _assignment(key: str, value: Any) -> str:
+    if value is None and "." not in key:
+        return f"{key}.enabled=false"
+    return f"{key}={_toml(f'values[{key!r}]', value)}"
 
 
 def _integer(name: str, value: Any, lowest: int, highest: int) -> int:
@@ -244,7 +248,8 @@ class Scene:
     """A scene of falling_particles, which can be run many times.
 
     `values` replace or add values of the scene, as the program's --set does: {"time.step": 1e-3, "container.width[1]": 0.06,
-    "grain[pea].count": 20, "friction": {"coefficient": 0.3}, "damping": None}. None leaves an effect out. The files are read when the scene is made, and again by World.change().
+    "grain[pea].count": 20, "friction": {"coefficient": 0.3}, "damping": None}. None leaves an effect out. The files are read when the
+    scene is made, and again by World.change().
 
     Raises ValueError for what the program refuses, with the file, the line and the allowed values.
     """
@@ -470,12 +475,12 @@ class World:
     def change(self, values: Values) -> None:
         """Changes values of the scene from the next step on: {"gravity.acceleration": [0, 0, -1.6], "container.rpm": 40}.
 
-        The sections of effects, such as [gravity] and [friction], and [solver] may change and be added, and None leaves an effect out:
-        {"friction": None}. The run then continues from its saved state, as after a checkpoint, and all grains wake. Values of motions may change, too: container.rpm of a drum, .speed
-        and .pressure of a shear cell, .speed of a conveyor, part[NAME].motion, and of part[NAME].drive: .force, .torque, .power,
-        .largest_force, .largest_torque, .stress, .damping and .until, for a drive of the same kind. A side of a cell is
-        container.SIDE in place of part[NAME]. A new motion starts now, from the pose of the wall, with axes, points and directions of
-        the world. The summary lists each change with its time.
+        The sections of effects, such as [gravity] and [friction], and [solver] may change and be added, and None leaves an effect
+        out: {"friction": None}. The run then continues from its saved state, as after a checkpoint, and all grains wake. Values of
+        motions may change, too: container.rpm of a drum, .speed and .pressure of a shear cell, .speed of a conveyor,
+        part[NAME].motion, and of part[NAME].drive: .force, .torque, .power, .largest_force, .largest_torque, .stress, .damping and
+        .until, for a drive of the same kind. A side of a cell is container.SIDE in place of part[NAME]. A new motion starts now,
+        from the pose of the wall, with axes, points and directions of the world. The summary lists each change with its time.
 
         Raises ValueError for all other values, with those that may change, for a motion of a wall that stood at the start, and in a
         world with checkpoints, which do not hold changes. The world is then as before.

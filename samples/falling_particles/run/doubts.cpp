@@ -15,7 +15,6 @@
 #include "common/interval.hpp"
 #include "input/load_drive.hpp"
 #include "input/state_table.hpp"
-#include "model/container_walls.hpp"
 #include "model/grain_shape.hpp"
 #include "model/lattice.hpp"
 #include "model/wall_doubts.hpp"
@@ -93,12 +92,15 @@ void add_rounded_times(const Time& time, std::vector<std::string>& doubts) {
   add("time.frame", time.frame, time.steps_per_frame());
 }
 
+bool starts_on_lattice(const Scene& scene) {
+  return scene.grains_at_start() > 0 && !scene.start && !std::holds_alternative<Periodic>(scene.container);
+}
+
 // m, the largest way along gravity from the lattice, which fills the plan, to the end of the room; infinite where the container is
 // open. 0 without gravity, and where grains do not start on a lattice.
 double height_of_fall(const Scene& scene) {
   const auto* const gravity = scene.gravity();
-  const bool is_on_lattice = scene.grains_at_start() > 0 && !scene.start && !std::holds_alternative<Periodic>(scene.container);
-  if (gravity == nullptr || !is_on_lattice) return 0;
+  if (gravity == nullptr || !starts_on_lattice(scene)) return 0;
   const Lattice lattice = filled_lattice(scene);
   const auto* const cell = std::get_if<Cell>(&scene.container);  // its planes are around the start
   const Region room = cell != nullptr ? cell->start : room_of(scene.container);
@@ -118,9 +120,7 @@ double height_of_fall(const Scene& scene) {
 
 // Adds a doubt about a scene without gravity in which nothing else moves grains.
 void add_gravity(const Scene& scene, std::vector<std::string>& doubts) {
-  const bool is_at_rest = scene.grains_at_start() > 0 && !scene.start && scene.feeders.empty() &&
-                          !std::holds_alternative<Periodic>(scene.container) && std::ranges::none_of(scene.walls, &Wall::moves) &&
-                          std::ranges::none_of(walls_in(scene.container), &Wall::moves);
+  const bool is_at_rest = starts_on_lattice(scene) && scene.feeders.empty() && std::ranges::none_of(scene.walls, &Wall::moves);
   if (scene.gravity() == nullptr && is_at_rest) {
     doubts.emplace_back("the scene has no section [gravity]: grains stay where they start, and nothing moves them");
   }
