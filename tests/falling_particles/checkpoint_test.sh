@@ -26,9 +26,9 @@ forces = true
 # A belt that repeats across its way, with grains of two kinds and many sizes that come and go, a paddle that turns and a piston, and
 # five measurements.
 busy_scene() {
-  sed -e 's/^duration = .*/duration = 0.5/' -e 's/^speed = .*/speed = 1/' -e 's/^kg_per_second = .*/kg_per_second = 0.1/' \
+  sed -e 's/^duration = .*/duration = 0.3/' -e 's/^speed = .*/speed = 1/' -e 's/^kg_per_second = .*/kg_per_second = 0.1/' \
     -e '/^name = "soybean"$/{n;s/^count = 0$/&\nsize = { distribution = "uniform", unit = "catalogue", smallest = 0.8, largest = 1.2 }/}' \
-    -e 's/^until = 3.*/until = 0.4/' "$samples/scenes/feeder.toml"
+    -e 's/^until = 3.*/until = 0.25/' "$samples/scenes/feeder.toml"
   cat <<'END'
 [periodic]
 y = [0, 0.06]
@@ -162,7 +162,7 @@ stopped() {
 out_of_space() {
   local got=0 size
   rm -rf "$work/out"
-  for size in 150000 300000 600000 1200000; do
+  for size in 100000 200000 400000 800000; do
     got=0
     (ulimit -c 0 && prlimit --fsize=$size "$program" -q --scene "$work/scenes/$scene.toml" --out "$work/out" --checkpoint-every "$every" \
       --resume) >/dev/null 2>"$work/log" || got=$?
