@@ -28,7 +28,7 @@ forces = true
 busy_scene() {
   sed -e 's/^duration = .*/duration = 0.3/' -e 's/^speed = .*/speed = 1/' -e 's/^kg_per_second = .*/kg_per_second = 0.1/' \
     -e '/^name = "soybean"$/{n;s/^count = 0$/&\nsize = { distribution = "uniform", unit = "catalogue", smallest = 0.8, largest = 1.2 }/}' \
-    -e 's/^until = 3.*/until = 0.25/' "$samples/scenes/feeder.toml"
+    -e 's/^until = 3.*/until = 0.25/' -e 's/^corner = \[0.3, 0, 0\].*/corner = [0.12, 0, 0.1]/' "$samples/scenes/feeder.toml"
   cat <<'END'
 [periodic]
 y = [0, 0.06]
