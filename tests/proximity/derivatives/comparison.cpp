@@ -110,7 +110,8 @@ class Comparison {
 
  private:
   /// The derivatives in units of the bodies' size, each quantity divided by its norm in `scale`. Matrices have dynamic sizes here
-  /// and in turned(), because each product of fixed sizes is compiled by itself.
+  /// and in turned(), because each product of fixed sizes is compiled by itself; lazy products compile without Eigen's blocked
+  /// ones.
   Eigen::MatrixXd relative(const ProximityDerivatives& d, const ProximityDerivatives& scale) const {
     Eigen::VectorXd units(12);
     for (int k = 0; k < 12; ++k) units[k] = static_cast<double>(this->scale(k));
@@ -133,13 +134,15 @@ class Comparison {
 
   /// Derivatives for the twists that `turn` maps to those of `d`, with vectors turned by `rotation`.
   static ProximityDerivatives turned(const ProximityDerivatives& d, const Eigen::MatrixXd& turn, const Eigen::MatrixXd& rotation) {
-    const auto rows = [&](const Eigen::MatrixXd& of) -> Eigen::MatrixXd { return rotation * of * turn; };
+    const auto product = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) -> Eigen::MatrixXd { return a.lazyProduct(b); };
+    const auto rows = [&](const Eigen::MatrixXd& of) { return product(product(rotation, of), turn); };
+    const Eigen::MatrixXd back_turn = turn.transpose();
     ProximityDerivatives back = d;
-    back.gap_gradient = turn.transpose() * Eigen::MatrixXd(d.gap_gradient);
+    back.gap_gradient = product(back_turn, d.gap_gradient);
     back.normal = rows(d.normal);
     back.point1 = rows(d.point1);
     back.point2 = rows(d.point2);
-    back.gap_hessian = turn.transpose() * Eigen::MatrixXd(d.gap_hessian) * turn;
+    back.gap_hessian = product(product(back_turn, d.gap_hessian), turn);
     return back;
   }
 
@@ -247,7 +250,8 @@ class Comparison {
         H.col(i) *= static_cast<double>(scale(i));
       }
       const double size = H.norm() + unit_;
-      count(OfHessian, std::abs(direction.dot(found_.gap_hessian * direction) - static_cast<double>(derivative.value)) / size,
+      count(OfHessian,
+            std::abs(direction.dot(found_.gap_hessian.lazyProduct(direction)) - static_cast<double>(derivative.value)) / size,
             (derivative.error + rounding) / size);
     }
   }
