@@ -254,7 +254,7 @@ class Failures(RunTest):
         self.assertIn("FAILED: signal 11: ", self.ensemble("point", 0).stderr)
 
     def test_no_summary_is_a_failure(self):
-        self.stub.write_text("#!/bin/sh\n")
+        self.stub.write_text("#!/bin/sh\n[ \"$1\" != --version ]\n")
         self.assertIn("FAILED: cannot read summary.toml: ", self.ensemble("point", 0).stderr)
 
     def test_a_number_that_is_not_there_is_a_failure(self):
@@ -377,6 +377,19 @@ class FallingParticles(RunTest):
             self.assertEqual(done.returncode, 2)
             self.assertIn("sweep.toml: [[collect]] q: ", done.stderr)
             self.assertIn(says, done.stderr)
+        self.assertFalse(self.out.exists())
+
+    def test_a_key_that_the_scene_has_not_is_refused_before_the_first_run(self):
+        self.write('[grid]\n"friction.coeficient" = [0.1, 0.2]', SCENES / "short.toml")
+        done = self.ensemble("run", program=PROGRAM)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn('unknown key "coeficient" in [friction]; did you mean "coefficient"?', done.stderr)
+        self.assertFalse(self.out.exists())
+
+    def test_another_program_is_refused(self):
+        done = self.ensemble("run", program="/bin/true")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("--program /bin/true is another program", done.stderr)
         self.assertFalse(self.out.exists())
 
     def test_arguments_that_are_none_of_a_run_are_refused_before_the_first_run(self):

@@ -100,6 +100,8 @@ class Mistakes(SweepTest):
             ("seeds = 0", "sweep.toml: seeds is 0; allowed: a number of seeds from 1"),
             ("seeds = [1, 1]", "seeds is [1, 1]; allowed:"),
             ("seeds = true", "seeds is True"),
+            ("[grid]\na = [1, 2, 1]", '[grid] "a" has 1 twice; allowed: values that differ'),
+            ("[[list]]\na = 1\nb = 2\n[[list]]\na = 1\nb = 2", "[[list]] has a = 1, b = 2 twice; allowed: entries that differ"),
             ("[grid]\na = 3", '[grid] "a" is 3; allowed: an array'),
             ("[grid]\na = []", '[grid] "a" is []'),
             ("[[list]]\na = 1\n[[list]]\nb = 1", "[[list]]: its entries have different keys"),

@@ -9,10 +9,13 @@ from .quantity import NoValue
 
 
 def version_of(program):
-    """Its line of --version; of a program that has none, the digest of its file."""
+    """Its line of --version; of a program that refuses this option, the digest of its file."""
     code, text, _ = _ask(program, "--version")
-    if code == 0 and text.strip():
-        return text.strip().splitlines()[0]
+    if code == 0:
+        line = _first_line(text)
+        if not line.startswith("falling_particles "):
+            raise InputError(f"--program {program} is another program: its --version says {line!r}; allowed: falling_particles")
+        return line
     return hashlib.sha256(program.read_bytes()).hexdigest()
 
 
@@ -22,17 +25,20 @@ def options_of_runs(folder):
 
 
 def refuse_bad_requests(sweep, point, program):
-    """Raises InputError where the program takes the arguments of the sweep for none of a run, or where the run of a point does not
-    write a table or a column that is collected. What the program says against the scene is for the run to tell.
+    """Raises InputError where the scene has not a key of the sweep, where the program takes the arguments of the sweep for none of a run,
+    or where the run of a point does not write a table or a column that is collected. What the program says against a value is for the
+    run to tell, since another point may have another one.
     """
     assignments = [word for assignment in sweep.assignments(point) for word in ("--set", assignment)]
     question = ["--tables", str(sweep.scene), *assignments, *options_of_runs(".")]
-    code, text, _ = _ask(program, *question)
+    code, text, complaint = _ask(program, *question)
     if code != 0:
+        if ": unknown key " in _first_line(complaint):
+            raise InputError(f"{sweep.path}: {_first_line(complaint)}")
         return
     code, changed, complaint = _ask(program, *question, *sweep.arguments)
     if code != 0 or changed != text:
-        why = complaint.strip().splitlines()[0] if complaint.strip() else "a run does not come of them"
+        why = _first_line(complaint) or "a run does not come of them"
         raise InputError(f"{sweep.path}: arguments is {sweep.arguments!r}: {why}; allowed: options of falling_particles for a run")
     tables = tomllib.loads(text)
     for quantity in sweep.quantities:
@@ -40,6 +46,10 @@ def refuse_bad_requests(sweep, point, program):
             quantity.refuse_other_tables(tables)
         except NoValue as error:
             raise InputError(f"{sweep.path}: [[collect]] {quantity.name}: {error}") from None
+
+
+def _first_line(text):
+    return text.strip().partition("\n")[0]
 
 
 def _ask(program, *arguments):

@@ -158,6 +158,15 @@ def _refuse_too_many(points, path):
         raise InputError(f"{path}: the sweep has {points} points; allowed: up to {MOST_POINTS}")
 
 
+def _refuse_repeated(texts, where, what):
+    """A point that is there twice would be two lines of one run."""
+    seen = set()
+    for text in texts:
+        if text in seen:
+            raise InputError(f"{where} has {text} twice; allowed: {what} that differ")
+        seen.add(text)
+
+
 def _check_values(values, where):
     """Refuses keys and values that cannot be given to --set."""
     for key, value in values.items():
@@ -198,6 +207,7 @@ def _grid(table, path):
             raise InputError(f'{path}: [grid] "{key}" is {values!r}; allowed: an array of values, not empty')
         for value in values:
             _check_values({key: value}, f"{path}: [grid]")
+        _refuse_repeated(map(toml_text, values), f'{path}: [grid] "{key}"', "values")
     _refuse_too_many(math.prod(map(len, grid.values())), path)
     return [dict(zip(grid, values)) for values in itertools.product(*grid.values())]
 
@@ -210,6 +220,7 @@ def _list(table, path):
         raise InputError(f"{path}: [[list]]: its entries have different keys, or it has none; allowed: {allowed}")
     for entry in entries:
         _check_values(entry, f"{path}: [[list]]")
+    _refuse_repeated((", ".join(f"{key} = {toml_text(entry[key])}" for key in entries[0]) for entry in entries), f"{path}: [[list]]", "entries")
     return [{key: entry[key] for key in entries[0]} for entry in entries]
 
 
