@@ -92,7 +92,6 @@ def test_a_png(tmp_path):
         ("2 pairs are named; allowed: one", (*ELLIPSOID, *CONCENTRIC)),
         ('--body2: "" is no kind of body; allowed: sphere, ellipsoid', ELLIPSOID),
         ('did you mean "concentric: identical ellipsoids"?', ("--case", "concentric: identical elipsoids")),
-        ("is a device; allowed: a file", ("--scene", SCENE, "--trajectory", "/dev/zero", "--time", 0, "--bodies", 1)),
         ("--position2 has a nan; allowed: ", (*ELLIPSOID, "--body2", "sphere 1", "--position2", 0, "nan", 0)),
         ("--tolerance", (*ELLIPSOID, "--body2", "sphere 1", "--tolerance", 2)),
         ("--max-evaluations", (*ELLIPSOID, "--body2", "sphere 1", "--max-evaluations", 0)),
@@ -103,6 +102,7 @@ def test_refusals(tmp_path, text, arguments):
 
 
 def test_refusals_of_a_run(tmp_path, recorded):
+    refuse(tmp_path, "is a device; allowed: a file", "--scene", SCENE, "--trajectory", "/dev/zero", "--time", 0, "--bodies", 1)
     refuse(tmp_path, "missing: --bodies", *recorded)
     refuse(tmp_path, "--bodies: there is no body 60; allowed: 0 to 59", *recorded, "--bodies", 60)
     refuse(tmp_path, "--bodies has 3 numbers; allowed: one or two", *recorded, "--bodies", 1, 2, 3)
