@@ -1,5 +1,8 @@
 #include "open_world.hpp"
 
+#include <sys/types.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -18,10 +21,12 @@ namespace {
 /// The settings of [query] hold for the process. Jobs change these numbers, one at a time.
 int open_worlds = 0;
 int worlds_with_query = 0;
+pid_t counted_in = 0;  // a fork has none of the worlds
 
 }  // namespace
 
 Admission::Admission(const Scene& scene) : has_query_(scene.query.has_value()) {
+  if (std::exchange(counted_in, getpid()) != getpid()) open_worlds = worlds_with_query = 0;
   if (open_worlds > 0 && (has_query_ || worlds_with_query > 0)) {
     throw std::runtime_error("[query] of " + std::string(worlds_with_query > 0 ? "an open world" : "the scene") +
                              " holds for all worlds of the process; allowed: one open world with it, and no other beside it");
@@ -125,17 +130,22 @@ void OpenWorld::occupy(const std::function<void()>& job) {
 
 // An exception may leave a step half done.
 void OpenWorld::work(const std::function<void()>& job) {
-  occupy([&] {
-    try {
-      job();
-    } catch (const InputError&) {
-      throw;  // before anything was changed
-    } catch (const std::exception& error) {
-      why_closed_ = std::string("ended with an error (") + error.what() + ")";
-      release();
-      throw;
-    }
-  });
+  try {
+    occupy([&] {
+      try {
+        job();
+      } catch (const InputError&) {
+        throw;  // before anything was changed
+      } catch (const std::exception& error) {
+        why_closed_ = std::string("ended with an error (") + error.what() + ")";
+        release();
+        throw;
+      }
+    });
+  } catch (...) {
+    if (is_closed()) thread_.end();
+    throw;
+  }
 }
 
 void OpenWorld::step(int count, bool forces) {
@@ -193,6 +203,7 @@ void OpenWorld::close() {
   if (is_closed() || abandon()) return;
   require_open("close");
   occupy([this] { release(); });
+  thread_.end();
 }
 
 std::string about(const Scene& scene, const std::function<std::string(const Scene&)>& tell) {

@@ -230,6 +230,8 @@ def _assignment(key: str, value: Any) -> str:
 
 def _integer(name: str, value: Any, lowest: int, highest: int) -> int:
     try:
+        if isinstance(value, (bool, np.bool_)):
+            raise TypeError
         number = operator.index(value)
     except TypeError:
         raise TypeError(f"{name} is {value!r}; allowed: an integer from {lowest} to {highest}") from None
@@ -249,13 +251,13 @@ class Scene:
 
     `values` replace or add values of the scene, as the program's --set does: {"time.step": 1e-3, "container.width[1]": 0.06,
     "grain[pea].count": 20, "friction": {"coefficient": 0.3}, "damping": None}. None leaves an effect out. The files are read when the
-    scene is made, and again by World.change().
+    scene is made, and again by World.change(), a copy and a pickle, for which multiprocessing.Pool.map may take scenes.
 
     Raises ValueError for what the program refuses, with the file, the line and the allowed values.
     """
 
     def __init__(self, path: Path, values: Optional[Values] = None) -> None:
-        self._load(_scenes.Source(os.fspath(path), None, _assignments(values)))
+        self._load(os.fspath(path), None, _assignments(values))
 
     @classmethod
     def from_text(cls, text: str, values: Optional[Values] = None, *, folder: Path = ".", name: str = "scene") -> Scene:
@@ -265,9 +267,7 @@ class Scene:
         """
         if not isinstance(text, str):
             raise TypeError(f"text is {text!r}; allowed: str")
-        scene = cls.__new__(cls)
-        scene._load(_scenes.Source(os.path.join(os.fspath(folder), _file_name(name) + ".toml"), text, _assignments(values)))
-        return scene
+        return cls._of(os.path.join(os.fspath(folder), _file_name(name) + ".toml"), text, _assignments(values))
 
     @classmethod
     def from_dict(
@@ -282,8 +282,19 @@ class Scene:
         text = "".join(f"{_key('tables', key)} = {_toml(f'tables[{key!r}]', value)}\n" for key, value in tables.items())
         return cls.from_text(text, values, folder=folder, name=name)
 
-    def _load(self, source: _scenes.Source) -> None:
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return (Scene._of, self._given)
+
+    @classmethod
+    def _of(cls, path: str, text: Optional[str], values: List[str]) -> Scene:
+        scene = cls.__new__(cls)
+        scene._load(path, text, values)
+        return scene
+
+    def _load(self, path: str, text: Optional[str], values: List[str]) -> None:
+        source = _scenes.Source(path, text, values)
         fields = source.fields()
+        self._given = (path, text, values)
         self._source = source
         self._name: str = fields["name"]
         self._seed: int = fields["seed"]
@@ -360,6 +371,8 @@ class Scene:
         for doubt in self.doubts():
             warnings.warn(doubt, stacklevel=2)
         folder = None if out is None else os.fspath(out)
+        if folder == "":
+            raise ValueError("out is ''; allowed: a folder, '.' too, or None")
         return World(self, _scenes.World(self._source, folder, threads, pictures, every, resume))
 
     def run(self, out: Path, *, draw: bool = True, **options: Any) -> Results:
@@ -521,6 +534,8 @@ class World:
 
 def _vectors(name: str, values: npt.ArrayLike) -> Array:
     try:
+        if np.iscomplexobj(values):
+            raise TypeError("its numbers are complex")
         return np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name}: {error}; allowed: an array of numbers, (N, 3)") from None

@@ -1,6 +1,7 @@
 #include "world_thread.hpp"
 
 #include <ode/ode.h>
+#include <pthread.h>
 #include <pybind11/pybind11.h>
 #include <unistd.h>
 
@@ -19,15 +20,39 @@ namespace {
 
 constexpr auto kBetweenSignals = std::chrono::milliseconds(50);  // Ctrl-C feels immediate, and waking costs nothing
 
-/// What is global in ODE belongs to one job at a time.
-std::mutex ode_mutex;
-std::atomic<bool> ode_failed = false;
+/// What is global in ODE belongs to one job at a time, whose thread holds the mutex.
+class GlobalOde {
+ public:
+  GlobalOde() {
+    pthread_atfork(nullptr, nullptr, [] { global().continue_in_fork(); });
+  }
+  static GlobalOde& global() {
+    static GlobalOde ode;
+    return ode;
+  }
+  std::mutex& mutex() { return *mutex_; }
+
+  std::atomic<const char*> failure = nullptr;  ///< why no job may run any more
+
+ private:
+  // The thread that holds the mutex is not in the fork, and its job has left ODE at any place.
+  void continue_in_fork() {
+    if (mutex_->try_lock()) {
+      mutex_->unlock();
+      return;
+    }
+    failure = "this process was forked while a world was at work; allowed: a fork between two calls";
+    mutex_ = new std::mutex;  // nobody can unlock the other one
+  }
+
+  std::mutex* mutex_ = new std::mutex;  // is never destroyed: threads may outlive static objects
+};
 
 /// ODE's own handlers end the process.
 [[noreturn]] void raise_ode_error(int /*number*/, const char* text, va_list arguments) {
   std::array<char, 512> message{};
   std::vsnprintf(message.data(), message.size(), text, arguments);
-  ode_failed = true;
+  GlobalOde::global().failure = "ODE has failed in this process; allowed: worlds in a new process";
   throw std::runtime_error(std::string("ODE: ") + message.data());
 }
 
@@ -60,37 +85,44 @@ class OdeOfJob {
 
 }  // namespace
 
-WorldThread::WorldThread() : process_(getpid()), thread_([this] { run_jobs(); }) {}
+WorldThread::WorldThread()
+    : process_(getpid()), shared_(std::make_unique<Shared>()), thread_([shared = shared_.get()] { run_jobs(*shared); }) {}
 
 WorldThread::~WorldThread() {
   if (is_in_other_process()) {
-    thread_.detach();  // it does not exist here
+    if (thread_.joinable()) thread_.detach();  // it does not exist here
+    [[maybe_unused]] Shared* const left = shared_.release();
     return;
   }
+  end();
+}
+
+void WorldThread::end() {
+  if (!thread_.joinable()) return;
   {
-    const std::lock_guard lock(mutex_);
-    is_closing_ = true;
+    const std::lock_guard lock(shared_->mutex);
+    shared_->is_closing = true;
   }
-  changed_.notify_all();
+  shared_->changed.notify_all();
   thread_.join();
 }
 
-bool WorldThread::ode_has_failed() { return ode_failed; }
+bool WorldThread::ode_has_failed() { return GlobalOde::global().failure != nullptr; }
 
 bool WorldThread::is_in_other_process() const { return getpid() != process_; }
 
 void WorldThread::post(const std::function<void()>& job) {
   {
-    const std::lock_guard lock(mutex_);
-    job_ = &job;
+    const std::lock_guard lock(shared_->mutex);
+    shared_->job = &job;
   }
-  changed_.notify_all();
+  shared_->changed.notify_all();
 }
 
 /// Returns whether the job has ended.
 bool WorldThread::wait(std::chrono::milliseconds longest) {
-  std::unique_lock lock(mutex_);
-  return changed_.wait_for(lock, longest, [this] { return job_ == nullptr; });
+  std::unique_lock lock(shared_->mutex);
+  return shared_->changed.wait_for(lock, longest, [this] { return shared_->job == nullptr; });
 }
 
 void WorldThread::run(const std::function<void()>& job) {
@@ -103,10 +135,10 @@ void WorldThread::run(const std::function<void()>& job) {
   while (!wait_unlocked()) {
     if (signal || PyErr_CheckSignals() == 0) continue;
     signal.emplace();
-    is_stopping_ = true;
+    shared_->is_stopping = true;
   }
-  is_stopping_ = false;
-  if (const std::exception_ptr error = std::exchange(error_, nullptr)) std::rethrow_exception(error);
+  shared_->is_stopping = false;
+  if (const std::exception_ptr error = std::exchange(shared_->error, nullptr)) std::rethrow_exception(error);
   if (signal) throw pybind11::error_already_set(std::move(*signal));
 }
 
@@ -114,30 +146,31 @@ void WorldThread::run(const std::function<void()>& job) {
 void WorldThread::run_last(const std::function<void()>& job) noexcept {
   post(job);
   while (!wait(kBetweenSignals)) continue;
-  error_ = nullptr;
+  shared_->error = nullptr;
 }
 
-void WorldThread::run_jobs() {
-  std::unique_lock lock(mutex_);
+void WorldThread::run_jobs(Shared& shared) {
+  std::unique_lock lock(shared.mutex);
   while (true) {
-    changed_.wait(lock, [this] { return job_ != nullptr || is_closing_; });
-    if (job_ == nullptr) return;
+    shared.changed.wait(lock, [&] { return shared.job != nullptr || shared.is_closing; });
+    if (shared.job == nullptr) return;
     lock.unlock();
-    run_one(*job_);
+    run_one(shared);
     lock.lock();
-    job_ = nullptr;
-    changed_.notify_all();
+    shared.job = nullptr;
+    shared.changed.notify_all();
   }
 }
 
-void WorldThread::run_one(const std::function<void()>& job) {
-  const std::lock_guard lock(ode_mutex);
+void WorldThread::run_one(Shared& shared) {
+  GlobalOde& global = GlobalOde::global();
+  const std::lock_guard lock(global.mutex());
   try {
-    if (ode_failed) throw std::runtime_error("ODE has failed in this process; allowed: worlds in a new process");
-    const OdeOfJob ode(seed_);
-    job();
+    if (const char* const failure = global.failure) throw std::runtime_error(failure);
+    const OdeOfJob ode(shared.seed);
+    (*shared.job)();
   } catch (...) {
-    error_ = std::current_exception();
+    shared.error = std::current_exception();
   }
 }
 

@@ -1,9 +1,11 @@
 """supernormal.scenes beside the program: the same bytes, and what a program of Python may do to a world."""
 
+import copy
 import dataclasses
 import multiprocessing
 import os
 import pathlib
+import pickle
 import re
 import shutil
 import signal
@@ -439,6 +441,7 @@ def test_bad_input_names_parameter_value_and_range():
         (lambda: scene.start(checkpoint_every=10), ValueError, "checkpoint_every is 10 and out is None"),
         (lambda: scene.start(resume=True), ValueError, "resume is True and out is None"),
         (lambda: scene.start("/proc/none"), ValueError, "/proc/none"),
+        (lambda: scene.start(""), ValueError, "out is ''; allowed: a folder"),
     ]:
         with pytest.raises(error, match=text):
             call()
@@ -451,6 +454,8 @@ def test_bad_input_names_parameter_value_and_range():
             (lambda: world.step(scene.steps + 1), ValueError, f"count is {scene.steps + 1}; allowed: 0 to {scene.steps}"),
             (lambda: world.step(-1), ValueError, "count is -1"),
             (lambda: world.step("x"), TypeError, "count is 'x'"),
+            (lambda: world.step(True), TypeError, "count is True; allowed: an integer"),
+            (lambda: world.set_forces(np.zeros((count, 3), complex)), ValueError, "forces: its numbers are complex; allowed: an array of"),
             (lambda: world.set_forces(np.zeros((2, 3))), ValueError, rf"forces has the shape \(2, 3\), but must have \({count}, 3\)"),
             (lambda: world.set_forces(np.zeros((count, 3)), [1.0]), ValueError, r"torques has the shape \(1\)"),
             (lambda: world.set_forces(np.full((count, 3), np.nan)), ValueError, r"forces\[0, 0\] is nan; allowed: from"),
@@ -619,6 +624,79 @@ def test_a_fork_cannot_use_the_world():
         process.join(20)
         assert process.exitcode == 0
         world.step()
+
+
+def in_fork(work):
+    """What `work` returns in a fork of this process."""
+    context = multiprocessing.get_context("fork")
+    queue = context.SimpleQueue()
+    process = context.Process(target=lambda: queue.put(work()))
+    process.start()
+    process.join(20)
+    if process.is_alive():
+        process.kill()
+        pytest.fail("the fork hangs")
+    assert process.exitcode == 0
+    return queue.get()
+
+
+def kinetic_after(steps):
+    with scenes.Scene(SCENES / "short.toml").start(pictures=False) as world:
+        world.step(steps)
+        return world.energy().kinetic
+
+
+@pytest.mark.parametrize("is_closed", [False, True])
+def test_a_fork_may_drop_the_world_and_open_another(is_closed):
+    world = scenes.Scene(SCENES / "short.toml").start(pictures=False)
+    world.step(5)
+    if is_closed:
+        world.close()
+
+    def work():
+        nonlocal world
+        del world
+        return kinetic_after(20)
+
+    assert in_fork(work) == kinetic_after(20)
+
+
+def test_a_fork_beside_a_world_at_work_is_told():
+    world = scenes.Scene(SCENES / "short.toml", {"time.duration": 60}).start(pictures=False)
+    thread = threading.Thread(target=world.step, args=(2000,))
+    thread.start()
+
+    def work():
+        try:
+            kinetic_after(1)
+        except RuntimeError as error:
+            return str(error)
+
+    for _ in range(100):
+        said = in_fork(work)
+        if said:
+            break
+    thread.join()
+    assert "was forked while a world was at work; allowed: a fork between two calls" in said
+
+
+def test_a_closed_world_keeps_no_thread():
+    before = len(os.listdir("/proc/self/task"))
+    worlds = [scenes.Scene(SCENES / "short.toml").start(threads=1, pictures=False) for _ in range(3)]
+    assert len(os.listdir("/proc/self/task")) >= before + 3
+    for world in worlds:
+        world.close()
+    assert len(os.listdir("/proc/self/task")) == before
+
+
+def test_scenes_are_pickled_and_copied():
+    scene = scenes.Scene(SCENES / "short.toml", {"seed": 7, "time.duration": 0.05})
+    text = scenes.Scene.from_text((SCENES / "short.toml").read_text(), {"seed": 8}, folder=SCENES, name="eight")
+    for one in (scene, text):
+        for other in (pickle.loads(pickle.dumps(one)), copy.copy(one), copy.deepcopy(one)):
+            assert (other.name, other.seed, other.steps) == (one.name, one.seed, one.steps)
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        assert pool.map(repr, [scene]) == [repr(scene)]
 
 
 @pytest.mark.parametrize(
