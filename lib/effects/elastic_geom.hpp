@@ -12,7 +12,8 @@ namespace supernormal::effects {
 /// edges.
 Matrix3 curvature_of(dGeomID geom, const Vector3& n);
 
-/// m; the mean half-extent of a geom; infinite for an unbounded one.
+/// m; the mean half-extent of a geom in its own frame, however it is turned; infinite for an unbounded one. Of a class that only
+/// has a bounding box in the frame of the world (dGeomTransform, dHeightfield) it is that of the box.
 double mean_half_extent(dGeomID geom);
 
 }  // namespace supernormal::effects

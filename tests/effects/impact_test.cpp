@@ -1,6 +1,9 @@
 // Rigid and elastic impacts against their closed forms.
 #include <doctest/doctest.h>
 
+#include <array>
+#include <vector>
+
 #include "effects/effects_world.hpp"
 #include "support/relative.hpp"
 
@@ -38,6 +41,41 @@ double hertz_time(double m, double k, double v) { return 2.9432675 * hertz_overl
 constexpr double kModulus = 5e7;  // Pa
 constexpr double kPoisson = 0.3;
 constexpr double kStar = kModulus / (1 - kPoisson * kPoisson);  // against a rigid plane
+
+/// A cuboid as a geom of each kind. It holds what a dConvex and a dTriMesh refer to.
+class Cuboid {
+ public:
+  explicit Cuboid(const Vec& half) : half_(half), data_(dGeomTriMeshDataCreate()) {
+    for (int k = 0; k < 8; ++k) {
+      for (std::size_t i = 0; i < 3; ++i) points_.push_back(dReal((k >> i & 1) != 0 ? half[i] : -half[i]));
+    }
+    vertices_.assign(points_.begin(), points_.end());
+    dGeomTriMeshDataBuildSingle(data_, vertices_.data(), 3 * sizeof(float), 8, triangles_.data(), 36, 3 * sizeof(dTriIndex));
+  }
+  ~Cuboid() { dGeomTriMeshDataDestroy(data_); }
+  Cuboid(const Cuboid&) = delete;
+  Cuboid(Cuboid&&) = delete;
+  Cuboid& operator=(const Cuboid&) = delete;
+  Cuboid& operator=(Cuboid&&) = delete;
+
+  dGeomID create(int number, dSpaceID space) const {
+    const dReal a = dReal(half_[0]), b = dReal(half_[1]), c = dReal(half_[2]);
+    if (number == dBoxClass) return dCreateBox(space, 2 * a, 2 * b, 2 * c);
+    if (number == dConvexClass) return dCreateConvex(space, planes_.data(), 1, points_.data(), 8, polygon_.data());
+    if (number == dTriMeshClass) return dCreateTriMesh(space, data_, nullptr, nullptr, nullptr);
+    return snCreateSuperellipsoid(space, a, b, c, 20, 20);
+  }
+
+ private:
+  Vec half_;
+  std::vector<dReal> points_;
+  std::vector<float> vertices_;
+  std::array<dReal, 4> planes_ = {0, 0, -1, 1};  // ODE's dConvex meets a dPlane with its points alone
+  std::array<unsigned, 4> polygon_ = {3, 0, 2, 1};
+  std::array<dTriIndex, 36> triangles_ = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                          2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+  dTriMeshDataID data_;
+};
 
 }  // namespace
 
@@ -202,6 +240,30 @@ TEST_CASE("Hertz: an ellipsoid on a plane and two balls have the force of the ex
     const Impact found = impact(scene, high, v, step);
     CHECK(found.overlap == relative(hertz_overlap(ball_mass / 2, pair_k, 2 * v)).epsilon(0.005));
     CHECK(found.out == relative(v).epsilon(0.01));
+  }
+}
+
+TEST_CASE("Hertz: a flat body sinks as a punch as wide as the mean of its half-extents, however it is turned") {
+  const Vec half = {0.1, 0.02, 0.01};
+  const double mass = kDensity * 8 * half[0] * half[1] * half[2];
+  const double depth = mass * kGravity / (2 * kStar * (half[0] + half[1] + half[2]) / 3);
+  const Cuboid cuboid(half);
+  for (const int kind : {-1, int{dBoxClass}, int{dConvexClass}, int{dTriMeshClass}}) {
+    for (const double heading : {0.0, 0.7853981633974483}) {
+      CAPTURE(kind);
+      CAPTURE(heading);
+      OdeSession session;
+      EffectsWorld scene({earth(), fx::Hertz{2 * kModulus, kPoisson, 0.3, {}}}, kStep);
+      scene.world.add_plane();
+      dMass inertia;
+      dMassSetBoxTotal(&inertia, dReal(mass), dReal(2 * half[0]), dReal(2 * half[1]), dReal(2 * half[2]));
+      const dBodyID body = scene.world.add(cuboid.create(kind, scene.world.space()), inertia);
+      turn(body, {0, 0, 1}, heading);
+      dBodySetPosition(body, 0, 0, dReal(half[2]));
+      scene.effects.add_body(body);
+      scene.run_until(0.5);
+      CHECK(half[2] - double{dBodyGetPosition(body)[2]} == relative(depth).epsilon(0.01));
+    }
   }
 }
 
