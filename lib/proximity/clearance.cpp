@@ -79,8 +79,8 @@ bool Bounds::evaluate(const Vector3& n, Order order) {
     return false;
   }
   const double bound = jet_.s - gap_.rounding();
-  if (bound > best_.lower_bound || gap_.evaluations() == 1) {
-    best_.lower_bound = std::max(bound, best_.lower_bound);
+  if (bound > best_.lower_bound) {
+    best_.lower_bound = bound;
     best_.normal = n;
   }
   if (best_.lower_bound > enough_) return false;
@@ -153,8 +153,9 @@ ProximityQuery open_query(ProximityQuery pair, double distance, const Clearance&
 bool decide_by_answer(const ProximityQuery& pair, double distance, const Proximity& answer, Clearance& out) {
   if (answer.status == Status::InvalidInput) return false;
   out.evaluations += answer.evaluations;
-  if (answer.gap > out.lower_bound) {
-    out.lower_bound = answer.gap;
+  const double bound = answer.gap - GapFunction(*pair.shape1, *pair.pose1, *pair.shape2, *pair.pose2).rounding();
+  if (bound > out.lower_bound) {
+    out.lower_bound = bound;
     out.normal = (pair.pose1->rotation.transpose() * answer.normal).normalized();
   }
   return out.lower_bound > distance;

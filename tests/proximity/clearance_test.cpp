@@ -3,12 +3,15 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <random>
 #include <vector>
 
+#include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "support/draw.hpp"
@@ -65,6 +68,20 @@ TEST_CASE("is_farther_than: right for all kinds, and 1.2 evaluations at most whe
   CHECK(warm.evaluations <= warm.pairs);
 }
 
+// The numbers are dyadic, so that the gap is exact: the direction (2, 3, 6) has the length 7.
+TEST_CASE("is_farther_than: bodies are not farther apart than their gap, in spite of rounding") {
+  std::mt19937_64 engine(75);
+  const auto dyadic = [&engine](int most) { return std::ldexp(static_cast<double>(1 + engine() % (1U << 20)), -20) * most; };
+  for (int k = 0; k < 2000; ++k) {
+    const double radius1 = dyadic(1), radius2 = dyadic(1), unit = 1 + dyadic(4);
+    const double gap = 7 * unit - radius1 - radius2;
+    const Pose pose2{unit * Vector3(2, -3, 6), Eigen::Quaterniond(0.5, 0.1, -0.7, 0.2).normalized().toRotationMatrix()};
+    CHECK_FALSE(is_farther_than(Ellipsoid(Vector3::Constant(radius1)), {}, Ellipsoid(Vector3::Constant(radius2)), pose2, gap));
+    CHECK(is_farther_than(Ellipsoid(Vector3::Constant(radius1)), {}, Ellipsoid(Vector3::Constant(radius2)), pose2,
+                          gap - 1e-13 * unit));
+  }
+}
+
 // A point of both bodies decides. Polytopes and bodies of callbacks know none.
 TEST_CASE("is_farther_than: overlapping bodies are not farther than 0; round ones take 1.3 evaluations") {
   for (const RandomKind& kind : random_kinds()) {
@@ -101,6 +118,9 @@ TEST_CASE("find_clearance: a lower bound of the gap, better with more evaluation
         CHECK(bound.lower_bound >= last);
         better.at(static_cast<std::size_t>(budget) - 1) += bound.lower_bound > last;
         CHECK(std::abs(bound.normal.norm() - 1) < 1e-14);
+        GapJet there;
+        GapFunction(*pair.shape1, {}, *pair.shape2, pair.pose2).evaluate(bound.normal, Order::Value, there);
+        CHECK(there.s >= bound.lower_bound);
         last = bound.lower_bound;
       }
     }
