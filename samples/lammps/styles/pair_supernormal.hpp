@@ -17,7 +17,7 @@ class FixNeighHistory;
 
 namespace granular {
 
-/// The pair style; see README.md for its commands. Body 1 is always the particle with the smaller tag. So every rank that solves a
+/// The pair style; commands.md has its commands. Body 1 is always the particle with the smaller tag. So every rank that solves a
 /// pair computes the same force, and both agree on the meaning of its history.
 class PairSupernormal : public LAMMPS_NS::Pair {
  public:
