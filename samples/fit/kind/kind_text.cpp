@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A lognormal distribution needs bounds. 0.27 % of the grains are beyond three deviations. See README.md for others.
+// A lognormal distribution needs bounds. 0.27 % of the grains are beyond three deviations. See constants.md for others.
 constexpr double kBound = 3;
 constexpr double kLargestRatio = 1000;  // of the bounds of `size` in a scene (scene_files.md)
 constexpr double kOneSize = 1 + 1e-9;   // the geometric deviation of scans that differ by rounding

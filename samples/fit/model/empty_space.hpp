@@ -37,7 +37,7 @@ bool is_outside(const Surface& surface, const Vector3& x);
 /// except near the data. None if there are no holes.
 std::vector<Vector3> closing_points(const Cloud& data);
 
-/// The weight of penalty_of(), without unit: an excess counts as much as a distance sqrt(20) times as large. See README.md for
+/// The weight of penalty_of(), without unit: an excess counts as much as a distance sqrt(20) times as large. See constants.md for
 /// others.
 constexpr double kEmptyWeight = 20;
 

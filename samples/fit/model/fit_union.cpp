@@ -396,8 +396,8 @@ bool are_well_fitted(const std::vector<FittedBody>& fitted, double size) {
 }  // namespace
 
 Union bounded(std::vector<FittedBody> fitted, const Cloud& cloud, FitSettings settings) {
-  constexpr int kMostRounds = 8;                       // README.md has examples
-  constexpr double kBoundWeight = 100 * kEmptyWeight;  // README.md has others
+  constexpr int kMostRounds = 8;                       // constants.md has examples
+  constexpr double kBoundWeight = 100 * kEmptyWeight;  // constants.md has others
   const double size = 1 / settings.empty.scale;        // of the data: the grid is for extent 1
   if (!settings.empty.grid || are_well_fitted(fitted, size)) return {fitted, {}};
   const auto error_of = [&](const std::vector<FittedBody>& each) {
@@ -459,7 +459,7 @@ std::vector<FittedBody> unite(const Cloud& cloud, int largest_count, const FitSe
   of_part.largest_over_radius = kLargestOverRadius;
   const Cloud some = thinned(data, 3000);
   // The search ranks unions by the mean square and the penalty. Their ranks among near equals say nothing of the limits.
-  constexpr std::size_t kMostUnions = 4;  // the hand and the elephant of README.md take 3
+  constexpr std::size_t kMostUnions = 4;  // the hand and the elephant of constants.md take 3
   std::vector<Model> tried;
   Union nearest;
   for (const Model& model : best) {

@@ -18,8 +18,7 @@ struct VolumeTarget {
   double area = 1;
 };
 
-/// The weight of the volume, without unit: a mean distance counts as much as distances ten times as large. See README.md for
-/// others.
+/// The weight of the volume, without unit: a mean distance counts as much as distances ten times as large.
 constexpr double kVolumeWeight = 100;
 
 struct LeastSquaresSettings {

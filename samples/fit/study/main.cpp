@@ -1,4 +1,4 @@
-// Measures how well fit recovers known bodies: the tables of samples/fit/README.md.
+// Measures how well fit recovers known bodies: the tables of samples/fit/constants.md.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>

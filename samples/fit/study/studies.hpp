@@ -1,4 +1,4 @@
-// The tables of samples/fit/README.md, printed as Markdown.
+// The tables of samples/fit/constants.md, printed as Markdown.
 #pragma once
 
 namespace fit {
