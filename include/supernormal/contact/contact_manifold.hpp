@@ -26,8 +26,8 @@ struct ManifoldCorner {
 ///
 /// All values are continuous functions of the pose. The manifold points move out of the deepest point as the bodies become flat
 /// there. They are as deep as the deepest point, less the separation of the tilted faces, and at least 0. The size of the region
-/// does not go to 0 with the depth, nor as the depth grows. lib/contact/README.md has the construction, its proofs and
-/// measurements.
+/// does not go to 0 with the depth, nor as the depth grows. lib/contact/theory.md has the construction and its
+/// proofs.
 struct ContactManifold {
   static constexpr int kMaxCorners = 4;  ///< the largest number of manifold points
 

@@ -63,7 +63,7 @@ struct BodyAhead {
 /// The function moves the bodies along their velocities, without rotation, to where they would meet. It finds the manifold there,
 /// and transforms the gaps and places back to the present poses. So a body that flies past an edge has no contact with it, even if
 /// the present tangent planes are in its way. `now` is the proximity of the two bodies at their poses, with settings that do not
-/// stop when the bodies are apart. lib/contact/README.md has the construction.
+/// stop when the bodies are apart. lib/contact/theory.md has the construction.
 ///
 /// Gravity bends the path of a body, and rotation the paths of its points. If such a contact would hold back bodies that do not
 /// meet within the time, by their velocities and rotations after the accelerations, the contacts are those at the end of

@@ -5,7 +5,7 @@
 
 namespace supernormal {
 
-// Faces count as flat between the manifold points. So only differences of their separations matter (lib/contact/README.md).
+// Faces count as flat between the manifold points. So only differences of their separations matter (lib/contact/theory.md).
 
 /// m; a manifold point on the polygon whose separation exceeds the depth by more than this is in the air.
 double allowed_separation(const SupportPolygon& polygon);

@@ -23,7 +23,7 @@ namespace supernormal {
 /// 4. Where the body is flat along both axes, the vertices are the points of the four diagonal tilts. Where it is flat along one
 ///    axis and round along the other, they are the ends of the flat axis. Where it is round along both, they are p.
 ///
-/// lib/contact/README.md has the proofs and figures.
+/// lib/contact/theory.md has the proofs.
 class SupportPolygon {
  public:
   /// `n`: unit, in the frame that the pose refers to. `support_point`: the body's point with this normal, m. `depth`: the depth of
