@@ -1,4 +1,4 @@
-// The hybrid solver, from top to bottom. Lemmas and parts in quotes are in lib/proximity/README.md.
+// The hybrid solver, from top to bottom. Lemmas and parts in quotes are in lib/proximity/theory.md.
 #include <algorithm>
 #include <limits>
 #include <optional>

@@ -10,7 +10,7 @@ namespace supernormal {
 
 /// What every loop of a query asks before it goes on: here errors are compared with the tolerance, evaluations with their limit,
 /// and Settings::stop_when_apart is heeded. Only the lanes have their own comparisons (lanes/certified_newton_lanes.hpp). The loops
-/// differ in the error that they offer; lib/proximity/README.md says which errors are proved.
+/// differ in the error that they offer; lib/proximity/theory.md says which errors are proved.
 class StoppingRule {
  public:
   /// Keeps a reference to `gap`, whose evaluations count. The tolerance is Settings::tolerance times GapFunction::length_unit(),

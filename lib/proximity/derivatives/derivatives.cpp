@@ -1,4 +1,4 @@
-// The notation is in lib/proximity/README.md, "How the answer changes".
+// The notation is in lib/proximity/theory.md, "Derivatives".
 #include "supernormal/proximity/derivatives.hpp"
 
 #include <Eigen/Geometry>

@@ -24,7 +24,7 @@ struct LocalCandidate {
 };
 
 /// Ascends s on the unit sphere from a given normal: propose, evaluate, add the cut. It stops when bounds prove the maximum or,
-/// deep in an overlap, when the model estimates that it is reached. lib/proximity/README.md has the lemmas.
+/// deep in an overlap, when the model estimates that it is reached. lib/proximity/theory.md has the lemmas.
 ///
 /// If the bodies may be apart, or overlap by less than the rolling ball, s + rho is concave where it matters (lemma 3), and lemma 2
 /// decides: the nearest point p of the hull of all cuts has s + rho <= |p|. The step is the model's. If cuts exclude this step, or
