@@ -53,7 +53,7 @@ class MovingGap {
 
   bool is_rotating() const { return rotation1_.is_rotating() || rotation2_.is_rotating(); }
 
-  /// The bound K of README.md, m/s^2. The normal rotates from n by `angle` (rad) with the rate `normal_rate` (rad/s).
+  /// The bound K of theory.md, m/s^2. The normal rotates from n by `angle` (rad) with the rate `normal_rate` (rad/s).
   double bound(const Vector3& n, double angle, double normal_rate) const {
     return 2 * normal_rate * velocity_.norm() + rotation1_.bound(n, angle, normal_rate) + rotation2_.bound(n, angle, normal_rate);
   }

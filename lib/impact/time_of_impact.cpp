@@ -43,7 +43,7 @@ constexpr double kPoorShare = 0.25;
 // Far from an impact, gaps are computed to this fraction of the last gap.
 constexpr double kRough = 0.05;
 
-/// The longest interval, at most `left`, in which the bound of README.md with this K stays positive, s. Assumes a linear gap with
+/// The longest interval, at most `left`, in which the bound of theory.md with this K stays positive, s. Assumes a linear gap with
 /// the value a and the slope `rate` at the start.
 double longest_stride(double a, double rate, double K, double left) {
   const double to_zero = -rate * left > a ? a / -rate : left;
