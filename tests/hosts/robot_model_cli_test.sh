@@ -24,4 +24,10 @@ says 'missing.sdf'
 sed 's/<exponents>4 3</<exponents>4 0.5</' "$folder/shapes.sdf" >"$work/bad.sdf"
 expect 2 "$program" "$work/bad.sdf"
 says 'bad.sdf: link superellipsoid::link, collision shape: .*exponents is "4 0\.5", must be 2 numbers in \[1\.01, 1000\]'
+printf '%s' '<robot name="r"><link name="l"><collision><geometry><mesh filename="x.stl"/></geometry></collision>' \
+  '<collision><geometry><sphere radius="1"/></geometry></collision></link></robot>' >"$work/mesh.urdf"
+expect 0 "$program" "$work/mesh.urdf" --seconds 0
+says 'warning: .*mesh.urdf: link l, collision 1: <mesh> is left out; --strict refuses the file'
+expect 2 "$program" "$work/mesh.urdf" --strict
+says 'mesh.urdf: link l, collision 1: <geometry> has <mesh>, must be one of sphere'
 echo "all passed"

@@ -64,16 +64,22 @@ int run(int argc, char** argv) {
   std::string path;
   double seconds = 10;
   double density = 1000;
+  bool strict = false;
   CLI::App app{"Simulates the models of an SDF or URDF file in ODE"};
   app.add_option("FILE", path, "an SDF file with a world or a model, or a URDF file")->required();
   app.add_option("--seconds", seconds, "how long to simulate, s")->capture_default_str();
   app.add_option("--density", density, "of links without <inertial>, kg/m^3")->capture_default_str();
+  app.add_flag("--strict", strict,
+               "refuse a file with a collision whose shape is not known, such as a mesh; otherwise it is left out");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  const Scene scene = read_scene(path);
+  const Scene scene = read_scene(path, strict);
+  for (const std::string& element : scene.left_out) {
+    std::fprintf(stderr, "robot_model: warning: %s is left out; --strict refuses the file\n", element.c_str());
+  }
   World world(scene, density);
   print_scene(scene, world);
   world.simulate(seconds);

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
@@ -21,11 +22,13 @@ struct Quantity {
 };
 
 // ODE ends the program at a mass or a length that overflows or vanishes in its products. These ranges are far from that.
-constexpr double kFar = 1e6;         // m and rad; there the last bit of a coordinate is 1e-10 m
-constexpr double kSmall = 1e-6;      // m
-constexpr double kMasses = 1e18;     // kg; a ball of kSmall and 1000 kg/m^3 has 4e-15 kg
-constexpr double kMoments = 1e30;    // kg m^2: kMasses at a distance of kFar
-constexpr double kNoLimit = 1e16;    // SDF's own number for a joint without limits
+constexpr double kFar = 1e6;       // m and rad; there the last bit of a coordinate is 1e-10 m
+constexpr double kSmall = 1e-6;    // m
+constexpr double kMasses = 1e18;   // kg; a ball of kSmall and 1000 kg/m^3 has 4e-15 kg
+constexpr double kMoments = 1e30;  // kg m^2: kMasses at a distance of kFar
+constexpr double kNoLimit =
+    1e16;  // SDF's own number for a joint without limits; its files also write infinity and the largest double
+constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr double kLeastStep = 1e-6;  // s
 
 constexpr std::array kQuantities = std::to_array<Quantity>({
@@ -34,8 +37,8 @@ constexpr std::array kQuantities = std::to_array<Quantity>({
     {"origin/xyz", 3, -kFar, kFar, "m"},
     {"origin/rpy", 3, -kFar, kFar, "rad"},
     {"axis/xyz", 3, -kFar, kFar, ""},
-    {"limit/lower", 1, -kNoLimit, kNoLimit, "m or rad"},
-    {"limit/upper", 1, -kNoLimit, kNoLimit, "m or rad"},
+    {"limit/lower", 1, -kAny, kAny, "m or rad"},
+    {"limit/upper", 1, -kAny, kAny, "m or rad"},
     {"radius", 1, kSmall, kFar, "m"},
     {"length", 1, kSmall, kFar, "m"},
     {"size", 3, kSmall, kFar, "m"},
@@ -53,7 +56,7 @@ constexpr std::array kQuantities = std::to_array<Quantity>({
     {"mu", 1, 0, kNoLimit, ""},
     {"velocity_decay/linear", 1, 0, 1, ""},
     {"velocity_decay/angular", 1, 0, 1, ""},
-    {"gravity", 3, -kFar, kFar, "m/s^2"},
+    {"world/gravity", 3, -kFar, kFar, "m/s^2"},
     {"max_step_size", 1, kLeastStep, 1, "s"},
     {"seconds", 1, 0, 1e6, "s"},
     {"density", 1, 1e-6, 1e12, "kg/m^3"},

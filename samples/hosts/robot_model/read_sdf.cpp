@@ -42,7 +42,7 @@ void examine(const sdf::ElementPtr& parent, const std::string& of_parent, std::v
   for (sdf::ElementPtr element = parent->GetFirstElement(); element; element = element->GetNextElement()) {
     const std::string& name = element->GetName();
     const std::string path = parent->GetName() + "/" + name;
-    if (!element->GetExplicitlySetInFile() || has(kNoMotion, name)) continue;
+    if (!element->GetExplicitlySetInFile() || has(kNoMotion, name) || path == "link/gravity") continue;
     if (has(kRead, name)) {
       examine(element, where, not_read);
     } else if (takes_numbers(path)) {
@@ -55,7 +55,7 @@ void examine(const sdf::ElementPtr& parent, const std::string& of_parent, std::v
 
 class Reader {
  public:
-  explicit Reader(const std::string& path) { scene_.file = path; }
+  Reader(const std::string& path, bool strict) : strict_(strict) { scene_.file = path; }
 
   Scene read() {
     sdf::Root root;
@@ -118,6 +118,7 @@ class Reader {
     out.name = model.Name() + "::" + link.Name();
     out.pose = model_pose * resolve(link.SemanticPose(), "__model__");
     out.is_fixed = model.Static();
+    out.has_gravity = link.Element()->Get<bool>("gravity", true).first;
     if (link.Element()->HasElement("inertial")) {
       const sdf::ElementPtr inertial = link.Element()->GetElement("inertial");
       for (const char* part : {"mass", "inertia"}) {
@@ -140,7 +141,9 @@ class Reader {
     for (uint64_t i = 0; i < link.CollisionCount(); ++i) {
       const sdf::Collision& collision = *link.CollisionByIndex(i);
       const std::string where = scene_.file + ": link " + out.name + ", collision " + collision.Name();
-      Collision piece{collision.Name(), shape_of(*collision.Geom(), where), out.pose * resolve(collision.SemanticPose())};
+      const std::optional<Shape> shape = shape_of(*collision.Geom(), where);
+      if (!shape) continue;
+      Collision piece{collision.Name(), *shape, out.pose * resolve(collision.SemanticPose())};
       piece.friction = friction_of(*collision.Element());
       piece.model = models_;
       piece.self_collides = model.SelfCollide();
@@ -149,7 +152,7 @@ class Reader {
     scene_.links.push_back(out);
   }
 
-  static Shape shape_of(const sdf::Geometry& geometry, const std::string& where) {
+  std::optional<Shape> shape_of(const sdf::Geometry& geometry, const std::string& where) {
     sdf::ElementPtr shape = geometry.Element()->GetFirstElement();
     if (!shape) throw std::runtime_error(where + ": <geometry> is empty");
     for (sdf::ElementPtr other = shape; other; other = other->GetNextElement()) {
@@ -159,7 +162,7 @@ class Reader {
       if (!shape->HasElement(key) || !shape->GetElement(key)->GetExplicitlySetInFile()) return std::nullopt;
       return shape->GetElement(key)->GetValue()->GetAsString();  // the text of the file
     };
-    return read_shape(shape->GetName(), text_of, where);
+    return shape_in(scene_, strict_, shape->GetName(), text_of, where);
   }
 
   static double friction_of(const sdf::Element& collision) {
@@ -188,18 +191,21 @@ class Reader {
       ignition::math::Vector3d axis;
       check(joint.Axis()->ResolveXyz(axis, "__model__"));
       out.axis = model_pose.linear() * vector_of(axis);
-      if (joint.Type() != sdf::JointType::CONTINUOUS && std::abs(joint.Axis()->Lower()) < 1e16) out.lower = joint.Axis()->Lower();
-      if (joint.Type() != sdf::JointType::CONTINUOUS && std::abs(joint.Axis()->Upper()) < 1e16) out.upper = joint.Axis()->Upper();
+      if (joint.Type() != sdf::JointType::CONTINUOUS) {
+        out.lower = joint.Axis()->Lower();
+        out.upper = joint.Axis()->Upper();
+      }
     }
     scene_.joints.push_back(out);
   }
 
+  const bool strict_;
   Scene scene_;
   std::size_t models_ = 0;
 };
 
 }  // namespace
 
-Scene read_sdf(const std::string& path) { return Reader(path).read(); }
+Scene read_sdf(const std::string& path, bool strict) { return Reader(path, strict).read(); }
 
 }  // namespace robot_model

@@ -89,7 +89,7 @@ Eigen::Isometry3d pose_of(const urdf::Link& link) {
   return pose_of(*link.getParent()) * pose_of(link.parent_joint->parent_to_joint_origin_transform);
 }
 
-Shape shape_of(const TiXmlElement& collision, const std::string& where) {
+std::optional<Shape> shape_of(Scene& scene, bool strict, const TiXmlElement& collision, const std::string& where) {
   const TiXmlElement* shape = collision.FirstChildElement("geometry")->FirstChildElement();  // urdfdom has seen both
   for (const TiXmlElement* other = shape; other != nullptr; other = other->NextSiblingElement()) {
     if (other->ValueStr().starts_with(kOurPrefix)) shape = other;
@@ -98,10 +98,10 @@ Shape shape_of(const TiXmlElement& collision, const std::string& where) {
     const char* text = shape->Attribute(key.c_str());
     return text == nullptr ? std::nullopt : std::optional<std::string>(text);
   };
-  return read_shape(shape->Value(), text_of, where);
+  return shape_in(scene, strict, shape->Value(), text_of, where);
 }
 
-Link link_of(const urdf::Link& link, const TiXmlElement& element, const std::string& file) {
+Link link_of(Scene& scene, bool strict, const urdf::Link& link, const TiXmlElement& element) {
   Link out;
   out.name = link.name;
   out.pose = pose_of(link);
@@ -112,11 +112,13 @@ Link link_of(const urdf::Link& link, const TiXmlElement& element, const std::str
     moment << body.ixx, body.ixy, body.ixz, body.ixy, body.iyy, body.iyz, body.ixz, body.iyz, body.izz;
     out.inertial = Inertial{body.mass, out.pose * pose_of(body.origin), moment};
   }
-  const std::string of_link = file + ": link " + link.name + ", collision ";
+  const std::string of_link = scene.file + ": link " + link.name + ", collision ";
   const TiXmlElement* collision = element.FirstChildElement("collision");
-  for (const urdf::CollisionSharedPtr& parsed : link.collision_array) {
-    const std::string name = parsed->name.empty() ? std::to_string(out.collisions.size() + 1) : parsed->name;
-    out.collisions.push_back({name, shape_of(*collision, of_link + name), out.pose * pose_of(parsed->origin)});
+  for (std::size_t k = 0; k < link.collision_array.size(); ++k) {
+    const urdf::Collision& parsed = *link.collision_array[k];
+    const std::string name = parsed.name.empty() ? std::to_string(k + 1) : parsed.name;
+    const std::optional<Shape> shape = shape_of(scene, strict, *collision, of_link + name);
+    if (shape) out.collisions.push_back({name, *shape, out.pose * pose_of(parsed.origin)});
     collision = collision->NextSiblingElement("collision");
   }
   return out;
@@ -151,7 +153,7 @@ Joint joint_of(const urdf::Joint& joint, const std::map<std::string, std::size_t
 
 }  // namespace
 
-Scene read_urdf(const std::string& path, const TiXmlDocument& document) {
+Scene read_urdf(const std::string& path, const TiXmlDocument& document, bool strict) {
   const TiXmlElement& root = *document.RootElement();
   Scene scene;
   scene.file = path;
@@ -167,7 +169,7 @@ Scene read_urdf(const std::string& path, const TiXmlDocument& document) {
        element = element->NextSiblingElement("link")) {
     const urdf::LinkConstSharedPtr link = robot->getLink(element->Attribute("name"));
     indices[link->name] = scene.links.size();
-    scene.links.push_back(link_of(*link, *element, path));
+    scene.links.push_back(link_of(scene, strict, *link, *element));
   }
   for (const auto& [name, joint] : robot->joints_) scene.joints.push_back(joint_of(*joint, indices, *robot, path));
   return scene;

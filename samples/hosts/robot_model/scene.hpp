@@ -33,6 +33,7 @@ struct Link {
   bool is_fixed = false;             ///< it is of a static model, or URDF's link "world"
   std::optional<Inertial> inertial;  ///< none: the mass follows from the shapes
   std::vector<Collision> collisions;
+  bool has_gravity = true;
   double linear_decay = 0;  ///< the fraction of the velocity that each step takes away, as in Gazebo on ODE
   double angular_decay = 0;
 };
@@ -60,9 +61,11 @@ struct Scene {
   Eigen::Vector3d gravity{0, 0, -9.8};  ///< m/s^2; SDF's default
   bool has_world = false;               ///< false: a model alone, which is put on the plane z = 0
   std::vector<std::string> not_read;    ///< elements that would act on the motion
+  std::vector<std::string> left_out;    ///< collisions with a mesh or another shape that is not known, each in words
 };
 
-/// Reads SDF by sdformat and URDF by urdfdom. Throws std::runtime_error with the file and the element.
-Scene read_scene(const std::string& path);
+/// Reads SDF by sdformat and URDF by urdfdom. Throws std::runtime_error with the file and the element; with `strict` also for a
+/// shape that is not known, which is left out otherwise.
+Scene read_scene(const std::string& path, bool strict = false);
 
 }  // namespace robot_model

@@ -1,5 +1,6 @@
 #include "shape.hpp"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
@@ -55,23 +56,28 @@ std::string known_elements() {
   return names;
 }
 
+/// Null for an element that is not known.
+const ShapeKind* find_kind(const std::string& element) {
+  const std::string name = element.starts_with(kOurPrefix) ? element.substr(kOurPrefix.size()) : element;
+  const auto* const found = std::ranges::find(kKinds, name, &ShapeKind::element);
+  return found == kKinds.end() ? nullptr : found;
+}
+
 }  // namespace
 
 Shape read_shape(const std::string& element, const TextOf& text_of, const std::string& where) {
-  const std::string name = element.starts_with(kOurPrefix) ? element.substr(kOurPrefix.size()) : element;
-  const std::string of_element = where + ": <" + element + ">";
-  for (const ShapeKind& kind : kKinds) {
-    if (name != kind.element) continue;
-    Shape shape{&kind, {}};
-    for (const char* const key : kind.keys) {
-      if (key == nullptr) continue;
-      const std::vector<double> numbers = read_numbers(key, text_of(key), of_element);
-      shape.sizes.insert(shape.sizes.end(), numbers.begin(), numbers.end());
-    }
-    return shape;
+  const ShapeKind* const kind = find_kind(element);
+  if (kind == nullptr) throw std::runtime_error(where + ": <geometry> has <" + element + ">, must be one of " + known_elements());
+  Shape shape{kind, {}};
+  for (const char* const key : kind->keys) {
+    if (key == nullptr) continue;
+    const std::vector<double> numbers = read_numbers(key, text_of(key), where + ": <" + element + ">");
+    shape.sizes.insert(shape.sizes.end(), numbers.begin(), numbers.end());
   }
-  throw std::runtime_error(where + ": <geometry> has <" + element + ">, must be one of " + known_elements());
+  return shape;
 }
+
+bool is_known(const std::string& element) { return find_kind(element) != nullptr || element.starts_with(kOurPrefix); }
 
 const char* name_of(const Shape& shape) { return shape.kind->element; }
 

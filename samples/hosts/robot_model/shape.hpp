@@ -28,6 +28,9 @@ using TextOf = std::function<std::optional<std::string>(const std::string& key)>
 /// read_numbers().
 Shape read_shape(const std::string& element, const TextOf& text_of, const std::string& where);
 
+/// Whether the element is a shape of ours or one that read_shape() knows.
+bool is_known(const std::string& element);
+
 /// The name of the element without a prefix: "sphere" or "superellipsoid".
 const char* name_of(const Shape& shape);
 

@@ -177,16 +177,19 @@ void World::make_bodies(double density) {
     const Link& link = scene_.links[i];
     const std::size_t group = group_[i];
     if (group == world) continue;
+    const std::string where = scene_.file + ": link " + link.name;
     if (bodies_[group] != nullptr) {
+      require((dBodyGetGravityMode(bodies_[group]) != 0) == link.has_gravity,
+              where + ": its <gravity> differs from the links' that are one body with it, must be the same");
       dBodySetLinearDamping(bodies_[group], std::max(dBodyGetLinearDamping(bodies_[group]), link.linear_decay));
       dBodySetAngularDamping(bodies_[group], std::max(dBodyGetAngularDamping(bodies_[group]), link.angular_decay));
       continue;
     }
-    const std::string where = scene_.file + ": link " + link.name;
     require(!parts[group].empty(), where + " has no mass: no <inertial> and no <collision>");
     const dMass mass = sum_of(parts[group], centres_[group], where);
     dBodyID body = bodies_[group] = dBodyCreate(ode_.world);
     dBodySetMass(body, &mass);
+    dBodySetGravityMode(body, link.has_gravity ? 1 : 0);
     dBodySetPosition(body, centres_[group].x(), centres_[group].y(), centres_[group].z());
     dBodySetLinearDamping(body, link.linear_decay);
     dBodySetAngularDamping(body, link.angular_decay);
