@@ -15,7 +15,7 @@ namespace {
 
 /// The contacts of two walls that are asked for. ODE finds those of a mesh in the order of its vertices, and the first few may be
 /// on one side of a large face. A plate of 10 cm, a mesh with 1024 vertices on its lower side, tilts by 0.05 degrees on a plane
-/// with 64 of them, and not with 256 or 1024. A step on a box, which finds more than 1024, takes 1.7, 3.8 and 8.2 ms (parts.md).
+/// with 64 of them, and not with 256 or 1024. A step on a box, which finds more than 1024, takes 1.7, 3.8 and 8.2 ms.
 constexpr int kContactsOfWalls = 256;
 
 /// Moves the deepest contact to the front and behind it, one after the other, those farthest from the contacts before them. Returns
