@@ -2,7 +2,7 @@
 
 The wheel is this tree: the package with the shared libraries in its folder, where its extensions find them ($ORIGIN). The ODE
 layer is part of it if ODE is found; it takes ODE and PyODE from the system. Everything is built in build/wheel of the project.
-The environment variable CMAKE_ARGS adds arguments of CMake.
+The environment variable CMAKE_ARGS adds arguments of CMake, and CMAKE_BUILD_PARALLEL_LEVEL is the number of compilers at once.
 """
 
 import os
@@ -23,6 +23,12 @@ def version() -> str:
     found = re.search(r"VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text())
     assert found, "CMakeLists.txt has no version"
     return found[1]
+
+
+def numpy() -> str:
+    """Before 2.12 pybind11 reads no arrays of NumPy 2."""
+    asked = subprocess.run(["pkg-config", "--exists", "pybind11 >= 2.12"], check=False)
+    return "numpy" if asked.returncode == 0 else "numpy<2"
 
 
 def replace_links(folder: pathlib.Path) -> None:
@@ -52,7 +58,8 @@ class BuildByCMake(build_ext):
         }
         arguments = [f"-D{name}={value}" for name, value in settings.items()] + shlex.split(os.environ.get("CMAKE_ARGS", ""))
         subprocess.run(["cmake", "-S", ROOT, "-B", tree, *arguments], check=True)
-        subprocess.run(["cmake", "--build", tree, "--parallel", str(os.cpu_count())], check=True)
+        at_once = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count()))
+        subprocess.run(["cmake", "--build", tree, "--parallel", at_once], check=True)
         libraries = ["supernormal_core_runtime", "supernormal_runtime"] if has_ode else ["supernormal_core_runtime"]
         for component in [*libraries, "supernormal_python"]:
             subprocess.run(["cmake", "--install", tree, "--prefix", prefix, "--component", component, "--strip"], check=True)
@@ -62,6 +69,7 @@ class BuildByCMake(build_ext):
 BUILD.mkdir(parents=True, exist_ok=True)
 setup(
     version=version(),
+    install_requires=[numpy()],
     packages=[],
     ext_modules=[Extension("supernormal._core", [])],  # the wheel is for this interpreter and this kind of machine
     cmdclass={"build_ext": BuildByCMake},

@@ -127,7 +127,7 @@ constexpr const char* kFindProximitiesDoc =
 shapes1, shapes2: one Shape for all pairs, or Shapes, or a sequence of N Shape.
 poses1, poses2: one Pose for all pairs, or Poses.
 first_normals: (N, 3) or (3,), in the frame of body 1, any length but 0; or None.
-threads: in [0, 256]; 0: one for each core.
+threads: in [0, 256]; 0: up to one for each core, each with at least 256 of the N.
 
 Raises the errors of find_proximity(), with the index of the pair. Raises ValueError when the arguments differ in length.)";
 
@@ -144,7 +144,7 @@ poses: one Pose for all rays, or Poses.
 origins: (N, 3) or (3,), m.
 directions: (N, 3) or (3,), any length but 0.
 length: m, of all rays, in [0, inf].
-threads: in [0, 256]; 0: one for each core.
+threads: in [0, 256]; 0: up to one for each core, each with at least 256 of the N.
 
 Raises the errors of find_ray_hit(), with the index of the ray. Raises ValueError when the arguments differ in length.)";
 

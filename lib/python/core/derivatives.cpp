@@ -214,7 +214,7 @@ poses1, poses2: one Pose for all pairs, or Poses.
 proximities: the answer for the same shapes and poses: Proximity or Proximities.
 hessian: whether to compute gap_hessian.
 parameters: whether to compute parameters1 and parameters2.
-threads: in [0, 256]; 0: one for each core.
+threads: in [0, 256]; 0: up to one for each core, each with at least 256 of the N.
 
 Newton's method brings each normal to rounding first. Raises ValueError when a shape returns a number that is not finite, with the index of
 the pair, and when the arguments differ in length.)";
@@ -238,7 +238,7 @@ poses1, poses2: one Pose for all pairs, or Poses.
 enough: m; a search ends at the first normal whose bound is above it.
 max_evaluations: in [1, 3].
 first_normals: (N, 3) or (3,), in the frame of body 1, any length but 0; or None.
-threads: in [0, 256]; 0: one for each core.
+threads: in [0, 256]; 0: up to one for each core, each with at least 256 of the N.
 
 Raises ValueError when an argument is out of range, when the arguments differ in length, and when a shape returns a number that is
 not finite, with the index of the pair.)";
@@ -252,7 +252,7 @@ shapes1, shapes2: one Shape for all pairs, or Shapes, or a sequence of N Shape.
 poses1, poses2: one Pose for all pairs, or Poses.
 distance: m, finite.
 first_normals: (N, 3) or (3,), in the frame of body 1, any length but 0; or None. Clearances.normal is such.
-threads: in [0, 256]; 0: one for each core.
+threads: in [0, 256]; 0: up to one for each core, each with at least 256 of the N.
 
 A shape that returns a number that is not finite is not farther. Raises ValueError when an argument is out of range, and when the
 arguments differ in length.)";

@@ -37,6 +37,7 @@ PYBIND11_MODULE(_core, m) {
   using namespace supernormal::python;
   m.doc() =
       "Smooth convex bodies: shapes, signed distance, contacts and rays. Import `supernormal` instead; it exports everything.";
+  m.attr("__version__") = SUPERNORMAL_PYTHON_VERSION;
   bind_enums(m);
   bind_poses(m);
   bind_settings(m);

@@ -22,6 +22,7 @@ namespace supernormal::python {
 namespace {
 
 constexpr int kMostThreads = 256;
+constexpr std::ptrdiff_t kLeastShare = 256;  // of the cheapest queries, 40 us: a thread takes 20 to 30 us to start
 constexpr std::ptrdiff_t kLongestChunk = 256;
 constexpr std::chrono::milliseconds kBetweenSignals{50};
 
@@ -79,8 +80,10 @@ int number_of_threads(std::ptrdiff_t count, int threads) {
   if (threads < 0 || threads > kMostThreads) {
     throw std::invalid_argument("threads = " + std::to_string(threads) + " is outside [0, " + std::to_string(kMostThreads) + "]");
   }
-  if (threads == 0) threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, unsigned{kMostThreads}));
-  return static_cast<int>(std::clamp<std::ptrdiff_t>(count, 1, threads));
+  if (threads > 0) return static_cast<int>(std::clamp<std::ptrdiff_t>(count, 1, threads));
+  static const std::ptrdiff_t processors =
+      std::clamp(std::thread::hardware_concurrency(), 1U, unsigned{kMostThreads});  // reads /sys
+  return static_cast<int>(std::clamp<std::ptrdiff_t>(count / kLeastShare, 1, processors));
 }
 
 /// Periodically raises KeyboardInterrupt, or whatever a signal handler of the program raises.

@@ -9,8 +9,9 @@ namespace supernormal::python {
 /// The message for Status::InvalidInput. Poses and settings have been checked before.
 inline constexpr const char* kNotFinite = "what a shape delivers is not finite, or too large to compute with";
 
-/// Calls body(i) for each i in [0, count) on `threads` threads, the calling one included. `threads` is in [0, 256]; 0: one for each
-/// core. The interpreter's lock is released during the loop. The calling thread handles signals, so Ctrl-C ends the loop.
+/// Calls body(i) for each i in [0, count) on `threads` threads, the calling one included. `threads` is in [0, 256]; 0: up to one
+/// for each core, each with at least 256 of the calls. The interpreter's lock is released during the loop. The calling thread
+/// handles signals, so Ctrl-C ends the loop.
 ///
 /// If calls throw, rethrows the exception of the smallest i, whatever the number of threads. "i: " precedes the text of an
 /// exception from the library. Throws std::invalid_argument when `threads` is out of range.

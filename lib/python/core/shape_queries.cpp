@@ -95,7 +95,7 @@ constexpr const char* kSignedDistanceDoc =
 
 point: (..., 3), m, in the world frame, within 1e150.
 pose: of the body.
-threads: in [0, 256]; 0: one for each core.
+threads: in [0, 256]; 0: up to one for each core, each with at least 256 of the N.
 
 Raises ValueError for points or settings out of range.)";
 

@@ -43,6 +43,7 @@ from ._core import (
     Superellipsoid,
     Superovoid,
     Tessellation,
+    __version__ as __version__,
     are_farther_than,
     describe,
     find_clearances,

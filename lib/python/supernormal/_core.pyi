@@ -6,6 +6,8 @@ import numpy.typing as npt
 
 _Floats = npt.NDArray[np.float64]
 
+__version__: str
+
 class Solver(IntEnum):
     HYBRID = 0
     NEWTON = 1
