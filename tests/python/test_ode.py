@@ -250,12 +250,31 @@ def test_statistics_and_warm_start():
     assert so.getStatistics().queriesWarm >= 1
 
 
+@pytest.mark.parametrize(
+    "shape",
+    [
+        sn.Sphere(0.1),
+        sn.Box((0.1, 0.08, 0.05)),
+        sn.Cylinder(0.1, 0.05),
+        sn.Polytope([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]),
+        sn.Superellipsoid((0.1, 0.08, 0.05), 8, 8),
+        sn.LinearImage(sn.Box((1, 1, 1)), [[1, 0.2, 0], [0, 1, 0], [0, 0, 1]]),
+    ],
+    ids=lambda shape: type(shape).__name__,
+)
+def test_a_known_shape_has_its_mass(shape):
+    mass = so.Convex(None, shape).getMass(1000, offCentre=True)
+    exact = shape.mass_properties()
+    assert mass.mass == pytest.approx(1000 * exact.volume, rel=1e-14)
+    assert mass.c == pytest.approx(tuple(exact.centroid), abs=1e-15)
+
+
 SPHERE = sn.Sphere(1)
 REFUSALS = [
     (lambda: so.Ellipsoid(None, (1, 0, 1)), "snCreateEllipsoid: half-axis b = 0 m is outside [1e-30, 1e+30] m"),
     (lambda: so.Superellipsoid(None, (1, 1, 1), 0.5, 2), "snCreateSuperellipsoid: delta = 0.5 is outside [1.01, 1000]"),
     (lambda: so.Superovoid(None, (1, 1, 1), 2, 2, 0.9, 0.9), "snCreateSuperovoid: taper_x = 0.9"),
-    (lambda: so.Convex(None, sn.Polytope([[0, 0, 0]])), "snCreateConvex: "),
+    (lambda: so.Convex(None, sn.Polytope([[0, 0, 0]])), "snCreateFromDescription: "),
     (lambda: so.Superellipsoid().setParams((1, 1, -1), 2, 2), "snGeomSuperellipsoidSetParams: half-axis c = -1 m is outside"),
     (lambda: so.Superovoid().setParams((1, 1, 1), 2, 0, 0, 0), "snGeomSuperovoidSetParams: epsilon = 0 is outside"),
     (lambda: so.Superellipsoid.getParams(so.Superovoid()), "snGeomSuperellipsoidGetParams: "),
@@ -268,7 +287,7 @@ REFUSALS = [
     (lambda: so.Ellipsoid().support((0, 0, 0)), "snGeomSupport: direction = (0, 0, 0), but must have a length"),
     (lambda: so.Ellipsoid().getMass(-1), "snMassSet: density = -1 kg/m^3 is outside (0, inf) kg/m^3"),
     (lambda: so.Ellipsoid().getMassTotal(0), "snMassSetTotal: total_mass = 0 kg is outside (0, inf) kg"),
-    (lambda: so.Convex(None, sn.Box((1, 1, 1))).getMass(1), "is uncertain by"),
+    (lambda: so.Convex(None, sn.Rounded(sn.Box((1, 1, 1)), 0.1)).getMass(1), "is uncertain by"),
     (lambda: so.Ellipsoid().tessellate(0), "snGeomTessellate: chord_error = 0 m"),
     (lambda: so.proximity(pyode.GeomSphere(), pyode.GeomSphere()), "snGeomProximity: "),
     (lambda: so.proximity(so.Ellipsoid(), pyode.SimpleSpace()), "snGeomProximity: "),

@@ -14,6 +14,7 @@
 #include <tuple>
 
 #include "pyode_slots.hpp"
+#include "supernormal/shapes/description.hpp"
 #include "supernormal/shapes/shape.hpp"
 #include "supernormal/supernormal.h"
 
@@ -76,7 +77,20 @@ void hessian(const void* user, const dReal* n, dReal* out) {
 
 void release(void* user) { delete static_cast<SharedShape*>(user); }
 
+/// Empty for a shape that is made of functions or of a program's class.
+std::string text_of(const Shape& shape) {
+  try {
+    return describe(shape);
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+}
+
+/// A shape that has a text keeps what it knows, such as its mass, which callbacks do not tell.
 Number create_convex(Number s, const SharedShape& shape) {
+  if (const std::string text = text_of(*shape); !text.empty()) {
+    return number(accepted(snCreateFromDescription(space(s), text.c_str())));
+  }
   auto user = std::make_unique<SharedShape>(shape);
   const snShape callbacks{&support, &point, shape->traits().has_hessian ? &hessian : nullptr, user.get(), &release};
   const dGeomID created = accepted(snCreateConvex(space(s), &callbacks));
