@@ -59,7 +59,7 @@ class Cuboid {
   Cuboid& operator=(Cuboid&&) = delete;
 
   dGeomID create(int number, dSpaceID space) const {
-    const dReal a = dReal(half_[0]), b = dReal(half_[1]), c = dReal(half_[2]);
+    const auto a = dReal(half_[0]), b = dReal(half_[1]), c = dReal(half_[2]);
     if (number == dBoxClass) return dCreateBox(space, 2 * a, 2 * b, 2 * c);
     if (number == dConvexClass) return dCreateConvex(space, planes_.data(), 1, points_.data(), 8, polygon_.data());
     if (number == dTriMeshClass) return dCreateTriMesh(space, data_, nullptr, nullptr, nullptr);

@@ -69,9 +69,10 @@ Shape read_shape(const std::string& element, const TextOf& text_of, const std::s
   const ShapeKind* const kind = find_kind(element);
   if (kind == nullptr) throw std::runtime_error(where + ": <geometry> has <" + element + ">, must be one of " + known_elements());
   Shape shape{kind, {}};
+  const std::string of_element = where + ": <" + element + ">";
   for (const char* const key : kind->keys) {
     if (key == nullptr) continue;
-    const std::vector<double> numbers = read_numbers(key, text_of(key), where + ": <" + element + ">");
+    const std::vector<double> numbers = read_numbers(key, text_of(key), of_element);
     shape.sizes.insert(shape.sizes.end(), numbers.begin(), numbers.end());
   }
   return shape;
