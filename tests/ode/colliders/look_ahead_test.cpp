@@ -2,6 +2,7 @@
 // velocity.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "ode/colliders/fly_bys.hpp"
@@ -187,6 +188,36 @@ TEST_CASE(
       CHECK(through == 0);
     }
   }
+}
+
+TEST_CASE("bodies that fly into the corner of a mesh in one step stay in front of its floor and both walls") {
+  OdeSession session;
+  constexpr double kRoom = 40;  // m, half
+  constexpr double kSize = 0.1;
+  constexpr double kMost = 3;  // sizes a step
+  const double step = 0.01;
+  Random random(7);
+  int behind = 0;
+  for (int k = 0; k < 100; ++k) {
+    World world;
+    dWorldSetQuickStepNumIterations(world.id(), 80);
+    const MeshGeom room(box_arrays(kRoom, kRoom, kRoom, true), world.space());
+    const dGeomID geom = body_of(world.space(), {kSize, kSize * random.uniform(0.3, 1), kSize * random.uniform(0.3, 1)}, 8, 8);
+    const dBodyID body = world.add(geom, 1000);
+    random.turn(geom);
+    REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
+    const double away = kSize * random.uniform(1.5, 1.5 + kMost);
+    const auto near_corner = [&] { return away * random.uniform(0.6, 1) - kRoom; };
+    place(geom, {near_corner(), near_corner(), near_corner()});
+    const auto towards_corner = [&] { return dReal(-random.uniform(0, kMost * kSize / step)); };
+    const dReal x = towards_corner(), y = towards_corner(), z = towards_corner();
+    dBodySetLinearVel(body, x, y, z);
+    dGeomMoved(geom);
+    for (int i = 0; i < 8; ++i) world.quick_step(step);
+    const dReal* const middle = dBodyGetPosition(body);
+    behind += std::min({middle[0], middle[1], middle[2]}) < -kRoom ? 1 : 0;
+  }
+  CHECK(behind == 0);
 }
 
 TEST_CASE("two free bodies that meet off centre do not go through each other") {
