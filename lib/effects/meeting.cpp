@@ -74,7 +74,7 @@ std::optional<Bounce> find_bounce(const PairMaterial& pair, const Separation& se
   if (!touch) return std::nullopt;
   const double change = separation.acceleration * step / 2;
   const double speed = is_moved ? touch->speed : -(separation.velocity + change);
-  if (!(speed > pair.threshold) || !(pair.restitution * speed > separation.load * step / 2)) return std::nullopt;
+  if (!(speed > pair.threshold) || !ode::is_impact(speed, pair.restitution, separation.load, step)) return std::nullopt;
   return Bounce{touch->time, pair.restitution * speed - change};
 }
 

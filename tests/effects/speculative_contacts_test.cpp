@@ -463,7 +463,7 @@ TEST_CASE("speculative contacts: bodies with restitution come to rest") {
 }
 
 TEST_CASE("speculative contacts: a stack with restitution stays at rest, and stands after a ball has hit it from above") {
-  for (const double e : {0.3, 0.5, 0.9}) {
+  for (const double e : {0.3, 0.5, 0.9, 1.0}) {
     for (const double step : {2e-3, 10e-3}) {
       CAPTURE(e);
       CAPTURE(step);
@@ -486,6 +486,7 @@ TEST_CASE("speculative contacts: a stack with restitution stays at rest, and sta
       };
       scene.run_until(1);
       check_stands();
+      if (e == 1) continue;  // the ball would bounce for ever
       const dBodyID ball = scene.add_ball(0.03, kDensity, {0, 0, 0.9});
       const auto total = [&] {
         double sum = energy(ball);

@@ -42,8 +42,8 @@ std::optional<double> find_bounce(const dContact& contact, const Separation& now
   if (!touch) return std::nullopt;
   const double leaving = restitution * touch->speed;
   const double square = leaving * leaving + 2 * now.acceleration * gap;
-  // A body at rest has an acceleration, but gains no speed by it. And no velocity is right if a body rises less than it is high.
-  if (!(leaving > now.load * step / 2) || !(square >= 0)) return std::nullopt;
+  // No velocity is right if a body rises less than it is high.
+  if (!is_impact(touch->speed, restitution, now.load, step) || !(square >= 0)) return std::nullopt;
   return std::sqrt(square) + now.acceleration * step / 2;
 }
 
@@ -56,6 +56,12 @@ std::optional<Touch> find_touch(double gap, double velocity, double acceleration
   const double closing = std::sqrt(square) - rate;
   if (!(2 * gap <= step * closing)) return std::nullopt;
   return Touch{2 * gap / closing, std::sqrt(square)};
+}
+
+// On its parabola a resting body touches with half of what forces change in a step, and with what quickstep leaves. It is no impact
+// at any restitution. A body that comes back within a step would bounce for ever.
+bool is_impact(double speed, double restitution, double load, double step) {
+  return std::min(1.0, 2 * restitution) * speed > load * step;
 }
 
 void let_close_or_bounce(dContact& contact, double step) {

@@ -18,6 +18,10 @@ struct Touch {
 /// acceleration step / 2. Empty if they do not touch within the step.
 std::optional<Touch> find_touch(double gap, double velocity, double acceleration, double step);
 
+/// Whether bodies bounce that touch with `speed` (m/s). `load`: m/s^2; the larger acceleration of both, which contacts with other
+/// bodies may hold up. A body at rest has an acceleration, but gains no speed by it.
+bool is_impact(double speed, double restitution, double load, double step);
+
 /// Lets a contact with depth < 0 close its gap within the step, and no more. If its surface has a restitution, the bodies bounce
 /// instead if they would touch within the step; also those that touch already. The velocities and accelerations are those of the
 /// bodies of its geoms. Throws std::invalid_argument if a parameter is out of range.
