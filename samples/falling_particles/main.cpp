@@ -13,6 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "advise/doubts.hpp"
+#include "advise/forecast.hpp"
+#include "advise/refusals.hpp"
 #include "base/interrupt.hpp"
 #include "common/input_error.hpp"
 #include "input/list_sections.hpp"
@@ -21,8 +24,6 @@
 #include "observe/measuring.hpp"
 #include "output/lammps_input.hpp"
 #include "output/rendering.hpp"
-#include "run/doubts.hpp"
-#include "run/forecast.hpp"
 #include "run/run.hpp"
 
 namespace {
@@ -81,7 +82,7 @@ std::string version() {
 
 void check(const std::string& scene_path, const std::vector<std::string>& overrides) {
   const falling_particles::Scene scene = falling_particles::load_scene(scene_path, overrides);
-  falling_particles::refuse_overlapping_start(scene);
+  falling_particles::refuse_bad_start(scene);
   std::fputs(describe(scene, falling_particles::forecast(scene)).c_str(), stdout);
 }
 
@@ -113,7 +114,7 @@ ExitCode simulate(const Options& options) {
     warn(falling_particles::write_lammps_input(scene, options.to_lammps));
     return Done;
   }
-  falling_particles::refuse_overlapping_start(scene);
+  falling_particles::refuse_bad_start(scene);
   warn(falling_particles::doubts_about(scene));
   if (options.no_pictures) scene.pictures.clear();
   falling_particles::catch_interrupts();

@@ -8,10 +8,6 @@
 
 namespace falling_particles {
 
-inline constexpr double kHeaviest = 1e6;  // kg or kg m^2
-// ODE squares the moment of inertia, a thousand times mass times radius squared. Far smaller masses give NaN.
-inline constexpr double kLightest = 1e-12;
-
 /// Reads `drive` of a part, if it has one. The part's shape, pose and motions must have been read. A plane pushes along its normal
 /// unless the drive has an axis. A servo without an area is between the walls of `between`, or those that load_servos() reads if
 /// there are none. Throws InputError.

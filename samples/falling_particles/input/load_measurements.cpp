@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <set>
 #include <string>
 
 #include "common/nearest_word.hpp"
 #include "load_sections.hpp"
 #include "observe/measurement.hpp"
-#include "observe/region.hpp"
 
 namespace falling_particles {
 namespace {
@@ -56,20 +54,6 @@ int read_every(const TomlTable& table, const Time& time) {
   return static_cast<int>(steps);
 }
 
-/// m, of the keys `lower` and `upper`, which the kind has checked; empty without them.
-std::optional<Region> box_of(const TomlTable& table) {
-  if (!table.has("lower")) return std::nullopt;
-  const std::vector<double> lower = table.numbers("lower", 3, Interval::finite("m"));
-  const std::vector<double> upper = table.numbers("upper", 3, Interval::finite("m"));
-  return Region{{lower[0], lower[1], lower[2]}, {upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]}};
-}
-
-/// The plane of the keys `axis` and `at`, which the kind has checked; empty without them.
-std::optional<AxisPlane> plane_of(const TomlTable& table) {
-  if (!table.has("at")) return std::nullopt;
-  return AxisPlane{read_axis(table, "axis"), table.number("at", Interval::finite("m"))};
-}
-
 /// Samples are at multiples of the interval; contacts have forces from the first step on.
 void refuse_without_sample(const TomlTable& table, const MeasurementRequest& request, double step) {
   const int first = request.needs_contacts ? std::max(request.first, 1) : request.first;
@@ -102,8 +86,7 @@ std::vector<MeasurementRequest> load_measurements(const TomlTable& root, const S
     constexpr double kRounding = 1e-6;  // of a step
     const int first = static_cast<int>(std::ceil(from / time.step - kRounding));
     const int last = static_cast<int>(std::floor(until / time.step + kRounding));
-    requests.push_back({std::move(name), kind.name, every, first, last, kind.needs_contacts, kind.read(table, scene), box_of(table),
-                        plane_of(table)});
+    requests.push_back({std::move(name), kind.name, every, first, last, kind.needs_contacts, kind.read(table, scene)});
     refuse_without_sample(table, requests.back(), time.step);
   }
   return requests;

@@ -13,7 +13,7 @@
 #include "load_drive.hpp"
 #include "load_effects.hpp"
 #include "load_sections.hpp"
-#include "memory.hpp"
+#include "model/memory.hpp"
 #include "model/picture_names.hpp"
 #include "model/scene.hpp"
 

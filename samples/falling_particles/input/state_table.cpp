@@ -102,7 +102,7 @@ class StateTable::Lines {
   unsigned number_ = 0;
 };
 
-StateTable::StateTable(const std::filesystem::path& path, Frames frames) : path_(path), frames_(frames), text_(read_file(path)) {
+StateTable::StateTable(const std::filesystem::path& path) : path_(path), text_(read_file(path)) {
   if (text_.starts_with(kByteOrderMark)) text_.erase(0, kByteOrderMark.size());
   is_dump_ = text_.starts_with("ITEM:");
   Lines lines(text_);
@@ -135,7 +135,7 @@ void StateTable::read_csv(Lines& lines) {
   }
   while (const std::optional<Line> line = lines.next()) {
     add_row(*line, split_at_commas(line->text));
-    if (frames_ == Frames::All || !has("time_s")) continue;
+    if (!has("time_s")) continue;
     const double time = number(rows_.back(), "time_s", Interval::finite("a time, s"));
     if (time_ && time < *time_) {
       rows_.pop_back();

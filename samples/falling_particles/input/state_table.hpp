@@ -14,9 +14,9 @@ namespace falling_particles {
 
 using namespace common;
 
-/// Named columns of words, from a CSV file or from a text dump of LAMMPS. Of several frames the last one is read, unless all are
-/// asked for: the lines of the largest time_s of a CSV file, the last section of a dump. The columns of a dump get the names that
-/// the tables of a run have, where they mean the same.
+/// Named columns of words, from a CSV file or from a text dump of LAMMPS. Of several frames the last one is read: the lines of
+/// the largest time_s of a CSV file, the last section of a dump. The columns of a dump get the names that the tables of a run have,
+/// where they mean the same.
 class StateTable {
  public:
   struct Row {
@@ -24,10 +24,8 @@ class StateTable {
     std::vector<std::string_view> fields;
   };
 
-  enum class Frames { Last, All };
-
-  /// Throws InputError, which names the file and the line. `frames`: of a CSV file.
-  explicit StateTable(const std::filesystem::path& path, Frames frames = Frames::Last);
+  /// Throws InputError, which names the file and the line.
+  explicit StateTable(const std::filesystem::path& path);
   StateTable(const StateTable&) = delete;
   StateTable& operator=(const StateTable&) = delete;
 
@@ -59,7 +57,6 @@ class StateTable {
   std::size_t index_of(std::string_view column) const;
 
   std::filesystem::path path_;
-  Frames frames_;
   std::string text_;
   bool is_dump_ = false;
   unsigned head_ = 1;  // line of the columns

@@ -3,10 +3,7 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
-
-#include "geometry.hpp"
 
 namespace falling_particles {
 
@@ -15,12 +12,6 @@ class World;
 
 /// Makes a measurement for a world that has made no step.
 using MeasurementMaker = std::function<std::unique_ptr<Measurement>(const World&)>;
-
-/// A plane at right angles to an axis, 0, 1 or 2 for x, y and z.
-struct AxisPlane {
-  std::size_t axis;
-  double at;  ///< m, along the axis
-};
 
 /// A section [[measurement]] of a scene file, checked.
 struct MeasurementRequest {
@@ -31,8 +22,6 @@ struct MeasurementRequest {
   int last;
   bool needs_contacts;
   MeasurementMaker make;
-  std::optional<Region> box = {};       ///< of `lower` and `upper`
-  std::optional<AxisPlane> plane = {};  ///< of `axis` and `at`
 
   bool is_due(int step) const { return step % every == 0 && step >= first && step <= last; }
   bool follows(int step) const { return step > first && step <= last; }  ///< if the kind follows the run

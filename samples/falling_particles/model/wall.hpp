@@ -57,6 +57,11 @@ struct GroundShape {
 
 using WallShape = std::variant<PlaneShape, BoxShape, CylinderShape, SmoothShape, MeshShape, GroundShape>;
 
+/// Of a driven or free wall.
+inline constexpr double kHeaviest = 1e6;  // kg or kg m^2
+// ODE squares the moment of inertia, a thousand times mass times radius squared. Far smaller masses give NaN.
+inline constexpr double kLightest = 1e-12;
+
 /// What messages and pictures call a wall.
 enum class WallRole {
   Part,  ///< a [[part]], or a wall of a container that moves or rotates

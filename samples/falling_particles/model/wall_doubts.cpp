@@ -5,26 +5,19 @@
 namespace falling_particles {
 
 void WallDoubts::add(const std::string& kind, const Wall& wall, double excess, const std::string& text) {
-  const std::string sentence = wall.called() + text;
-  const auto found = std::ranges::find(kinds_, kind, &Kind::name);
-  if (found == kinds_.end()) {
-    kinds_.push_back({kind, excess, sentence, {wall.name}, 0});
-    return;
-  }
-  found->names.push_back(wall.name);
-  if (excess <= found->excess) return;
-  found->excess = excess;
-  found->sentence = sentence;
-  found->worst = found->names.size() - 1;
+  const auto found = std::ranges::find(kinds_, kind, [](const auto& doubts) { return doubts.front().kind; });
+  std::vector<Doubt>& doubts = found == kinds_.end() ? kinds_.emplace_back() : *found;
+  doubts.push_back({kind, wall.name, excess, wall.called() + text});
 }
 
 void WallDoubts::tell(std::vector<std::string>& doubts) const {
-  for (const Kind& kind : kinds_) {
+  for (const std::vector<Doubt>& kind : kinds_) {
+    const auto worst = std::ranges::max_element(kind, {}, &Doubt::excess);
     std::string others;
-    for (std::size_t i = 0; i < kind.names.size(); ++i) {
-      if (i != kind.worst) others += (others.empty() ? "; the same holds for \"" : ", \"") + kind.names[i] + '"';
+    for (const Doubt& doubt : kind) {
+      if (&doubt != &*worst) others += (others.empty() ? "; the same holds for \"" : ", \"") + doubt.wall + '"';
     }
-    doubts.push_back(kind.sentence + others);
+    doubts.push_back(worst->sentence + others);
   }
 }
 

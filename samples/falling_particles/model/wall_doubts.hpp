@@ -19,14 +19,12 @@ class WallDoubts {
   void tell(std::vector<std::string>& doubts) const;
 
  private:
-  struct Kind {
-    std::string name;
+  struct Doubt {
+    std::string kind, wall;
     double excess;
-    std::string sentence;            // about the worst
-    std::vector<std::string> names;  // of all walls, as they came
-    std::size_t worst;               // index into `names`
+    std::string sentence;
   };
-  std::vector<Kind> kinds_;
+  std::vector<std::vector<Doubt>> kinds_;
 };
 
 }  // namespace falling_particles

@@ -87,7 +87,6 @@ struct MeasurementKind {
   std::string columns;                                ///< in words; their names if the kind may be on by default
   std::string source = {};                            ///< reference of the definition
   bool needs_contacts = false;                        ///< whether it needs the contacts of the sampled steps, with their forces
-  bool limits_plane = false;                          ///< whether `lower` and `upper` limit a plane across its axis alone
   bool follows = false;                               ///< whether it needs every step from `from` to `until` (Measurement::follow)
   /// Checks the section's parameters against the scene. The scene's container, grains and time must have been read. Throws
   /// InputError.

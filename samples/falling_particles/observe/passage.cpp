@@ -205,7 +205,6 @@ MeasurementKind passage_kind() {
           "`from`, net rates since the last sample; per grain: time, index, kind, scale, sieve size, mass, direction (1 along the "
           "axis, -1 against it), position, velocity",
       .source = "crossings are interpolated within a step",
-      .limits_plane = true,
       .follows = true,
       .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
         PassedPlane plane{{read_axis(table, "axis"), table.number("at", Interval::closed(-kFarthest, kFarthest, "m"))}, {}};

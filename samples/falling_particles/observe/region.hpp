@@ -59,6 +59,12 @@ Vector3 place_before(const Grain& grain, const World& world);
 /// The fraction of the segment from a to b, and of all its images in a periodic world together, that is in the bounds.
 double share_of_images(const Bounds& bounds, const Vector3& a, const Vector3& b, const Vector3& periods);
 
+/// A plane at right angles to an axis, 0, 1 or 2 for x, y and z.
+struct AxisPlane {
+  std::size_t axis;
+  double at;  ///< m, along the axis
+};
+
 /// 0 for "x", 1 for "y", 2 for "z".
 std::size_t read_axis(const TomlTable& table, const char* key);
 

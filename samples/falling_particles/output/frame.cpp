@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "wall_mesh.hpp"
+#include "observe/wall_mesh.hpp"
 #include "world/stepper.hpp"
 #include "world/world.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "base/write_file.hpp"
 #include "common/interval.hpp"
-#include "grain_mesh.hpp"
+#include "model/grain_mesh.hpp"
 #include "palette.hpp"
 
 namespace falling_particles {

@@ -11,7 +11,7 @@
 #include <supernormal/shapes/tessellation.hpp>
 
 #include "base/write_file.hpp"
-#include "grain_mesh.hpp"
+#include "model/grain_mesh.hpp"
 #include "palette.hpp"
 
 namespace falling_particles {

@@ -10,7 +10,7 @@
 
 #include "base/base64.hpp"
 #include "base/write_file.hpp"
-#include "grain_mesh.hpp"
+#include "model/grain_mesh.hpp"
 #include "palette.hpp"
 
 // The page that `npm run build` makes in page/ (view_page_html.S).

@@ -9,13 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "advise/doubts.hpp"
+#include "advise/forecast.hpp"
+#include "advise/refusals.hpp"
 #include "columns.hpp"
 #include "common/input_error.hpp"
 #include "observe/energy.hpp"
 #include "observe/measuring.hpp"
 #include "open_world.hpp"
-#include "run/doubts.hpp"
-#include "run/forecast.hpp"
 
 namespace py = pybind11;
 
@@ -76,7 +77,7 @@ void bind_source(py::module_& m) {
       .def("check",
            [](const Source& source) {
              return about(source.scene(), [](const Scene& scene) {
-               refuse_overlapping_start(scene);
+               refuse_bad_start(scene);
                return describe(scene, forecast(scene));
              });
            })
@@ -84,7 +85,7 @@ void bind_source(py::module_& m) {
       .def("doubts", [](const Source& source) {
         std::vector<std::string> doubts;
         about(source.scene(), [&doubts](const Scene& scene) {
-          refuse_overlapping_start(scene);
+          refuse_bad_start(scene);
           doubts = doubts_about(scene);
           return std::string();
         });

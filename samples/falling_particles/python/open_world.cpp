@@ -8,12 +8,12 @@
 #include <string>
 #include <utility>
 
+#include "advise/refusals.hpp"
 #include "common/input_error.hpp"
 #include "common/interval.hpp"
 #include "output/picture.hpp"
 #include "output/rendering.hpp"
 #include "run/changes.hpp"
-#include "run/doubts.hpp"
 
 namespace falling_particles::python {
 namespace {
@@ -77,7 +77,7 @@ void OpenWorld::open() {
   parts_ = std::make_unique<Parts>(source_.scene());
   Scene& scene = parts_->scene;
   if (!options_.pictures) scene.pictures.clear();
-  refuse_overlapping_start(scene);
+  refuse_bad_start(scene);
   std::optional<StepwiseRun::Files> files;
   if (options_.out) {
     parts_->folder.emplace(*options_.out, scene.name, result_names(), options_.resume);

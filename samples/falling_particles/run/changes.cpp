@@ -7,10 +7,10 @@
 #include <utility>
 #include <variant>
 
+#include "advise/refusals.hpp"
 #include "base/toml_input.hpp"
 #include "common/input_error.hpp"
 #include "common/nearest_word.hpp"
-#include "doubts.hpp"
 #include "input/load_effects.hpp"
 #include "model/container_walls.hpp"
 

@@ -52,15 +52,14 @@ Neighbourhood::Neighbourhood(const World& world, const Region& region) {
   std::ranges::for_each(world.walls().geoms(), add_if_near);
 }
 
-dGeomID Neighbourhood::find_overlap(dGeomID geom) const {
+bool Neighbourhood::is_free(dGeomID geom) const {
   const Aabb own = aabb_of(geom);
-  const auto found = std::ranges::find_if(geoms_, [&](dGeomID other) {
+  return std::ranges::none_of(geoms_, [&](dGeomID other) {
     if (!meet(own, aabb_of(other))) return false;
     snProximity proximity;
     if (snGeomProximity(geom, other, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
     return !(proximity.gap > 0);
   });
-  return found == geoms_.end() ? nullptr : *found;
 }
 
 Placement random_place(const Region& region, std::size_t kind, double scale, double radius, Random& random) {

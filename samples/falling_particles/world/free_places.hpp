@@ -38,10 +38,9 @@ class Neighbourhood {
   Neighbourhood(const World& world, const Region& region);
 
   void add(dGeomID geom) { geoms_.push_back(geom); }
-  /// A geom that `geom`, of the library's class, overlaps to the tolerance of snGeomProximity; null if there is none. A wall that
-  /// is a surface, a mesh or a terrain, overlaps no grain behind it. Throws std::runtime_error.
-  dGeomID find_overlap(dGeomID geom) const;
-  bool is_free(dGeomID geom) const { return find_overlap(geom) == nullptr; }
+  /// Whether `geom`, of the library's class, overlaps none of them, to the tolerance of snGeomProximity. A wall that is a surface,
+  /// a mesh or a terrain, overlaps no grain behind it. Throws std::runtime_error.
+  bool is_free(dGeomID geom) const;
 
  private:
   std::vector<dGeomID> geoms_;

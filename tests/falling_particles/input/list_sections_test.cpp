@@ -195,3 +195,32 @@ TEST_CASE("list: the section of each effect names every key that scenes may have
     }
   }
 }
+
+TEST_CASE("list: walls and populations are listed with every key that a section allows") {
+  const auto check_listed = [](const std::string& list, const std::string& section) {
+    const std::string said = complaint(kSceneText + section + "nonsense = 1\n");
+    CAPTURE(section);
+    REQUIRE(said.find("nonsense") != std::string::npos);
+    REQUIRE(said.find("allowed: ") != std::string::npos);
+    std::istringstream stream(said.substr(said.find("allowed: ") + 9));
+    for (std::string key; stream >> key;) {
+      if (key.back() == ',') key.pop_back();
+      CAPTURE(key);
+      const bool is_listed = list.find(key) != std::string::npos;
+      CHECK(is_listed);
+    }
+  };
+  const std::string walls = falling_particles::list_walls(), population = falling_particles::list_population();
+  for (const std::string shape : {"plane", "box", "cylinder", "mesh", "ellipsoid", "superellipsoid", "superovoid"}) {
+    CHECK(walls.find("[[part]] shape = \"" + shape + '"') != std::string::npos);
+    check_listed(walls, "[[part]]\nname = \"p\"\nshape = \"" + shape + "\"\n");
+  }
+  const std::string part = "[[part]]\nname = \"p\"\nshape = \"plane\"\n";
+  for (const std::string kind : {"velocity", "rotation", "vibration", "conveyor"}) {
+    CHECK(walls.find("[[part.motion]] kind = \"" + kind + '"') != std::string::npos);
+    check_listed(walls, part + "[[part.motion]]\nkind = \"" + kind + "\"\n");
+  }
+  check_listed(walls, part + "[part.drive]\n");
+  check_listed(population, "[[feeder]]\n");
+  check_listed(population, "[[sink]]\n");
+}

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "advise/refusals.hpp"
 #include "common/input_error.hpp"
 #include "complaint.hpp"
 #include "model/grain_shape.hpp"
-#include "run/doubts.hpp"
 #include "scene_text.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -204,6 +204,6 @@ TEST_CASE("start: the outlet of a hopper may be open from the start") {
   folder.write("state", "grain,x_m,y_m,z_m,qw,qx,qy,qz\npea,0,0,0.03,1,0,0,0\npea,0,0,0.07,1,0,0,0\n");
   const std::string open = replaced(kHopperText, "opens_at = 0.05", "opens_at = 0");
   const Scene scene = load_scene(folder.write("scene.toml", scene_in(open) + "[start]\nfile = \"state\"\n"));
-  refuse_overlapping_start(scene);  // it would find the grain below in a lid
+  refuse_bad_start(scene);  // it would find the grain below in a lid
   CHECK(scene.start->grains.size() == 2);
 }

@@ -13,8 +13,8 @@
 #include <string_view>
 
 #include "model/picture_names.hpp"
+#include "observe/wall_mesh.hpp"
 #include "output/picture.hpp"
-#include "output/wall_mesh.hpp"
 #include "read_array.hpp"
 #include "scenes.hpp"
 #include "support/temporary_folder.hpp"

@@ -284,7 +284,7 @@ def test_a_run_goes_on_from_the_state_of_another():
         np.testing.assert_array_equal(world.grains().position, wanted.position)
 
 
-def test_bonds_that_are_made_anew_are_doubted_and_have_their_share_of_the_rows():
+def test_bonds_have_their_share_of_the_rows():
     scene = scenes.Scene(SCENES / "beam.toml", {**NO_PICTURES, "time.duration": 0.02})
     results = scene.run("first")
     summary = tomllib.loads(results.summary)
@@ -294,11 +294,6 @@ def test_bonds_that_are_made_anew_are_doubted_and_have_their_share_of_the_rows()
     assert "share_bonds" in shares and sum(shares.values()) == pytest.approx(1, abs=1e-4)
     rest = cost["real"] * (shares["share_solver"] + shares["share_bonds"])
     assert cost["bonds"]["seconds"] == pytest.approx(rest, rel=1e-3) and cost["effect"]["rigid_contact"]["seconds"] == 0
-    state = {"start.file": (results.folder / "final_state.csv").resolve()}
-    anew = scenes.Scene(SCENES / "beam.toml", {**NO_PICTURES, **state})
-    assert sum("final_bonds.csv" in doubt for doubt in anew.doubts()) == 2 and "final_bonds.csv" in anew.check()
-    files = {f"bond[{name}].file": (results.folder / "final_bonds.csv").resolve() for name in ("clamped", "beam")}
-    assert scenes.Scene(SCENES / "beam.toml", {**NO_PICTURES, **state, **files}).doubts() == scene.doubts()
 
 
 def test_walls_have_the_normals_of_their_planes():

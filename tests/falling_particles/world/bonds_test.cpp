@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "advise/forecast.hpp"
+#include "advise/refusals.hpp"
 #include "common/input_error.hpp"
 #include "complaint.hpp"
 #include "observe/measurement.hpp"
@@ -18,8 +20,6 @@
 #include "observe/simulation.hpp"
 #include "observe/table_text.hpp"
 #include "output/lammps_input.hpp"
-#include "run/doubts.hpp"
-#include "run/forecast.hpp"
 #include "scene_text.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -552,7 +552,7 @@ TEST_CASE("bonds: the forecast counts them by section") {
   const Scene scene = scene_with(folder, rods(4), clamped_beam());
   const Forecast found = forecast(scene);
   CHECK(found.bonds == std::vector<std::uint64_t>{1, 3});
-  CHECK(describe(scene, found).find("clamped: 1 beam of ") != std::string::npos);
+  CHECK(describe(scene, found).find("clamped: 1 bond\n") != std::string::npos);
 }
 
 TEST_CASE("bonds: LAMMPS' input refuses them") {
@@ -575,7 +575,7 @@ std::string refusal_of(const std::string& sections, const std::vector<std::strin
   const TemporaryFolder folder;
   folder.write("bonds.csv", file);
   try {
-    refuse_overlapping_start(scene_with(folder, rods(3), sections, overrides));
+    refuse_bad_start(scene_with(folder, rods(3), sections, overrides));
   } catch (const InputError& error) {
     return error.what();
   }
@@ -634,7 +634,7 @@ TEST_CASE("bonds: bonds that join grains of one place by their touching are refu
   const auto said = [](const std::string& grains, const std::string& sections) -> std::string {
     const TemporaryFolder folder;
     try {
-      refuse_overlapping_start(scene_with(folder, grains, sections));
+      refuse_bad_start(scene_with(folder, grains, sections));
     } catch (const InputError& error) {
       return error.what();
     }
@@ -669,7 +669,7 @@ TEST_CASE("bonds: a radius that is too large for the step is named with its line
     folder.write("pairs.csv", "body_1,body_2" + column + "\n0,1" + first + "\n1,2" + radius + '\n');
     const std::string glue = replaced(bond("glue", "file = \"pairs.csv\"\n"), "radius = 2e-3\n", keys);
     try {
-      refuse_overlapping_start(scene_with(folder, rods(3), glue));
+      refuse_bad_start(scene_with(folder, rods(3), glue));
     } catch (const InputError& error) {
       return error.what();
     }

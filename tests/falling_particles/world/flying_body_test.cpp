@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "advise/refusals.hpp"
 #include "common/input_error.hpp"
 #include "complaint.hpp"
-#include "run/doubts.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"
 #include "world/stepper.hpp"
@@ -243,7 +243,7 @@ TEST_CASE("free walls: a start within another wall is refused, and one that touc
       scene.start->grains.push_back({.position = {5, 5, 5}});
     }
     try {
-      refuse_overlapping_start(scene);
+      refuse_bad_start(scene);
     } catch (const InputError& error) {
       return error.what();
     }

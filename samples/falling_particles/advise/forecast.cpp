@@ -1,10 +1,9 @@
 #include "forecast.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <ctime>
 
-#include "base/processor_time.hpp"
-#include "input/memory.hpp"
+#include "model/memory.hpp"
 #include "observe/measurement.hpp"
 #include "observe/simulation.hpp"
 
@@ -27,6 +26,7 @@ double bytes_of_picture(const std::string& format, double grain_frames) {
 
 constexpr double kLineOfFrame = 300;    // bytes, of energies.csv and state.csv together
 constexpr double kLineOfContact = 260;  // bytes, of contact_forces
+constexpr int kContactsPerGrain = 3;    // in a bed, each counted once: 2.3 to 3 in the beds of samples/scenes
 
 std::uint64_t samples_of(const MeasurementRequest& request) {
   const auto up_to = [&](int step) { return step < 0 ? 0 : step / request.every + 1; };
@@ -44,16 +44,20 @@ double bytes_of_table(const MeasurementRequest& request, const Simulation& simul
   return static_cast<double>(samples_of(request)) * of_sample + grains * measurement->bytes_of_event();
 }
 
-/// s, the mean time of the first steps.
-double time_start(Simulation& simulation) {
+double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }  // s
+
+/// Takes the first steps as a run does.
+void time_steps(Simulation& simulation, Forecast& result) {
+  constexpr int kSteps = 20;
   constexpr double kLongest = 0.5;  // s
   const double start = processor_time();
-  int steps = 0;
   do {
+    const double now = ++result.timed_steps * simulation.world.scene().time.step;
+    simulation.watches.energy.exchange(simulation.population.before_step(now));
     simulation.stepper.step();
-    ++steps;
-  } while (steps < 20 && processor_time() - start < kLongest);
-  return (processor_time() - start) / steps;
+    simulation.watches.after_step(now, simulation.stepper);
+  } while (result.timed_steps < std::min(kSteps, result.steps) && processor_time() - start < kLongest);
+  result.step = (processor_time() - start) / result.timed_steps;
 }
 
 }  // namespace
@@ -68,20 +72,16 @@ Forecast forecast(const Scene& scene) {
   const double grain_frames = most * result.frames;
   result.table_bytes = kTrajectory * grain_frames + kFinalState * most + kLineOfFrame * result.frames;
   for (const std::string& format : scene.pictures) result.picture_bytes += bytes_of_picture(format, grain_frames);
-  {
-    Simulation simulation(scene, 1);
-    for (const MeasurementRequest& request : scene.measurements) {
-      result.samples.push_back(samples_of(request));
-      result.table_bytes += bytes_of_table(request, simulation, result.most_grains);
-    }
-    result.bonds.resize(scene.bonds.size());
-    if (!scene.bonds.empty()) {
-      for (const Bond& bond : simulation.world.bonds()->all()) ++result.bonds[bond.rule];
-    }
-    result.start_step = time_start(simulation);
+  Simulation simulation(scene, 1);
+  for (const MeasurementRequest& request : scene.measurements) {
+    result.samples.push_back(samples_of(request));
+    result.table_bytes += bytes_of_table(request, simulation, result.most_grains);
   }
-  constexpr int kEnough = 2000;  // grains: enough to exceed the processor's caches
-  result.bed = time_bed(scene, std::clamp(result.most_grains, 2, kEnough));
+  result.bonds.resize(scene.bonds.size());
+  if (!scene.bonds.empty()) {
+    for (const Bond& bond : simulation.world.bonds()->all()) ++result.bonds[bond.rule];
+  }
+  time_steps(simulation, result);
   return result;
 }
 

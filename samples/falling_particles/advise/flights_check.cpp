@@ -8,8 +8,7 @@
 
 #include "common/input_error.hpp"
 #include "common/interval.hpp"
-#include "doubts.hpp"
-#include "world/world.hpp"
+#include "refusals.hpp"
 
 namespace falling_particles {
 namespace {

@@ -1,4 +1,4 @@
-#include "input/memory.hpp"
+#include "model/memory.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 #include "grain_mesh.hpp"
 
-#include "model/grain_shape.hpp"
+#include "grain_shape.hpp"
 
 namespace falling_particles {
 

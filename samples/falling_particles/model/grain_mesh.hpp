@@ -3,7 +3,7 @@
 
 #include <supernormal/shapes/tessellation.hpp>
 
-#include "model/grain_kind.hpp"
+#include "grain_kind.hpp"
 
 namespace falling_particles {
 

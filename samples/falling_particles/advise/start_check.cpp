@@ -2,9 +2,8 @@
 
 #include "common/input_error.hpp"
 #include "common/interval.hpp"
-#include "doubts.hpp"
 #include "observe/overlap.hpp"
-#include "world/world.hpp"
+#include "refusals.hpp"
 
 namespace falling_particles {
 namespace {

@@ -127,4 +127,20 @@ WallPicture picture_of(const Wall& wall, double extent) {
   return picture;
 }
 
+std::vector<SurfacePoint> surface_of(const Wall& wall, const Container& container) {
+  const Rectangle plan = plan_of(container);
+  const Mesh mesh = picture_of(wall, std::hypot(plan.width[0], plan.width[1])).mesh;
+  const auto corner = [&](unsigned int index) {
+    const auto& [x, y, z] = mesh.vertices[index];
+    return wall.moves() ? wall.start(Vector3(x, y, z)) : Vector3(x, y, z);
+  };
+  std::vector<SurfacePoint> points;
+  for (const auto& triangle : mesh.triangles) {
+    const Vector3 a = corner(triangle[0]), b = corner(triangle[1]), c = corner(triangle[2]);
+    const Vector3 normal = (b - a).cross(c - a).normalized();
+    for (const Vector3& point : {a, b, c}) points.push_back({point, normal});
+  }
+  return points;
+}
+
 }  // namespace falling_particles

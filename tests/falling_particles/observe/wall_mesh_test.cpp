@@ -1,5 +1,5 @@
 // Tests of what pictures show of parts: closed surfaces of the right size, seen from outside.
-#include "output/wall_mesh.hpp"
+#include "observe/wall_mesh.hpp"
 
 #include <doctest/doctest.h>
 

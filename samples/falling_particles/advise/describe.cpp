@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -8,6 +7,7 @@
 #include "forecast.hpp"
 #include "model/container.hpp"
 #include "model/material.hpp"
+#include "step.hpp"
 
 namespace falling_particles {
 namespace {
@@ -54,46 +54,6 @@ std::string kinds_of(const Scene& scene) {
   return text;
 }
 
-std::string from_until(double from, double until) {
-  std::string text = from > 0 ? " from " + shortest(from) + " s" : "";
-  if (std::isfinite(until)) text += " until " + shortest(until) + " s";
-  return text;
-}
-
-std::string describe(const Feeder& feeder) {
-  return feeder.name + ": " + feeder.rate.in_words() + "/s" + (feeder.total ? ", " + feeder.total->in_words() + " in all" : "") +
-         from_until(feeder.from, feeder.until);
-}
-
-std::string describe(const BondRule& rule, std::uint64_t count, const Scene& scene) {
-  std::string text =
-      rule.name + ": " + counted(count, rule.kind == BondKind::Beam ? "beam" : "ball") + " of " + rounded(rule.modulus) + " Pa";
-  if (rule.wall) text += ", to part \"" + scene.walls[*rule.wall].name + '"';
-  return text;
-}
-
-std::string shape_of(const Wall& wall) {
-  constexpr std::array kNames = {"plane", "box", "cylinder", "smooth body", "mesh", "ground"};
-  return kNames[wall.shape.index()];
-}
-
-std::string describe(const Drive& drive) {
-  const std::string unit = drive.turns() ? " N m" : " N";
-  if (drive.servo) return "a servo to " + shortest(drive.servo->stress) + " Pa";
-  if (drive.power > 0) return "driven by " + shortest(drive.power) + " W, up to " + shortest(drive.force) + unit;
-  return "driven by " + shortest(drive.force) + unit;
-}
-
-std::string describe(const Wall& wall) {
-  constexpr std::array kMotions = {"moves", "turns", "vibrates", "has a surface that moves"};
-  std::string text = wall.name + ": " + shape_of(wall);
-  for (const WallMotion& motion : wall.motions)
-    text += std::string(", ") + kMotions[motion.kind.index()] + from_until(motion.from, motion.until);
-  if (wall.flight) text += ", free, " + rounded(wall.flight->mass) + " kg" + from_until(wall.flight->from, INFINITY);
-  if (wall.drive) text += ", " + describe(*wall.drive) + from_until(wall.drive->from, wall.drive->until);
-  return text;
-}
-
 std::string describe(const StartState& start) {
   std::string text = "from " + start.file.filename().string();
   if (start.time) text += ", " + shortest(*start.time) + " s after the start of its run";
@@ -126,9 +86,6 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   lines.add("scene", scene.name + ", in a " + place);
   lines.add("steps", std::to_string(forecast.steps) + " of " + shortest(scene.time.step) + " s, " +
                          counted(static_cast<std::size_t>(forecast.frames), "frame"));
-  if (const std::optional<double> longest = step_for_look_ahead(scene)) {
-    lines.add("steps", "up to " + rounded(*longest) + " s each leave overlaps of about 1e-3 of a half-axis in a bed at rest");
-  }
   std::string grains = std::to_string(scene.grains_at_start()) + " at the start: " + kinds_of(scene);
   if (!scene.feeders.empty()) grains += "; up to " + std::to_string(forecast.most_grains) + " with those of the feeders";
   lines.add("grains", grains);
@@ -138,17 +95,9 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
                            " m/s, " + rounded(fall->way) + " m a step, " + rounded(fall->way / scene.smallest_half_axis()) +
                            " of the smallest half-axis");
   }
-  if (scene.query) {
-    lines.add("query", name_of(scene.query->solver) + ", tolerance " + shortest(scene.query->tolerance) + ", up to " +
-                           std::to_string(scene.query->max_evaluations) + " evaluations, warm start " +
-                           (scene.query->warm_start ? "on" : "off"));
-  }
-  for (const Feeder& feeder : scene.feeders) lines.add("feeders", describe(feeder));
-  for (const Sink& sink : scene.sinks) lines.add("sinks", sink.name);
   for (std::size_t i = 0; i < scene.bonds.size(); ++i) {
-    lines.add("bonds", describe(scene.bonds[i], forecast.bonds[i], scene));
+    lines.add("bonds", scene.bonds[i].name + ": " + counted(forecast.bonds[i], "bond"));
   }
-  for (const Wall& wall : scene.parts()) lines.add("parts", describe(wall));
   for (const supernormal::effects::Effect& effect : scene.effects) {
     const supernormal::effects::Description& description = supernormal::effects::descriptions()[effect.index()];
     lines.add("effects", std::string(description.name) + where(effect, scene.walls) + ": " +
@@ -169,11 +118,8 @@ std::string describe(const Scene& scene, const Forecast& forecast) {
   lines.add("memory", in_bytes(forecast.memory) + " at most, in a bed of all grains");
   lines.add("disk", in_bytes(forecast.table_bytes) + " of tables, " + in_bytes(forecast.picture_bytes) + " of pictures");
   constexpr double kMilli = 1e3;
-  const auto of_all = [&](double a_grain) { return rounded(kMilli * a_grain * forecast.most_grains) + " ms"; };
-  lines.add("time", "about " + in_time(forecast.seconds()) + " of processor time, if all grains lay in a bed from the start");
-  lines.add("time", rounded(kMilli * forecast.bed_step()) + " ms a step then, of which the solver " + of_all(forecast.bed.solver) +
-                        ", contacts " + of_all(forecast.bed.narrow_phase) + "; at the start " +
-                        rounded(kMilli * forecast.start_step) + " ms a step");
+  lines.add("time", "about " + in_time(forecast.seconds()) + " of processor time, if all steps took " +
+                        rounded(kMilli * forecast.step) + " ms as the first " + std::to_string(forecast.timed_steps));
   for (const std::string& doubt : doubts_about(scene)) lines.add("warning", doubt);
   return lines.text();
 }

@@ -1,4 +1,4 @@
-// Doubts about walls that meet by their motions.
+// Walls that meet by their motions.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "common/input_error.hpp"
 #include "common/interval.hpp"
 #include "doubts.hpp"
-#include "observe/facing_walls.hpp"
+#include "refusals.hpp"
 
 namespace falling_particles {
 namespace {
@@ -47,9 +47,8 @@ void refuse_meetings(const Scene& scene) {
   }
 }
 
-std::vector<std::string> doubts_about_meetings(const Scene& scene) {
-  std::vector<std::string> doubts;
-  if (!std::holds_alternative<Cell>(scene.container)) return doubts;
+void add_doubts_about_meetings(const Scene& scene, std::vector<std::string>& doubts) {
+  if (!std::holds_alternative<Cell>(scene.container)) return;
   for (const FacingWalls& pair : {FacingWalls{"x_low", "x_high"}, {"y_low", "y_high"}, {"z_low", "z_high"}}) {
     if (std::ranges::find(scene.walls, pair[1], &Wall::name) == scene.walls.end()) continue;
     const bool turns = std::ranges::any_of(pair, [&](const std::string& name) {
@@ -61,7 +60,6 @@ std::vector<std::string> doubts_about_meetings(const Scene& scene) {
     doubts.push_back("walls \"" + pair[0] + "\" and \"" + pair[1] + "\" meet after " + rounded(*time) +
                      " s by their motions, and all grains leak; an until of their motions before that would do");
   }
-  return doubts;
 }
 
 }  // namespace falling_particles

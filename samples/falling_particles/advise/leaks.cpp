@@ -1,0 +1,150 @@
+// Doubts about grains that leave the scene: that start above nothing or behind meshes.
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <string>
+#include <variant>
+
+#include "common/interval.hpp"
+#include "doubts.hpp"
+#include "sight.hpp"
+#include "world/placement.hpp"
+#include "world/world.hpp"
+
+namespace falling_particles {
+namespace {
+
+/// Grains of the start or of a feeder, from which rays are cast.
+struct Lookout {
+  std::string feeder;  // its name; empty for the start
+  bool falls;          // straight down, under gravity
+  std::vector<Point> places = {};
+  std::vector<double> radii = {};  // m, bounding radii of the grains at these places
+
+  void add(const Point& place, double radius) {
+    places.push_back(place);
+    radii.push_back(radius);
+  }
+  std::string grains(std::size_t count) const {
+    if (!feeder.empty()) return (count < places.size() ? "some grains" : "grains") + (" that feeder \"" + feeder) + "\" brings are";
+    return std::to_string(count) + " of " + counted(places.size(), "grain") + (count == 1 ? " starts" : " start");
+  }
+};
+
+Lookout start_of(const Scene& scene) {
+  Random random(scene.seed);
+  // Bonds to a part may hold the grains.
+  Lookout start{"", std::ranges::none_of(scene.bonds, [](const BondRule& rule) { return rule.wall.has_value(); })};
+  for (const Placement& placement : place(scene, random)) {
+    constexpr std::size_t kEnough = 1000;  // the placements are in random order
+    if (start.places.size() == kEnough) break;
+    start.add(placement.position, placement.scale * scene.kinds[placement.kind].kind.bounding_radius());
+  }
+  return start;
+}
+
+/// The unit vector of gravity; empty without gravity.
+std::optional<Vector3> down_in(const Scene& scene) {
+  const auto* const gravity = scene.gravity();
+  if (gravity == nullptr || gravity->acceleration.isZero(0)) return std::nullopt;
+  return gravity->acceleration.stableNormalized();
+}
+
+/// The outermost centres of the smallest grains in the feeder's region, and its middle.
+Lookout origin_of(const Feeder& feeder, const Scene& scene) {
+  double radius = INFINITY;
+  for (const FedKind& fed : feeder.mixture) {
+    const GrainCount& entry = scene.kinds[fed.kind];
+    radius = std::min(radius, entry.smallest_scale() * entry.kind.bounding_radius());
+  }
+  const std::optional<Vector3> down = down_in(scene);
+  const Vector3 velocity(feeder.velocity[0], feeder.velocity[1], feeder.velocity[2]);
+  Lookout origin{feeder.name, down && velocity.cross(*down).norm() <= 1e-12 * velocity.norm()};
+  const auto& [corner, size] = feeder.region;
+  origin.add({corner[0] + size[0] / 2, corner[1] + size[1] / 2, corner[2] + size[2] / 2}, radius);
+  for (unsigned i = 0; i < 8; ++i) {
+    Point place = corner;
+    for (unsigned axis = 0; axis < 3; ++axis) place[axis] += ((i >> axis) & 1U) != 0 ? size[axis] - radius : radius;
+    origin.add(place, radius);
+  }
+  return origin;
+}
+
+/// The directions in which a wall may support a grain: below and beside it; on all sides without gravity.
+std::vector<Vector3> directions_of(const Scene& scene) {
+  const std::optional<Vector3> gravity = down_in(scene);
+  const Vector3 down = gravity.value_or(-Vector3::UnitZ());
+  const Vector3 side = down.unitOrthogonal(), other = down.cross(side);
+  std::vector<Vector3> directions = {down, side, -side, other, -other};
+  if (!gravity) directions.emplace_back(-down);
+  return directions;
+}
+
+void add_backs(const Sight& sight, const Scene& scene, const Lookout& origin, std::vector<std::string>& doubts) {
+  std::map<std::size_t, std::size_t> counts;  // of positions, by wall
+  for (const Point& place : origin.places) {
+    std::set<std::size_t> walls;
+    for (const Vector3& direction : directions_of(scene)) {
+      if (const auto seen = sight.look(place, direction); seen && seen->is_back) walls.insert(*seen->wall);
+    }
+    for (const std::size_t wall : walls) ++counts[wall];
+  }
+  for (const auto& [wall, count] : counts) {
+    doubts.push_back(scene.walls[wall].called() + ": " + origin.grains(count) +
+                     " behind a triangle, which does not hold them: a triangle is solid behind, and holds what sees its corners "
+                     "anticlockwise; turn its corners around, or let part.two_sided = true hold grains on both sides");
+  }
+}
+
+/// Points of a grain from which rays go down: its centre, and two circles around it. A grain may be caught far from its centre.
+std::vector<Point> points_of(const Point& centre, double radius, const Vector3& down) {
+  constexpr int kAround = 32;  // 16 miss 6 % of the grains on bars a tenth of a radius wide and 1.5 radii apart, 32 none
+  std::vector<Point> points = {centre};
+  const Vector3 side = down.unitOrthogonal(), other = down.cross(side);
+  for (int i = 0; i < 2 * kAround; ++i) {
+    const double angle = std::numbers::pi * i / kAround;
+    const Vector3 to = (i % 2 == 0 ? radius : radius / 2) * (std::cos(angle) * side + std::sin(angle) * other);
+    points.push_back({centre[0] + to.x(), centre[1] + to.y(), centre[2] + to.z()});
+  }
+  return points;
+}
+
+void add_void(const Sight& sight, const Scene& scene, const Lookout& origin, std::vector<std::string>& doubts) {
+  const std::optional<Vector3> down = down_in(scene);
+  if (!down || !origin.falls || origin.places.empty()) return;
+  const auto lands = [&](const Point& point) {
+    const std::optional<Sight::Seen> below = sight.look(point, *down);
+    if (!below) return false;
+    const double way = std::max(0.0, below->distance - scene.smallest_half_axis());
+    return is_inside(scene, {point[0] + way * down->x(), point[1] + way * down->y(), point[2] + way * down->z()});
+  };
+  std::size_t lost = 0;
+  for (std::size_t i = 0; i < origin.places.size(); ++i) {
+    if (std::ranges::none_of(points_of(origin.places[i], origin.radii[i], *down), lands)) ++lost;
+  }
+  if (lost == 0) return;
+  const std::string they = origin.feeder.empty() && lost == 1 ? "it falls" : "they fall";
+  doubts.push_back(origin.grains(lost) + " above nothing: no wall, part or sink is below within the container, and " + they +
+                   " out of it" + (lost < origin.places.size() ? " unless other grains are in the way" : ""));
+}
+
+}  // namespace
+
+void add_doubts_about_leaks(const Scene& scene, std::vector<std::string>& doubts) {
+  if (std::holds_alternative<Periodic>(scene.container)) return;
+  const World world(scene, std::vector<Placement>{});
+  const Sight sight(world);
+  std::vector<Lookout> origins = {start_of(scene)};
+  for (const Feeder& feeder : scene.feeders) origins.push_back(origin_of(feeder, scene));
+  for (const Lookout& origin : origins) {
+    add_void(sight, scene, origin, doubts);
+    add_backs(sight, scene, origin, doubts);
+  }
+}
+
+}  // namespace falling_particles
