@@ -51,7 +51,7 @@ void print(const std::string& name, const Figures& figures) {
 
 void print_header() {
   std::printf("%-28s", "");
-  for (const char* set : {"reference", "hard cases", "smooth", "kinked", "no Hessian", "soak", "soak --sharp"})
+  for (const char* set : {"reference", "hard cases", "smooth", "kinked", "no Hessian", "soak", "sharp soak"})
     std::printf(" | %-19s", set);
   std::printf("\n%-28s", "");
   for (int set = 0; set < 7; ++set) std::printf(" | %6s %4s %3s %3s", "evals", "not", "mis", "vio");

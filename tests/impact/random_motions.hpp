@@ -6,9 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <random>
 
-#include "long_gap.hpp"
 #include "supernormal/impact/time_of_impact.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
@@ -17,6 +15,8 @@
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/draw.hpp"
+#include "support/long_body.hpp"
 
 namespace supernormal::test {
 
@@ -46,22 +46,17 @@ struct MovingPair {
   double unit = 0;  ///< m; the smallest half-extent
 };
 
-class RandomMotions {
+class RandomMotions : public Draw {
  public:
-  explicit RandomMotions(unsigned seed) : engine_(seed) {}
+  using Draw::Draw;
 
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  Vector3 direction() { return Vector3{gauss_(engine_), gauss_(engine_), gauss_(engine_)}.normalized(); }
-
-  Matrix3 rotation() {
-    const Eigen::Quaterniond q{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)};
-    return q.normalized().toRotationMatrix();
-  }
+  /// So that a seed gives the pairs of lib/impact/README.md.
+  Matrix3 rotation() { return Eigen::Quaterniond{gauss(), gauss(), gauss(), gauss()}.normalized().toRotationMatrix(); }
 
   /// Needles, cans, cubes, bricks, coins, balls, ovals.
   std::shared_ptr<const Shape> shape() {
     const double a = uniform(0.5, 1.5);
-    switch (std::uniform_int_distribution<int>(0, 8)(engine_)) {
+    switch (whole(0, 8)) {
       case 0:
         return std::make_shared<Ellipsoid>(Vector3(a, a / 40, a / 40));
       case 1:
@@ -109,21 +104,27 @@ class RandomMotions {
     }
     return pair;
   }
-
- private:
-  std::mt19937_64 engine_;
-  std::normal_distribution<double> gauss_;
 };
+
+inline LongPose long_pose_at(const Motion& motion, double time) {
+  const Real3 offset = motion.centre.cast<Real>(), way = Real{time} * motion.velocity.cast<Real>();
+  LongPose pose{motion.pose.position.cast<Real>(), motion.pose.rotation.cast<Real>()};
+  pose.position += pose.rotation * offset;  // of the centre
+  pose = pose.moved(way, Real{time} * motion.angular_velocity.cast<Real>());
+  pose.position -= pose.rotation * offset;
+  return pose;
+}
 
 /// The gap of the pair at a time in long double, at the normal of a query from a cold start. This normal has rounding errors. The
 /// gap function is stationary there and changes by their square only; on faces it changes by the rounding itself.
-inline Long gap_at(const MovingPair& pair, double t) {
+inline Real gap_at(const MovingPair& pair, double t) {
   Settings settings;
   settings.tolerance = 1e-13;
   const Shape& shape1 = *pair.one.shape;
   const Shape& shape2 = *pair.other.shape;
   const Proximity proximity = find_proximity(shape1, pose_at(pair.one.motion, t), shape2, pose_at(pair.other.motion, t), settings);
-  return long_gap(shape1, pair.one.motion, shape2, pair.other.motion, t, proximity.normal);
+  return long_gap(*long_body_of(shape1), long_pose_at(pair.one.motion, t), *long_body_of(shape2),
+                  long_pose_at(pair.other.motion, t), proximity.normal.cast<Real>());
 }
 
 /// m/s; an upper bound on the rate of the gap: the speed of the centres, plus the angular velocities times the radii of the bodies.

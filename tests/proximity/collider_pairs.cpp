@@ -80,41 +80,26 @@ Collider Collider::scaled(double factor) const {
   return result;
 }
 
-double ColliderPairs::uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-
-int ColliderPairs::any(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
-
-double ColliderPairs::logarithmic(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
-
-// Braces, here and below, fix the order of evaluation.
-Vector3 ColliderPairs::half_axes() {
-  return Vector3{logarithmic(kSmallest, kLargest), logarithmic(kSmallest, kLargest), logarithmic(kSmallest, kLargest)};
-}
-
-Vector3 ColliderPairs::gauss() {
-  return Vector3{normal_distribution_(engine_), normal_distribution_(engine_), normal_distribution_(engine_)};
-}
-
 double ColliderPairs::exponent() {
-  if (uniform(0, 1) >= kExtremeShare) return logarithmic(kSharpest, kFlattest);
+  if (uniform(0, 1) >= kExtremeShare) return log_uniform(kSharpest, kFlattest);
   constexpr std::array kExtremes = {kSharpest, 2.0, kFlattest};
-  return kExtremes[static_cast<std::size_t>(any(0, 2))];
+  return kExtremes[static_cast<std::size_t>(whole(0, 2))];
 }
 
 Superellipsoid ColliderPairs::surface() {
-  const Vector3 axes = half_axes();
+  const Vector3 axes = log_within(kSmallest, kLargest);
   if (uniform(0, 1) < kEllipsoidShare) return {axes, 2, 2};
   const double delta = exponent();
   return {axes, delta, exponent()};
 }
 
 Collider ColliderPairs::collider() {
-  Collider result{kind_, half_axes(), {}};
+  Collider result{kind_, log_within(kSmallest, kLargest), {}};
   if (kind_ != ColliderKind::Triangle && kind_ != ColliderKind::Hull) return result;
-  const int count = kind_ == ColliderKind::Triangle ? 3 : any(kMinHullPoints, kMaxHullPoints);
+  const int count = kind_ == ColliderKind::Triangle ? 3 : whole(kMinHullPoints, kMaxHullPoints);
   Vector3 mean = Vector3::Zero();
   for (int k = 0; k < count; ++k) {
-    result.points.emplace_back(result.lengths.cwiseProduct(gauss()));
+    result.points.emplace_back(result.lengths.cwiseProduct(Vector3{gauss(), gauss(), gauss()}));
     mean += result.points.back() / count;
   }
   for (Vector3& point : result.points) point -= mean;
@@ -137,10 +122,8 @@ ColliderPair ColliderPairs::draw(double nominal) {
   const Vector3 half1 = pair.body->half_extents(), half2 = pair.shape->half_extents();
   pair.unit = kind_ == ColliderKind::Triangle ? half1.minCoeff() : std::min(half1.minCoeff(), half2.minCoeff());
   pair.size = half1.norm() + 2 * half2.norm();
-  const Vector3 vector = gauss();
-  pair.pose.rotation =
-      Eigen::Quaterniond(normal_distribution_(engine_), vector.x(), vector.y(), vector.z()).normalized().toRotationMatrix();
-  place(pair, gauss().normalized(), nominal * pair.unit);
+  pair.pose.rotation = rotation();
+  place(pair, direction(), nominal * pair.unit);
   pair.reference = bound_gap(*pair.body, {}, *pair.shape, pair.pose, kReferenceWidth * pair.unit);
   return pair;
 }

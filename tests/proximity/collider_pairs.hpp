@@ -3,12 +3,12 @@
 
 #include <array>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "collider_reference.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/draw.hpp"
 
 namespace supernormal::test {
 
@@ -52,25 +52,18 @@ inline constexpr double kReferenceWidth = 1e-12;
 
 /// Random pairs, the same in every run: half-axes and colliders with aspect ratios up to 20, exponents 1.02...200, any orientation
 /// and direction.
-class ColliderPairs {
+class ColliderPairs : private Draw {
  public:
-  ColliderPairs(ColliderKind kind, unsigned seed) : kind_(kind), engine_(seed) {}
+  ColliderPairs(ColliderKind kind, unsigned seed) : Draw(seed), kind_(kind) {}
 
   ColliderPair draw(double nominal);
 
  private:
-  double uniform(double low, double high);
-  int any(int low, int high);
-  double logarithmic(double low, double high);
-  Vector3 half_axes();
-  Vector3 gauss();
   double exponent();
   Superellipsoid surface();
   Collider collider();
 
   ColliderKind kind_;
-  std::mt19937_64 engine_;
-  std::normal_distribution<double> normal_distribution_;
   int drawn_ = 0;
 };
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -25,6 +24,7 @@
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/shapes/superovoid.hpp"
+#include "support/draw.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;
@@ -48,48 +48,35 @@ struct Named {
   ShapePtr shape;
 };
 
-class Draw {
- public:
-  explicit Draw(unsigned seed) : engine_(seed) {}
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  Vector3 lengths() { return {uniform(0.3, 1), uniform(0.3, 1), uniform(0.3, 1)}; }
-  double exponent(double low, double high) { return 1 + (low - 1) * std::pow((high - 1) / (low - 1), uniform(0, 1)); }
-  Vector3 direction() {
-    std::normal_distribution<double> normal;
-    return Vector3{normal(engine_), normal(engine_), normal(engine_)}.normalized();
-  }
-  Matrix3 rotation() { return Eigen::AngleAxisd(uniform(0, 3), direction()).toRotationMatrix(); }
-
- private:
-  std::mt19937_64 engine_;
-};
+double draw_exponent(Draw& draw, double low, double high) { return 1 + draw.log_uniform(low - 1, high - 1); }
 
 Named superovoid(Draw& draw) {
-  const double delta = draw.exponent(1.3, 20), epsilon = draw.exponent(1.3, 20);
+  const double delta = draw_exponent(draw, 1.3, 20), epsilon = draw_exponent(draw, 1.3, 20);
   const double taper = draw.uniform(-0.9, 0.9) * Superovoid::max_taper(epsilon);
-  return {"superovoid", std::make_shared<Superovoid>(draw.lengths(), delta, epsilon, taper, taper)};
+  return {"superovoid", std::make_shared<Superovoid>(draw.within(0.3, 1), delta, epsilon, taper, taper)};
 }
 
 Named twisted_superovoid(Draw& draw) {
   const double k = draw.uniform(0.1, 0.5);
-  return {"superovoid with two tapers", std::make_shared<Superovoid>(draw.lengths(), draw.uniform(2, 6), 2, k, -0.5 * k)};
+  return {"superovoid with two tapers", std::make_shared<Superovoid>(draw.within(0.3, 1), draw.uniform(2, 6), 2, k, -0.5 * k)};
 }
 
 Named sum(Draw& draw) {
-  const auto boxy = std::make_shared<Superellipsoid>(draw.lengths(), draw.exponent(2, 20), draw.exponent(1.3, 20));
+  const auto boxy = std::make_shared<Superellipsoid>(draw.within(0.3, 1), draw_exponent(draw, 2, 20), draw_exponent(draw, 1.3, 20));
   const auto round = std::make_shared<LinearImage>(std::make_shared<Sphere>(draw.uniform(0.1, 0.5)), draw.rotation());
   return {"sum", std::make_shared<MinkowskiSum>(boxy, round)};
 }
 
 Named sheared(Draw& draw) {
-  Matrix3 matrix = draw.rotation() * draw.lengths().asDiagonal();
+  Matrix3 matrix = draw.rotation() * draw.within(0.3, 1).asDiagonal();
   matrix(0, 1) += draw.uniform(-0.2, 0.2);
-  const auto shape = std::make_shared<Superellipsoid>(draw.lengths(), draw.exponent(1.3, 10), draw.exponent(1.3, 10));
+  const auto shape =
+      std::make_shared<Superellipsoid>(draw.within(0.3, 1), draw_exponent(draw, 1.3, 10), draw_exponent(draw, 1.3, 10));
   return {"linear image", std::make_shared<LinearImage>(shape, matrix)};
 }
 
 Named rounded_box(Draw& draw) {
-  return {"rounded box", std::make_shared<Rounded>(std::make_shared<Box>(draw.lengths()), draw.uniform(0.05, 0.5))};
+  return {"rounded box", std::make_shared<Rounded>(std::make_shared<Box>(draw.within(0.3, 1)), draw.uniform(0.05, 0.5))};
 }
 
 /// An egg, h = 1 + k nz^3 for unit normals, given by h and r only.
@@ -113,14 +100,15 @@ Named lens(Draw& draw) {
 }
 
 Named plain(Draw& draw) {
-  return {"superellipsoid", std::make_shared<Superellipsoid>(draw.lengths(), draw.exponent(1.3, 20), draw.exponent(1.3, 20))};
+  return {"superellipsoid",
+          std::make_shared<Superellipsoid>(draw.within(0.3, 1), draw_exponent(draw, 1.3, 20), draw_exponent(draw, 1.3, 20))};
 }
 
 const std::vector<std::function<Named(Draw&)>> kBodies = {plain, superovoid, twisted_superovoid, sum, sheared, rounded_box,
                                                           egg,   lens};
 
 std::vector<Named> colliders(Draw& draw, const std::vector<Vector3>& points) {
-  const Vector3 a = draw.lengths();
+  const Vector3 a = draw.within(0.3, 1);
   return {{"box", std::make_shared<Box>(a)},
           {"capsule", std::make_shared<Capsule>(a.x(), a.z())},
           {"cylinder", std::make_shared<Cylinder>(a.x(), a.z())},

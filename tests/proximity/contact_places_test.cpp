@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -158,9 +157,9 @@ struct PlacedPair {
   Proximity query() const { return find_proximity(*large, {}, *small, pose); }
 };
 
-class Placing {
+class Placing : private test::Draw {
  public:
-  explicit Placing(unsigned seed) : engine_(seed) {}
+  using Draw::Draw;
 
   PlacedPair draw(std::shared_ptr<const Shape> large, std::shared_ptr<const Shape> small, double relative_gap, Way way) {
     PlacedPair pair{std::move(large), std::move(small), {}, 0};
@@ -195,7 +194,7 @@ class Placing {
 
  private:
   std::shared_ptr<const Shape> slender() {
-    const Vector3 half{std::pow(10, uniform(-1, 0)), std::pow(10, uniform(-1, 0)), std::pow(10, uniform(-1, 0))};
+    const Vector3 half = log_within(0.1, 1);
     const double delta = 1.02 + std::pow(10, uniform(-2, 2)), epsilon = 1.02 + std::pow(10, uniform(-2, 2));
     switch (static_cast<int>(uniform(0, 8))) {
       case 0:
@@ -217,16 +216,10 @@ class Placing {
     }
   }
 
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  // Braces: evaluated in this order.
-  Vector3 direction() { return Vector3{gauss_(engine_), gauss_(engine_), gauss_(engine_)}.normalized(); }
   Vector3 face_normal() {
     const auto axis = static_cast<Eigen::Index>(uniform(0, 3));
     return Vector3::Unit(axis) * (uniform(0, 1) < 0.5 ? -1 : 1);
   }
-
-  std::mt19937_64 engine_;
-  std::normal_distribution<double> gauss_;
 };
 
 /// m; how far the point is outside of the body: no less than this, since every value of the gap function is a lower bound.

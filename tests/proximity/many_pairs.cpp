@@ -85,25 +85,10 @@ class Pairs {
     pair.shape1 = shape();
     pair.shape2 = shape();
     draw_.place(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, kind_.gap);
-    if (kind_.is_on_faces) lay_on_face(pair);
-    set_earlier_normal(pair);
-  }
-
-  void lay_on_face(Pair& pair) {
-    const double c1 = pair.shape1->half_extents().z(), c2 = pair.shape2->half_extents().z();
-    const Vector3 n = pair.pose1.rotation.col(2);
-    pair.pose2.rotation = Eigen::AngleAxisd(draw_.uniform(-3.14, 3.14), n) * pair.pose1.rotation;
-    const Vector3 aside =
-        0.5 * (draw_.uniform(-1, 1) * pair.pose1.rotation.col(0) + draw_.uniform(-1, 1) * pair.pose1.rotation.col(1));
-    pair.pose2.position = pair.pose1.position + aside + (c1 + c2 + kind_.gap * std::min(c1, c2)) * n;
-  }
-
-  void set_earlier_normal(Pair& pair) {
-    // The normal of a pose a step before: 1 mm and 1 mrad away.
-    Pose earlier = pair.pose2;
-    earlier.position += 1e-3 * draw_.direction();
-    earlier.rotation = Eigen::AngleAxisd(1e-3, draw_.direction()).toRotationMatrix() * earlier.rotation;
-    pair.normal = pair.pose1.rotation.transpose() * find_proximity(*pair.shape1, pair.pose1, *pair.shape2, earlier).normal;
+    const Vector3 half1 = pair.shape1->half_extents(), half2 = pair.shape2->half_extents();
+    const double gap = kind_.gap * std::min(half1.z(), half2.z());
+    if (kind_.is_on_faces) draw_.lay_on_face(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, gap);
+    pair.normal = draw_.earlier_normal(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, 1);
   }
 
   Kind kind_;

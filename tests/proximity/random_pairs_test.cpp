@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cfenv>
 #include <cmath>
-#include <random>
 
 #include "covers.hpp"
 #include "supernormal/proximity/gap_function.hpp"
@@ -26,48 +25,24 @@ double pair_unit(const Shape& shape1, const Shape& shape2) {
   return std::min(shape1.half_extents().minCoeff(), shape2.half_extents().minCoeff());
 }
 
-class RandomPairs {
- public:
-  RandomPairs(const SuperellipsoidClass& from, unsigned seed) : class_(from), engine_(seed) {}
-
-  // Braces: arguments in parentheses are evaluated in an order that the compiler chooses.
-  Superellipsoid shape() {
-    const Vector3 half_axes{axis(), axis(), axis()};
-    const double delta = between(class_.least_exponent, class_.largest_exponent);
-    return {half_axes, delta, between(class_.least_exponent, class_.largest_exponent)};
-  }
-
-  /// Near touching, apart or overlapping by up to about half of the size.
-  Pose pose(const Superellipsoid& shape1, const Superellipsoid& shape2) {
-    const Vector3 direction{gauss_(engine_), gauss_(engine_), gauss_(engine_)};
-    const Eigen::Quaterniond orientation{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)};
-    const Vector3 n = direction.normalized();
-    const double reach = std::exp(std::log(2.0) * between_linear(-1, 0.5));
-    return {reach * (shape1.support(n) + shape2.support(orientation.normalized().conjugate() * -n)) * n,
-            orientation.normalized().toRotationMatrix()};
-  }
-
- private:
-  double axis() { return between(class_.least_axis, class_.largest_axis); }
-  double between_linear(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  double between(double low, double high) { return std::exp(between_linear(std::log(low), std::log(high))); }
-
-  SuperellipsoidClass class_;
-  std::mt19937_64 engine_;
-  std::normal_distribution<double> gauss_;
-};
+/// Near touching, apart or overlapping by up to about half of the size.
+Pose draw_pose(const Superellipsoid& shape1, const Superellipsoid& shape2, Draw& draw) {
+  const Vector3 n = draw.direction();
+  const Matrix3 rotation = draw.rotation();
+  return {draw.log_uniform(0.5, std::sqrt(2)) * (shape1.support(n) + shape2.support(-(rotation.transpose() * n))) * n, rotation};
+}
 
 }  // namespace
 
 TEST_CASE("random pairs: finite, consistent, quiet, proved where they must be, and within the interval") {
   unsigned seed = 100;
   for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
-    RandomPairs random(kind, ++seed);
+    Draw draw(++seed);
     int higher = 0, overlapping = 0, unconverged = 0;
     for (int k = 0; k < kPairsPerClass; ++k) {
-      const Superellipsoid surface1 = random.shape(), surface2 = random.shape();
+      const Superellipsoid surface1 = draw_superellipsoid(kind, draw), surface2 = draw_superellipsoid(kind, draw);
       const auto shape1 = make_shape(surface1), shape2 = make_shape(surface2);
-      const Pose pose2 = random.pose(surface1, surface2);
+      const Pose pose2 = draw_pose(surface1, surface2, draw);
       const std::string name = std::string(kind.name) + " " + std::to_string(k);
 
       std::feclearexcept(kTrapped);

@@ -4,7 +4,6 @@
 #include <cfenv>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "supernormal/raycast/ray.hpp"
 #include "support/reference_pairs.hpp"
@@ -24,29 +23,11 @@ struct Ray {
   Vector3 at(double t) const { return origin + t * direction; }
 };
 
-class RandomRays {
+class RandomRays : public Draw {
  public:
-  explicit RandomRays(unsigned seed) : engine_(seed) {}
+  using Draw::Draw;
 
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-
-  Vector3 direction() {
-    const Vector3 v{gauss_(engine_), gauss_(engine_), gauss_(engine_)};
-    return v.normalized();
-  }
-
-  Matrix3 rotation() {
-    const Eigen::Quaterniond q{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)};
-    return q.normalized().toRotationMatrix();
-  }
-
-  Superellipsoid shape(const SuperellipsoidClass& kind) {
-    const auto between = [&](double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); };
-    const auto axis = [&] { return between(kind.least_axis, kind.largest_axis); };
-    const Vector3 half_axes{axis(), axis(), axis()};
-    const double delta = between(kind.least_exponent, kind.largest_exponent);
-    return {half_axes, delta, between(kind.least_exponent, kind.largest_exponent)};
-  }
+  Superellipsoid shape(const SuperellipsoidClass& kind) { return draw_superellipsoid(kind, *this); }
 
   /// A ray past the body. Its line goes through `factor` times a point of the silhouette, so it hits if factor < 1. It begins in
   /// front of the body.
@@ -62,10 +43,6 @@ class RandomRays {
     const Vector3 x = direction();
     return x * (factor / gauge(shape, x));
   }
-
- private:
-  std::mt19937_64 engine_;
-  std::normal_distribution<double> gauss_;
 };
 
 /// The same body without its Hessian.

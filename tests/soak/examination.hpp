@@ -1,4 +1,4 @@
-// The checks of the soak program.
+// The checks of the soak.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Tests that the hard cases and samples of the soak program have the same answer alone and among many.
+// Tests that the hard cases and samples of the soak have the same answer alone and among many.
 #include <doctest/doctest.h>
 
 #include <vector>
@@ -57,7 +57,7 @@ TEST_CASE("hard cases have the same digits alone and among many") {
   }
 }
 
-TEST_CASE("samples of the soak program have the same digits alone and among many") {
+TEST_CASE("samples of the soak have the same digits alone and among many") {
   for (const Mix mix : {Mix::Everything, Mix::Sharp}) {
     const SampleSource source(23, mix);
     Sample sample;

@@ -1,4 +1,4 @@
-// The samples of the soak program.
+// The samples of the soak.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Tests that the former content of the stack changes no answer, for every hard case and samples of the soak program.
+// Tests that the former content of the stack changes no answer, for every hard case and samples of the soak.
 #include <doctest/doctest.h>
 
 #include "sample.hpp"

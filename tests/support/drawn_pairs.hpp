@@ -1,4 +1,4 @@
-// What the benchmarks of drawn pairs have in common: the draw of shapes and poses, and the time of several ways of asking.
+// Pairs of superellipsoids of a kind, and the time of several ways of asking them: for benchmarks, and for pairs in lanes.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -6,12 +6,12 @@
 #include <ctime>
 #include <limits>
 #include <memory>
-#include <random>
 #include <vector>
 
-#include "supernormal/proximity/pose.hpp"
+#include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/draw.hpp"
 
 namespace drawn_pairs {
 
@@ -20,18 +20,9 @@ using supernormal::Pose;
 using supernormal::Shape;
 using supernormal::Vector3;
 
-class Draw {
+class Draw : public supernormal::test::Draw {
  public:
-  explicit Draw(unsigned seed) : engine_(seed) {}
-
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  Vector3 direction() { return Vector3{gauss_(engine_), gauss_(engine_), gauss_(engine_)}.normalized(); }
-  Vector3 within(double low, double high) { return Vector3{uniform(low, high), uniform(low, high), uniform(low, high)}; }
-  Matrix3 rotation() {
-    return Eigen::Quaterniond(Eigen::Vector4d{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)})
-        .normalized()
-        .toRotationMatrix();
-  }
+  using supernormal::test::Draw::Draw;
 
   /// Of random exponents, or an ellipsoid if both limits are the same.
   std::unique_ptr<Shape> shape(const Vector3& half_axes, double least_exponent, double largest_exponent) {
@@ -50,9 +41,21 @@ class Draw {
                      pose2.rotation * shape2.point(-(pose2.rotation.transpose() * n)) + gap * unit * n;
   }
 
- private:
-  std::mt19937_64 engine_;
-  std::normal_distribution<double> gauss_;
+  /// The faces across z on one another with the gap (m), at a random place and angle. They are not level, so s at their normal is
+  /// below the largest.
+  void lay_on_face(const Shape& shape1, const Pose& pose1, const Shape& shape2, Pose& pose2, double gap) {
+    const double height = shape1.half_extents().z() + shape2.half_extents().z() + gap;
+    pose2.rotation = Eigen::AngleAxisd(uniform(-3.14, 3.14), pose1.rotation.col(2)) * pose1.rotation;
+    const double y = uniform(-0.5, 0.5), x = uniform(-0.5, 0.5);
+    pose2.position = pose1.position + pose1.rotation * Vector3(x, y, height);
+  }
+
+  /// The common normal, in the frame of body 1, of the pose a step before: 1e-3 units and 1 mrad away.
+  Vector3 earlier_normal(const Shape& shape1, const Pose& pose1, const Shape& shape2, Pose pose2, double unit) {
+    pose2.position += 1e-3 * unit * direction();
+    pose2.rotation = Eigen::AngleAxisd(1e-3, direction()).toRotationMatrix() * pose2.rotation;
+    return pose1.rotation.transpose() * supernormal::find_proximity(shape1, pose1, shape2, pose2).normal;
+  }
 };
 
 /// s of this thread's processor time

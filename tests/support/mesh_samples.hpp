@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <random>
 #include <span>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/draw.hpp"
 
 namespace supernormal::test {
 
@@ -115,44 +115,13 @@ inline TriangleMesh box_mesh(const Vector3& half_lengths, bool inward = false) {
   return mesh;
 }
 
-/// Random numbers, the same in every run.
-class Draw {
- public:
-  explicit Draw(unsigned seed) : engine_(seed) {}
-
-  double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11U) * 0x1p-53); }
-
-  Vector3 in_box(const Vector3& half_lengths) {
-    const Vector3 share{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
-    return share.cwiseProduct(half_lengths);
-  }
-
-  Vector3 direction() {
-    while (true) {
-      const Vector3 v = in_box(Vector3::Ones());
-      if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
-    }
-  }
-
-  Matrix3 rotation() {
-    while (true) {
-      const Eigen::Vector4d q{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
-      if (q.norm() > 0.1 && q.norm() < 1) return Eigen::Quaterniond(q.normalized()).toRotationMatrix();
-    }
-  }
-
-  /// An ellipsoid, or a superellipsoid with exponents from the range 1.02…200.
-  std::unique_ptr<Shape> body() {
-    const Vector3 half_axes{uniform(0.4, 1.2), uniform(0.4, 1.2), uniform(0.4, 1.2)};
-    if (uniform(0, 1) < 0.3) return std::make_unique<Ellipsoid>(half_axes);
-    const double delta = 1 + 0.02 * std::pow(1e4, uniform(0, 1));
-    const double epsilon = 1 + 0.02 * std::pow(1e4, uniform(0, 1));
-    return std::make_unique<Superellipsoid>(half_axes, delta, epsilon);
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
+/// An ellipsoid, or a superellipsoid with exponents from the range 1.02…200.
+inline std::unique_ptr<Shape> draw_body(Draw& draw) {
+  const Vector3 half_axes = draw.within(0.4, 1.2);
+  if (draw.uniform(0, 1) < 0.3) return std::make_unique<Ellipsoid>(half_axes);
+  const double delta = 1 + draw.log_uniform(0.02, 200);
+  return std::make_unique<Superellipsoid>(half_axes, delta, 1 + draw.log_uniform(0.02, 200));
+}
 
 /// The contacts, copied from one reused query object.
 inline std::vector<MeshContact> contacts_of(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles) {

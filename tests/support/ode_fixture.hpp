@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -65,15 +64,10 @@ inline Vec operator+(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b
 inline Vec operator-(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline Vec operator*(double s, const Vec& a) { return {s * a[0], s * a[1], s * a[2]}; }
 
-/// Random numbers, the same in every run.
-class Random {
+/// Draws for geoms.
+class Random : public Draw {
  public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-
-  double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11U) * 0x1p-53); }
-
-  /// A number in [low, high] with an evenly distributed logarithm.
-  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
+  using Draw::Draw;
 
   Vec direction() {
     while (true) {
@@ -88,9 +82,6 @@ class Random {
     dNormalize4(q);
     dGeomSetQuaternion(geom, q);
   }
-
- private:
-  std::mt19937_64 engine_;
 };
 
 inline void place(dGeomID geom, const Vec& p) { dGeomSetPosition(geom, dReal(p[0]), dReal(p[1]), dReal(p[2])); }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <span>
 
 #include "support/ode_fixture.hpp"
 
@@ -58,6 +59,15 @@ class World {
     dWorldQuickStep(id_, dReal(dt));
     dJointGroupEmpty(joints_);
   }
+  /// Steps with the contacts of one pair of geoms; returns their number.
+  int quick_step_of(dGeomID o1, dGeomID o2, double dt) { return quick_step_of(o1, {&o2, 1}, dt); }
+  int quick_step_of(dGeomID geom, std::span<const dGeomID> others, double dt) {
+    begin(dt);
+    for (const dGeomID other : others) join(geom, other);
+    dWorldQuickStep(id_, dReal(dt));
+    dJointGroupEmpty(joints_);
+    return contacts;
+  }
   /// Steps with ODE's exact solver.
   void exact_step(double dt) {
     make_contacts(dt);
@@ -74,26 +84,29 @@ class World {
   double depth = 0;              ///< m; depth of the deepest contact in the last step
 
  private:
-  void make_contacts(double dt) {
+  void begin(double dt) {
     step_ = dt;
     contacts = 0;
     depth = 0;
-    dSpaceCollide(space_, this, near_callback);
   }
 
-  static void near_callback(void* self, dGeomID o1, dGeomID o2) {
-    World& world = *static_cast<World*>(self);
+  void make_contacts(double dt) {
+    begin(dt);
+    dSpaceCollide(space_, this, [](void* self, dGeomID o1, dGeomID o2) { static_cast<World*>(self)->join(o1, o2); });
+  }
+
+  void join(dGeomID o1, dGeomID o2) {
     std::array<dContact, kRoom> found;
-    const int count = dCollide(o1, o2, world.room, &found[0].geom, sizeof(dContact));
+    const int count = dCollide(o1, o2, room, &found[0].geom, sizeof(dContact));
     for (int i = 0; i < count; ++i) {
       dContact& contact = found[static_cast<std::size_t>(i)];
-      contact.surface = world.surface;
-      world.depth = std::max(world.depth, double{contact.geom.depth});
-      snContactLookAhead(&contact, dReal(world.step_));
-      dJointAttach(dJointCreateContact(world.id_, world.joints_, &contact), dGeomGetBody(o1), dGeomGetBody(o2));
+      contact.surface = surface;
+      depth = std::max(depth, double{contact.geom.depth});
+      snContactLookAhead(&contact, dReal(step_));
+      dJointAttach(dJointCreateContact(id_, joints_, &contact), dGeomGetBody(o1), dGeomGetBody(o2));
     }
-    world.contacts += count;
-    world.most_of_a_pair = std::max(world.most_of_a_pair, count);
+    contacts += count;
+    most_of_a_pair = std::max(most_of_a_pair, count);
   }
 
   dWorldID id_;
@@ -130,6 +143,9 @@ inline double kinetic_energy(dBodyID body) {
 
 /// The kinetic energy, plus the potential energy of gravity from z = 0; J.
 inline double energy(dBodyID body) { return kinetic_energy(body) + mass_of(body) * kGravity * dBodyGetPosition(body)[2]; }
+
+inline void set_position(dBodyID body, const Vec& p) { dBodySetPosition(body, dReal(p[0]), dReal(p[1]), dReal(p[2])); }
+inline void set_gravity(const World& world, const Vec& g) { dWorldSetGravity(world.id(), dReal(g[0]), dReal(g[1]), dReal(g[2])); }
 
 /// Sets the orientation to a rotation by an angle (rad) about an axis.
 inline void turn(dBodyID body, const Vec& axis, double angle) {

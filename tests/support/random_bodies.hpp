@@ -1,11 +1,8 @@
 // Random pairs of every kind of body, placed at a normal.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -16,6 +13,7 @@
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/draw.hpp"
 #include "support/superellipsoid_classes.hpp"
 #include "support/without_hessian.hpp"
 
@@ -58,21 +56,16 @@ struct RandomPair {
   double rolling_radius() const { return shape1->rolling_radius() + shape2->rolling_radius(); }
 };
 
-class RandomBodies {
+class RandomBodies : public Draw {
  public:
-  RandomBodies(RandomKind kind, unsigned seed) : kind_(std::move(kind)), engine_(seed) {}
-
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
+  RandomBodies(RandomKind kind, unsigned seed) : Draw(seed), kind_(std::move(kind)) {}
 
   /// Two bodies in any orientation.
   RandomPair draw_apart() {
     RandomPair pair{body(), nullptr, {}, 0, 0};
     pair.shape2 = partner();
     pair.unit = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
-    pair.pose2.rotation = Eigen::Quaterniond(Eigen::Vector4d{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)})
-                              .normalized()
-                              .toRotationMatrix();
+    pair.pose2.rotation = rotation();
     return pair;
   }
 
@@ -93,20 +86,11 @@ class RandomBodies {
   }
 
  private:
-  // Braces, here and below, fix the order of evaluation.
-  Vector3 direction() { return Vector3{gauss_(engine_), gauss_(engine_), gauss_(engine_)}.normalized(); }
-
-  Vector3 lengths() {
-    const double least = kind_.surfaces.least_axis, largest = kind_.surfaces.largest_axis;
-    return Vector3{log_uniform(least, largest), log_uniform(least, largest), log_uniform(least, largest)};
-  }
+  Vector3 lengths() { return log_within(kind_.surfaces.least_axis, kind_.surfaces.largest_axis); }
 
   std::shared_ptr<const Shape> surface() {
-    const Vector3 half_axes = lengths();
-    const double least = kind_.surfaces.least_exponent, largest = kind_.surfaces.largest_exponent;
-    if (least == largest) return std::make_shared<Ellipsoid>(half_axes);
-    const double delta = log_uniform(least, largest);
-    return std::make_shared<Superellipsoid>(half_axes, delta, log_uniform(least, largest));
+    if (kind_.surfaces.least_exponent == kind_.surfaces.largest_exponent) return std::make_shared<Ellipsoid>(lengths());
+    return std::make_shared<Superellipsoid>(draw_superellipsoid(kind_.surfaces, *this));
   }
 
   std::shared_ptr<const Shape> body() {
@@ -124,7 +108,7 @@ class RandomBodies {
       case RandomPartner::Cylinder:
         return std::make_shared<Cylinder>(a.x(), a.z());
       case RandomPartner::Polytope: {
-        corners_.emplace_back(static_cast<std::size_t>(std::uniform_int_distribution<int>(4, 12)(engine_)));
+        corners_.emplace_back(static_cast<std::size_t>(whole(4, 12)));
         for (Vector3& corner : corners_.back()) corner = a.cwiseProduct(direction());
         return std::make_shared<Polytope>(corners_.back());
       }
@@ -136,8 +120,6 @@ class RandomBodies {
   }
 
   RandomKind kind_;
-  std::mt19937_64 engine_;
-  std::normal_distribution<double> gauss_;
   std::vector<std::vector<Vector3>> corners_;  // points of the polytopes, which refer to them
 };
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include "supernormal/proximity/plane.hpp"
@@ -23,12 +22,8 @@
 #include "support/relative.hpp"
 
 using namespace supernormal;
-using test::random_rotation;
-using test::uniform;
 
 namespace {
-
-using Random = std::mt19937_64;
 
 // Tolerance of repeated manifold points, relative to the extent of the body. On a flat face the support point, to which they refer,
 // depends on the last digits of the normal.
@@ -72,14 +67,14 @@ double distance_of_corners(const ContactManifold& a, const ContactManifold& b) {
 }  // namespace
 
 TEST_CASE("ellipsoids have one contact at any depth") {
-  Random random(1);
+  test::Draw random(1);
   for (int repetition = 0; repetition < 500; ++repetition) {
-    const Ellipsoid first(Vector3{uniform(random, 0.2, 1), uniform(random, 0.2, 1), uniform(random, 0.2, 1)});
-    const Ellipsoid second(Vector3{uniform(random, 0.2, 3), uniform(random, 0.2, 3), uniform(random, 0.2, 3)});
-    const double depth = 0.2 * std::pow(10, uniform(random, -6, 0));
-    CHECK(manifold_on_floor(first, random_rotation(random), depth).corner_count == 0);
-    const Pose pose1{Vector3::Zero(), random_rotation(random)};
-    Pose pose2{Vector3{uniform(random, -1, 1), uniform(random, -1, 1), 5}, random_rotation(random)};
+    const Ellipsoid first(random.within(0.2, 1));
+    const Ellipsoid second(random.within(0.2, 3));
+    const double depth = 0.2 * std::pow(10, random.uniform(-6, 0));
+    CHECK(manifold_on_floor(first, random.rotation(), depth).corner_count == 0);
+    const Pose pose1{Vector3::Zero(), random.rotation()};
+    Pose pose2{Vector3{random.uniform(-1, 1), random.uniform(-1, 1), 5}, random.rotation()};
     const Proximity apart = find_proximity(first, pose1, second, pose2);
     pose2.position -= (apart.gap + depth) * apart.normal;
     const ContactManifold manifold =
@@ -106,14 +101,14 @@ TEST_CASE("a plate without thickness has one contact") {
 }
 
 TEST_CASE("a flat body on a floor has four manifold points, close to the body") {
-  Random random(2);
+  test::Draw random(2);
   for (int repetition = 0; repetition < 500; ++repetition) {
-    const Vector3 half_axes{uniform(random, 0.5, 2), uniform(random, 0.5, 2), uniform(random, 0.5, 2)};
-    const Superellipsoid body(half_axes, uniform(random, 8, 100), uniform(random, 8, 100));
-    const double depth = half_axes.z() * std::pow(10, uniform(random, -4, -2));
+    const Vector3 half_axes = random.within(0.5, 2);
+    const Superellipsoid body(half_axes, random.uniform(8, 100), random.uniform(8, 100));
+    const double depth = half_axes.z() * std::pow(10, random.uniform(-4, -2));
     Pose pose;
     const ContactManifold manifold =
-        manifold_on_floor(body, tilt(uniform(random, 0, 0.2) * depth / half_axes.maxCoeff(), uniform(random, 0, 7)), depth, &pose);
+        manifold_on_floor(body, tilt(random.uniform(0, 0.2) * depth / half_axes.maxCoeff(), random.uniform(0, 7)), depth, &pose);
     CHECK(manifold.deepest.gap == test::relative(-depth).epsilon(1e-9));
     REQUIRE(manifold.corner_count == 4);
     for (const ManifoldCorner& corner : manifold.corners) {
@@ -135,12 +130,12 @@ TEST_CASE("a flat body on a floor has four manifold points, close to the body") 
 }
 
 TEST_CASE("the deepest contact is as deep as the overlap at every max_contacts") {
-  Random random(6);
+  test::Draw random(6);
   for (int repetition = 0; repetition < 500; ++repetition) {
-    const Vector3 half_axes{uniform(random, 0.5, 2), uniform(random, 0.5, 2), uniform(random, 0.5, 2)};
-    const Superellipsoid body(half_axes, uniform(random, 6, 100), uniform(random, 6, 100));
-    const double depth = half_axes.z() * std::pow(10, uniform(random, -5, -0.5));
-    const Matrix3 leaning = tilt(uniform(random, 0, 0.2), uniform(random, 0, 7));
+    const Vector3 half_axes = random.within(0.5, 2);
+    const Superellipsoid body(half_axes, random.uniform(6, 100), random.uniform(6, 100));
+    const double depth = half_axes.z() * std::pow(10, random.uniform(-5, -0.5));
+    const Matrix3 leaning = tilt(random.uniform(0, 0.2), random.uniform(0, 7));
     const ContactManifold manifold = manifold_on_floor(body, leaning, depth);
     for (int room = 2; room <= 8; ++room) {
       CAPTURE(room);
@@ -265,7 +260,7 @@ TEST_CASE("no manifold point is beyond the border of the lower body") {
 }
 
 TEST_CASE("the deepest point of an overhanging face is on both bodies") {
-  Random random(5);
+  test::Draw random(5);
   // The gauge is 1 on the surface of a superellipsoid, and less inside.
   const auto gauge = [](const Superellipsoid& body, const Pose& pose, const Vector3& point) {
     const Vector3 local = (pose.rotation.transpose() * (point - pose.position)).cwiseQuotient(body.half_axes()).cwiseAbs();
@@ -273,16 +268,14 @@ TEST_CASE("the deepest point of an overhanging face is on both bodies") {
     return largest * std::pow((local / largest).array().pow(body.delta()).sum(), 1 / body.delta());
   };
   for (int repetition = 0; repetition < 3000; ++repetition) {
-    const auto brick = [&](double exponent) {
-      return Superellipsoid({uniform(random, 0.1, 1), uniform(random, 0.1, 1), uniform(random, 0.1, 1)}, exponent, exponent);
-    };
+    const auto brick = [&](double exponent) { return Superellipsoid(random.within(0.1, 1), exponent, exponent); };
     const Superellipsoid lower = brick(repetition % 2 == 0 ? 8 : 60);
     const Superellipsoid upper = brick(repetition % 3 == 0 ? 8 : 60);
-    const Pose pose1{Vector3(uniform(random, -1, 1), 0, 0), random_rotation(random)};
-    const double overlap = 1e-3 * lower.half_axes().z() * std::pow(10, uniform(random, -4, 0));
-    const Vector3 beside{uniform(random, -1, 1) * lower.half_axes().x(), uniform(random, -1, 1) * lower.half_axes().y(),
+    const Pose pose1{Vector3(random.uniform(-1, 1), 0, 0), random.rotation()};
+    const double overlap = 1e-3 * lower.half_axes().z() * std::pow(10, random.uniform(-4, 0));
+    const Vector3 beside{random.uniform(-1, 1) * lower.half_axes().x(), random.uniform(-1, 1) * lower.half_axes().y(),
                          lower.half_axes().z() + upper.half_axes().z() - overlap};
-    const Matrix3 yaw = Eigen::AngleAxisd(uniform(random, 0, 6), Vector3::UnitZ()).toRotationMatrix();
+    const Matrix3 yaw = Eigen::AngleAxisd(random.uniform(0, 6), Vector3::UnitZ()).toRotationMatrix();
     const Pose pose2{pose1.position + pose1.rotation * beside, pose1.rotation * yaw};
     const Proximity proximity = find_proximity(lower, pose1, upper, pose2);
     if (proximity.gap >= 0) continue;
@@ -305,17 +298,17 @@ TEST_CASE("a capsule along a brick rests on its two ends, and a capsule across i
 }
 
 TEST_CASE("the manifold points do not depend on the order of the bodies or on the frame") {
-  Random random(3);
+  test::Draw random(3);
   const Vector3 far(3e3, -4e3, 5e3);
   int wide = 0;
   for (int repetition = 0; repetition < 300; ++repetition) {
-    const Superellipsoid lower(Vector3{uniform(random, 0.5, 2), uniform(random, 0.5, 2), 0.7}, uniform(random, 6, 50),
-                               uniform(random, 6, 50));
-    const Superellipsoid upper(Vector3{uniform(random, 0.5, 2), uniform(random, 0.5, 2), 0.4}, uniform(random, 6, 50),
-                               uniform(random, 6, 50));
+    const Superellipsoid lower(Vector3{random.uniform(0.5, 2), random.uniform(0.5, 2), 0.7}, random.uniform(6, 50),
+                               random.uniform(6, 50));
+    const Superellipsoid upper(Vector3{random.uniform(0.5, 2), random.uniform(0.5, 2), 0.4}, random.uniform(6, 50),
+                               random.uniform(6, 50));
     const Pose pose1;
-    const Pose pose2{Vector3{uniform(random, -1, 1), uniform(random, -1, 1), 1.1 - 1e-3},
-                     Matrix3(Eigen::AngleAxisd(uniform(random, 0, 6), Vector3::UnitZ()) * tilt(1e-4, uniform(random, 0, 7)))};
+    const Pose pose2{Vector3{random.uniform(-1, 1), random.uniform(-1, 1), 1.1 - 1e-3},
+                     Matrix3(Eigen::AngleAxisd(random.uniform(0, 6), Vector3::UnitZ()) * tilt(1e-4, random.uniform(0, 7)))};
     const Proximity proximity = find_proximity(lower, pose1, upper, pose2);
     const ContactManifold manifold = find_contact_manifold(lower, pose1, upper, pose2, proximity);
     wide += manifold.corner_count > 0 ? 1 : 0;
@@ -327,7 +320,7 @@ TEST_CASE("the manifold points do not depend on the order of the bodies or on th
     CHECK(of_swapped.corner_count == manifold.corner_count);
     CHECK(distance_of_corners(manifold, of_swapped) <= 1e-9);
 
-    const Matrix3 turn = random_rotation(random);
+    const Matrix3 turn = random.rotation();
     const auto moved = [&](const Pose& pose) { return Pose{turn * pose.position + far, turn * pose.rotation}; };
     Proximity there = proximity;
     there.normal = turn * proximity.normal;

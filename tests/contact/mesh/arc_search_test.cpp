@@ -33,7 +33,7 @@ TEST_CASE("the search of an arc finds a higher maximum exactly if there is one")
   int other_count = 0;
   for (int i = 0; i < draws(1000); ++i) {
     CAPTURE(i);
-    const std::unique_ptr<Shape> body = draw.body();
+    const std::unique_ptr<Shape> body = draw_body(draw);
     SupportProbe probe(*body, draw.rotation());
     const Matrix3 frame = draw.rotation();
     Arc arc{frame.col(0), frame.col(1), draw.uniform(0.3, std::numbers::pi), Vector3::Zero()};

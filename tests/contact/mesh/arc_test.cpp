@@ -50,7 +50,7 @@ TEST_CASE("the maximum over an arc agrees with dense sampling") {
   int maxima = 0;
   for (int i = 0; i < draws(3000); ++i) {
     CAPTURE(i);
-    const std::unique_ptr<Shape> body = draw.body();
+    const std::unique_ptr<Shape> body = draw_body(draw);
     SupportProbe probe(*body, draw.rotation());
     Arc arc = random_arc(draw);
     // The edge is placed so that the gap along the normal in the middle has this value, and the point is nearly over the edge.

@@ -77,7 +77,7 @@ TEST_CASE("a tessellated floor gives the contact of a plane, with the same digit
   const std::vector<MeshTriangle> fine = floor_mesh(24, 0.25).placed();
   for (int i = 0; i < draws(2000); ++i) {
     CAPTURE(i);
-    const std::unique_ptr<Shape> body = draw.body();
+    const std::unique_ptr<Shape> body = draw_body(draw);
     Pose pose{draw.in_box({1, 1, 0}), draw.rotation()};
     const double smallest = body->half_extents().minCoeff();
     const double height = find_plane_proximity(*body, pose, up, 0).gap;
@@ -97,7 +97,7 @@ TEST_CASE("a rotated and tessellated floor far from the origin gives the contact
     CAPTURE(i);
     const Pose floor{draw.in_box({1e4, 1e4, 1e4}), draw.rotation()};
     const std::vector<MeshTriangle> triangles = floor_mesh(12, 0.5).placed(floor);
-    const std::unique_ptr<Shape> body = draw.body();
+    const std::unique_ptr<Shape> body = draw_body(draw);
     const Vector3 up = floor.rotation.col(2);
     Pose pose{floor.position + floor.rotation * draw.in_box({1, 1, 0}), draw.rotation()};
     const double smallest = body->half_extents().minCoeff();
@@ -147,7 +147,7 @@ TEST_CASE("contacts with closed convex meshes agree with the solid hull of their
     const TriangleMesh& mesh = meshes[static_cast<std::size_t>(i) % meshes.size()];
     const Polytope hull(mesh.vertices);
     const Pose mesh_pose{draw.in_box({5, 5, 5}), draw.rotation()};
-    const std::unique_ptr<Shape> body = draw.body();
+    const std::unique_ptr<Shape> body = draw_body(draw);
     const double smallest = std::min(body->half_extents().minCoeff(), hull.half_extents().minCoeff());
     const Matrix3 rotation = draw.rotation();
     const double wanted = i % 5 == 0 ? 0 : draw.uniform(-0.1, 0.02) * smallest;
@@ -264,7 +264,7 @@ TEST_CASE("no contact with one triangle pushes behind it, and moving out by the 
     CAPTURE(i);
     MeshTriangle triangle;
     for (Vector3& vertex : triangle.vertices) vertex = draw.in_box({0.8, 0.8, 0.8});
-    const std::unique_ptr<Shape> body = draw.body();
+    const std::unique_ptr<Shape> body = draw_body(draw);
     Pose pose{draw.in_box({0.8, 0.8, 0.8}), draw.rotation()};
     std::vector<MeshContact> contacts = contacts_of(*body, pose, {&triangle, 1});
     if (contacts.empty()) continue;

@@ -43,7 +43,7 @@ TEST_CASE(
     const TriangleMesh& mesh = meshes[i % meshes.size()];
     const Polytope hull(mesh.vertices);
     const Pose mesh_pose{draw.in_box({5, 5, 5}), draw.rotation()};
-    const std::unique_ptr<Shape> body = draw.body();
+    const std::unique_ptr<Shape> body = draw_body(draw);
     const double unit = std::min(body->half_extents().minCoeff(), hull.half_extents().minCoeff());
     const Matrix3 turn = draw.rotation();
     const Vector3 way = draw.direction();

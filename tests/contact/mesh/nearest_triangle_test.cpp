@@ -18,7 +18,7 @@ TEST_CASE("the nearest of many triangles is found from both sides") {
     TriangleMesh mesh = i % 2 == 0 ? icosahedron_mesh() : floor_mesh(6, 0.6);
     for (Vector3& vertex : mesh.vertices) vertex += draw.in_box({0.1, 0.1, 0.1});
     const std::vector<MeshTriangle> triangles = mesh.placed({draw.in_box({50, 50, 50}), draw.rotation()});
-    const std::unique_ptr<Shape> body = draw.body();
+    const std::unique_ptr<Shape> body = draw_body(draw);
     const Pose pose{triangles[0].vertices[0] + draw.uniform(1.2, 6) * draw.direction(), draw.rotation()};
     double least = std::numeric_limits<double>::infinity();
     int evaluations = 0;

@@ -11,7 +11,7 @@
 #include "ode/collider_fixture.hpp"
 #include "ode/core_pose.hpp"
 #include "supernormal/proximity/solve.hpp"
-#include "support/ode_fixture.hpp"
+#include "support/ode_world.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;
@@ -162,8 +162,8 @@ TEST_CASE("description: a Box of ours lies on a plane and on a dBox as a dBox do
 
 TEST_CASE("copy: a geom's copy has its shape, its bits and its place, and lives on") {
   const OdeSession session;
-  dWorldID world = dWorldCreate();
-  dBodyID body = dBodyCreate(world);
+  const World world;
+  dBodyID body = dBodyCreate(world.id());
   dSpaceID space = dHashSpaceCreate(nullptr);
   auto geom = std::make_unique<Geom>(snCreateSuperellipsoid(nullptr, 1, 2, 3, 4, 5));
   snGeomSetRounding(*geom, dReal(0.25));
@@ -191,7 +191,6 @@ TEST_CASE("copy: a geom's copy has its shape, its bits and its place, and lives 
   copied.reset();
   dSpaceDestroy(space);
   dBodyDestroy(body);
-  dWorldDestroy(world);
 }
 
 TEST_CASE("copy: solver settings and look-ahead time are copied") {
@@ -212,8 +211,8 @@ TEST_CASE("copy: solver settings and look-ahead time are copied") {
   CHECK(copied.gap == doctest::Approx(rough.gap).epsilon(within_rounding(1e-12)));
 
   dReal before[6], after[6], of_copy[6];
-  dWorldID world = dWorldCreate();
-  dBodyID body = dBodyCreate(world), body_of_copy = dBodyCreate(world);
+  const World world;
+  dBodyID body = dBodyCreate(world.id()), body_of_copy = dBodyCreate(world.id());
   for (const dBodyID moving : {body, body_of_copy}) dBodySetLinearVel(moving, 8, 0, 0);
   dGeomSetBody(geom, body);
   dGeomGetAABB(geom, before);
@@ -226,7 +225,6 @@ TEST_CASE("copy: solver settings and look-ahead time are copied") {
   for (int k = 0; k < 6; ++k) CHECK(of_copy[k] == after[k]);
   dGeomSetBody(geom, nullptr);
   dGeomSetBody(ahead, nullptr);
-  dWorldDestroy(world);
 }
 
 TEST_CASE("copy: copies of a user-defined body share its callbacks, which are released once, after the last") {

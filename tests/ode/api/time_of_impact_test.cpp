@@ -10,6 +10,7 @@
 #include "ode/collider_fixture.hpp"
 #include "ode/mesh_fixture.hpp"
 #include "ode/terrain.hpp"
+#include "support/ode_world.hpp"
 
 using namespace supernormal::test;
 
@@ -62,16 +63,6 @@ class Mover {
   Vec position_{}, velocity_{}, spin_{};
 };
 
-struct TestWorld {
-  dWorldID id = dWorldCreate();
-  TestWorld() = default;
-  ~TestWorld() { dWorldDestroy(id); }
-  TestWorld(const TestWorld&) = delete;
-  TestWorld(TestWorld&&) = delete;
-  TestWorld& operator=(const TestWorld&) = delete;
-  TestWorld& operator=(TestWorld&&) = delete;
-};
-
 }  // namespace
 
 TEST_CASE("time of impact: with every collider the gap is positive before and closes at the impact, in either order") {
@@ -83,10 +74,10 @@ TEST_CASE("time of impact: with every collider the gap is positive before and cl
     for (int k = 0; k < 60; ++k) {
       const std::string name = name_of(kind) + " " + std::to_string(k);
       CAPTURE(name);
-      const TestWorld world;
+      const World world;
       const Geom ours(random_body(random));
       const ColliderGeom collider(kind, random);
-      Mover mover(world.id, ours);
+      Mover mover(world.id(), ours);
       const Vec away = random.direction();
       const bool has_offset = k % 3 == 0;
       if (has_offset) dGeomSetOffsetPosition(ours, dReal(0.3), dReal(-0.2), dReal(0.4));
@@ -95,7 +86,7 @@ TEST_CASE("time of impact: with every collider the gap is positive before and cl
                 random.uniform(0, 5) * random.direction());
       std::unique_ptr<Mover> other;
       if (kind != ColliderKind::Plane && k % 2 == 0) {
-        other = std::make_unique<Mover>(world.id, collider);
+        other = std::make_unique<Mover>(world.id(), collider);
         other->set({0, 0, 0}, common, random.uniform(0, 5) * random.direction());
       }
       if (gap_of(ours, collider) <= 0) continue;  // behind a plane
@@ -127,10 +118,10 @@ TEST_CASE("time of impact: with every collider the gap is positive before and cl
 
 TEST_CASE("time of impact: a body hits a sheet of triangles, at rest, moving or rotating, and misses it beyond its border") {
   const OdeSession session;
-  const TestWorld world;
+  const World world;
   const MeshGeom floor(floor_arrays(20, 20, 0.5));  // 10 m x 10 m from the origin
   const Geom ball(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.4), dReal(0.3)));
-  Mover mover(world.id, ball);
+  Mover mover(world.id(), ball);
   const double rounding = within_rounding(1e-8, 50);
 
   mover.set({3.2, 4.1, 2.3}, {1, 0, -4}, {0, 0, 0});
@@ -151,7 +142,7 @@ TEST_CASE("time of impact: a body hits a sheet of triangles, at rest, moving or 
   CHECK(impact_of(ball, floor, 2).hits == 0);
 
   // The floor moves up, and rotates about an axis through (5, 5).
-  Mover lift(world.id, floor);
+  Mover lift(world.id(), floor);
   dGeomSetOffsetPosition(floor, -5, -5, 0);
   lift.set({5, 5, 0}, {0, 0, 4}, {0, 0, 0});
   mover.set({3.2, 4.1, 2.3}, {0, 0, 0}, {0, 0, 7});
@@ -168,10 +159,10 @@ TEST_CASE("time of impact: a body hits a sheet of triangles, at rest, moving or 
 
 TEST_CASE("time of impact: touching geoms that separate, fly-bys and overlaps have the right status") {
   const OdeSession session;
-  const TestWorld world;
+  const World world;
   const Geom ball(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.5), dReal(0.5)));
   const Geom wall(dCreateBox(nullptr, 2, 2, 2));
-  Mover mover(world.id, ball);
+  Mover mover(world.id(), ball);
   mover.set({0, 0, 1.5}, {0, 0, 1}, {0, 3, 0});
   CHECK(impact_of(ball, wall, 1).hits == 0);
   mover.set({0, 0, 1.5}, {0, 0, -1}, {0, 3, 0});
@@ -188,7 +179,7 @@ TEST_CASE("time of impact: touching geoms that separate, fly-bys and overlaps ha
 
 TEST_CASE("time of impact: invalid arguments are refused") {
   const OdeSession session;
-  const TestWorld world;
+  const World world;
   const Geom ball(snCreateEllipsoid(nullptr, 1, 1, 1));
   const Geom box(dCreateBox(nullptr, 1, 1, 1)), other(dCreateBox(nullptr, 1, 1, 1));
   place(box, {5, 0, 0});
@@ -203,7 +194,7 @@ TEST_CASE("time of impact: invalid arguments are refused") {
     CHECK(snGeomTimeOfImpact(ball, box, dReal(horizon), &impact) == 0);
     CHECK(refused_with("horizon = "));
   }
-  Mover mover(world.id, ball);
+  Mover mover(world.id(), ball);
   const dBodyID body = dGeomGetBody(ball);
   dBodySetLinearVel(body, std::numeric_limits<dReal>::infinity(), 0, 0);
   CHECK(snGeomTimeOfImpact(ball, box, 1, &impact) == 0);
@@ -216,11 +207,11 @@ TEST_CASE("time of impact: invalid arguments are refused") {
 
 TEST_CASE("time of impact: a heightfield without a pose is not asked for its pose") {
   const OdeSession session;
-  const TestWorld world;
+  const World world;
   const Terrain terrain(Terrain::Layout{}, [](int /*i*/, int /*j*/) { return 0.0; });
   const Geom field(dCreateHeightfield(nullptr, terrain.data(), 0));
   const Geom ball(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.4), dReal(0.3)));
-  Mover mover(world.id, ball);
+  Mover mover(world.id(), ball);
   dBodySetPosition(dGeomGetBody(ball), 0, 3, 0);
   for (const double speed : {1.0, 1e20, 1e200}) {
     CAPTURE(speed);
@@ -234,14 +225,14 @@ TEST_CASE("time of impact: a heightfield without a pose is not asked for its pos
 
 TEST_CASE("time of impact: a heightfield agrees with snGeomProximity") {
   const OdeSession session;
-  const TestWorld world;
+  const World world;
   Terrain::Layout layout;
   layout.columns = layout.rows = 33;
   layout.width = layout.depth = 16;
   const Terrain terrain(layout, [](int i, int j) { return 0.5 * std::sin(0.7 * i) * std::cos(0.5 * j); });
   const Geom field(dCreateHeightfield(nullptr, terrain.data(), 1));
   const Geom ball(snCreateSuperellipsoid(nullptr, dReal(0.5), dReal(0.4), dReal(0.3), 3, 4));
-  Mover mover(world.id, ball);
+  Mover mover(world.id(), ball);
   Random random(5);
   const double rounding = within_rounding(1e-8, 50);
   for (int k = 0; k < 20; ++k) {

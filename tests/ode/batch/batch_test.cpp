@@ -14,6 +14,7 @@
 
 #include "ode/collider_fixture.hpp"
 #include "ode/mesh_fixture.hpp"
+#include "support/ode_world.hpp"
 
 using namespace supernormal::test;
 
@@ -192,8 +193,8 @@ TEST_CASE("a batch on any number of threads gives the contacts, statistics and e
 TEST_CASE("a batch skips pairs that the filter rejects, and pairs of one body") {
   const OdeSession session;
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
-  const dWorldID world = dWorldCreate();
-  const dBodyID body = dBodyCreate(world);
+  const World world;
+  const dBodyID body = dBodyCreate(world.id());
   std::vector<dGeomID> geoms;
   std::array<std::size_t, 4> numbers = {0, 1, 2, 3};
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -215,7 +216,6 @@ TEST_CASE("a batch skips pairs that the filter rejects, and pairs of one body") 
   CHECK(snBatchCollide(batch, space, 1, &lines, without_the_last, append) == 2);
   snBatchDestroy(batch);
   dSpaceDestroy(space);
-  dWorldDestroy(world);
 }
 
 TEST_CASE("a batch enters nested spaces") {

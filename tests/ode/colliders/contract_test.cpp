@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ode/collider_fixture.hpp"
-#include "support/ode_fixture.hpp"
+#include "support/ode_world.hpp"
 #include "support/relative.hpp"
 
 using namespace supernormal::test;
@@ -151,8 +151,8 @@ TEST_CASE("the contact array is unchanged when the geoms are apart") {
 
 TEST_CASE("geoms of one body do not collide, nor does a geom with itself") {
   OdeSession session;
-  const dWorldID world = dWorldCreate();
-  const dBodyID body = dBodyCreate(world);
+  const World world;
+  const dBodyID body = dBodyCreate(world.id());
   {
     const Geom one(snCreateEllipsoid(nullptr, 1, 1, 1));
     const Geom two(snCreateEllipsoid(nullptr, 1, 1, 1));
@@ -162,7 +162,6 @@ TEST_CASE("geoms of one body do not collide, nor does a geom with itself") {
     dGeomSetBody(two, body);
     CHECK(collide(one, two).empty());
   }
-  dWorldDestroy(world);
 }
 
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "support/ode_fixture.hpp"
+#include "support/ode_world.hpp"
 
 using namespace supernormal::test;
 
@@ -230,7 +230,7 @@ TEST_CASE("rays of any valid length hit, and rays of invalid length do not") {
 TEST_CASE("a ray hits the same when set by dGeomRaySet, by its pose or by a body with an offset") {
   OdeSession session;
   Random random(33);
-  const dWorldID world = dWorldCreate();
+  const World world;
   for (int k = 0; k < 300; ++k) {
     CAPTURE(k);
     const Geom body(random_body(random));
@@ -243,7 +243,7 @@ TEST_CASE("a ray hits the same when set by dGeomRaySet, by its pose or by a body
     place(turned, start);
     const Geom set(dCreateRay(nullptr, 20));
     aim(set, start, v, 20);
-    const dBodyID carrier = dBodyCreate(world);
+    const dBodyID carrier = dBodyCreate(world.id());
     const Geom carried(dCreateRay(nullptr, 20));
     dGeomSetBody(carried, carrier);
     const Vec offset = random.direction();
@@ -260,7 +260,6 @@ TEST_CASE("a ray hits the same when set by dGeomRaySet, by its pose or by a body
       CHECK(norm(to_vec(contacts[0].pos) - to_vec(reference[0].pos)) < within_rounding(1e-12));
     }
   }
-  dWorldDestroy(world);
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "ode/mesh_fixture.hpp"
+#include "support/ode_world.hpp"
 #include "support/relative.hpp"
 
 using namespace supernormal::test;
@@ -77,46 +78,15 @@ TEST_CASE("a floor of triangles gives the contacts of a dPlane, in both orders")
 
 namespace {
 
-/// Two equal bodies that slide in a world of their own, one on a plane and one on a mesh, without gravity along it.
-struct Slide {
-  dWorldID world = dWorldCreate();
-  dJointGroupID joints = dJointGroupCreate(0);
-  dBodyID body = nullptr;
-
-  Slide() { dWorldSetGravity(world, 0, 0, dReal(-9.81)); }
-  ~Slide() {
-    dJointGroupDestroy(joints);
-    dWorldDestroy(world);
-  }
-  Slide(const Slide&) = delete;
-  Slide(Slide&&) = delete;
-  Slide& operator=(const Slide&) = delete;
-  Slide& operator=(Slide&&) = delete;
-
-  void add(dGeomID geom, const Vec& position, const Vec& velocity) {
-    body = dBodyCreate(world);
-    dMass mass;
-    REQUIRE(snMassSet(&mass, 1000, geom) == 1);
-    dBodySetMass(body, &mass);
-    dGeomSetBody(geom, body);
-    dBodySetPosition(body, dReal(position[0]), dReal(position[1]), dReal(position[2]));
-    dBodySetLinearVel(body, dReal(velocity[0]), dReal(velocity[1]), dReal(velocity[2]));
-  }
-
-  int step(dGeomID geom, dGeomID ground, double mu) {
-    std::array<dContact, 8> contacts{};
-    const int count = dCollide(geom, ground, 8, &contacts[0].geom, sizeof(dContact));
-    for (int i = 0; i < count; ++i) {
-      dContact& contact = contacts[static_cast<std::size_t>(i)];
-      contact.surface.mode = dContactApprox1;
-      contact.surface.mu = dReal(mu);
-      dJointAttach(dJointCreateContact(world, joints, &contact), dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
-    }
-    dWorldQuickStep(world, dReal(1e-3));
-    dJointGroupEmpty(joints);
-    return count;
-  }
-};
+/// The body of a geom that begins to slide.
+dBodyID start_slide(World& world, dGeomID geom, const Vec& position, const Vec& velocity, double mu) {
+  world.surface.mode = dContactApprox1;
+  world.surface.mu = dReal(mu);
+  const dBodyID body = world.add(geom, 1000);
+  set_position(body, position);
+  dBodySetLinearVel(body, dReal(velocity[0]), dReal(velocity[1]), dReal(velocity[2]));
+  return body;
+}
 
 dGeomID make_slider(const std::string& kind) {
   if (kind == "ellipsoid") return snCreateEllipsoid(nullptr, dReal(0.4), dReal(0.3), dReal(0.2));
@@ -141,20 +111,19 @@ TEST_CASE("10 m across 20 000 triangles a body slides as on a plane" * doctest::
     const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
     const Geom on_mesh(make_slider(slider.kind));
     const Geom on_plane(make_slider(slider.kind));
-    Slide mesh_slide;
-    Slide plane_slide;
+    World with_mesh, with_plane;
     const Vec start = {1, 1.03, slider.height};
     const Vec velocity = {4, slider.mu > 0 ? 0 : 0.9, 0};
-    mesh_slide.add(on_mesh, start, velocity);
-    plane_slide.add(on_plane, start, velocity);
+    const dBodyID mesh_slider = start_slide(with_mesh, on_mesh, start, velocity, slider.mu);
+    const dBodyID plane_slider = start_slide(with_plane, on_plane, start, velocity, slider.mu);
     double difference = 0;
     double vertical = 0;
     double travelled = 0;
     for (int step = 0; step < 4000 && travelled < 10; ++step) {
-      REQUIRE(mesh_slide.step(on_mesh, floor, slider.mu) == plane_slide.step(on_plane, plane, slider.mu));
-      const Vec position = to_vec(dBodyGetPosition(mesh_slide.body));
-      difference = std::max(difference, norm(position - to_vec(dBodyGetPosition(plane_slide.body))));
-      vertical = std::max(vertical, std::abs(double{dBodyGetLinearVel(mesh_slide.body)[2]}));
+      REQUIRE(with_mesh.quick_step_of(on_mesh, floor, 1e-3) == with_plane.quick_step_of(on_plane, plane, 1e-3));
+      const Vec position = to_vec(dBodyGetPosition(mesh_slider));
+      difference = std::max(difference, norm(position - to_vec(dBodyGetPosition(plane_slider))));
+      vertical = std::max(vertical, std::abs(double{dBodyGetLinearVel(mesh_slider)[2]}));
       travelled = norm(position - start);
     }
     CHECK(travelled >= 10);
@@ -178,17 +147,17 @@ TEST_CASE("10 m across a rotated and moved floor with rounded vertices a body sl
   const Vec across = {R[1], R[5], R[9]};
   const Geom body(make_slider("wheel"));
   dGeomSetQuaternion(body, turn);
-  Slide slide;
-  dWorldSetGravity(slide.world, dReal(-9.81 * up[0]), dReal(-9.81 * up[1]), dReal(-9.81 * up[2]));
+  World world;
+  set_gravity(world, -kGravity * up);
   const Vec start = Vec{100, -50, 20} + 0.5 * along + 4.03 * across + 0.3 * up;
-  slide.add(body, start, 4.0 * along);
-  dBodySetQuaternion(slide.body, turn);
+  const dBodyID slider = start_slide(world, body, start, 4.0 * along, 0);
+  dBodySetQuaternion(slider, turn);
   double vertical = 0;
   double off_line = 0;
   for (int step = 0; step < 2200; ++step) {
-    REQUIRE(slide.step(body, floor, 0) == 1);
-    const Vec way = to_vec(dBodyGetPosition(slide.body)) - start;
-    vertical = std::max(vertical, std::abs(dot(up, to_vec(dBodyGetLinearVel(slide.body)))));
+    REQUIRE(world.quick_step_of(body, floor, 1e-3) == 1);
+    const Vec way = to_vec(dBodyGetPosition(slider)) - start;
+    vertical = std::max(vertical, std::abs(dot(up, to_vec(dBodyGetLinearVel(slider)))));
     off_line = std::max({off_line, std::abs(dot(up, way)), std::abs(dot(across, way))});
     if (dot(along, way) > 9) break;
   }

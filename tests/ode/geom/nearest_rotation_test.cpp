@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "ode/geom/convert.hpp"
 #include "support/ode_fixture.hpp"
@@ -16,14 +15,13 @@ using supernormal::test::OdeSession;
 
 namespace {
 
-struct Draw {
-  std::mt19937_64 engine{5};
-  std::normal_distribution<double> gauss;
+struct RotationDraw : test::Draw {
+  RotationDraw() : Draw(5) {}
 
-  dReal operator()() { return dReal(gauss(engine)); }
+  dReal operator()() { return dReal(gauss()); }
   Matrix3 noise() {
     Matrix3 N;
-    for (double& entry : N.reshaped()) entry = gauss(engine);
+    for (double& entry : N.reshaped()) entry = gauss();
     return N;
   }
   Matrix3 rotation() {
@@ -43,7 +41,7 @@ TEST_CASE("rotations that ODE computes in double precision are used unchanged") 
   OdeSession session;
   if (std::numeric_limits<dReal>::epsilon() > 1e-10)
     return;  // rotations in single precision are not orthonormal to double precision
-  Draw draw;
+  RotationDraw draw;
   const Geom geom(dCreateSphere(nullptr, 1));
   for (int k = 0; k < 100000; ++k) {
     dMatrix3 R;
@@ -60,7 +58,7 @@ TEST_CASE("rotations that ODE computes in double precision are used unchanged") 
 
 TEST_CASE("the nearest rotation is orthonormal to rounding, and no farther away than the error") {
   OdeSession session;
-  Draw draw;
+  RotationDraw draw;
   const Geom geom(dCreateSphere(nullptr, 1));
   for (const double size : {1e-13, 1e-10, 1e-7, 1e-5, 1e-3}) {
     for (int k = 0; k < 1000; ++k) {

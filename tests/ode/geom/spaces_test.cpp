@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ode/collider_fixture.hpp"
+#include "support/ode_world.hpp"
 #include "support/relative.hpp"
 
 // dGeomTransform is deprecated in favour of geom offsets, but programs use it and we promise to work inside it.
@@ -225,7 +226,7 @@ TEST_CASE("a collider inside a dGeomTransform has the contacts of the collider i
 
 TEST_CASE("a geom offset moves the geom, not the body") {
   OdeSession session;
-  const dWorldID world = dWorldCreate();
+  const World world;
   snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is accurate to the root of the tolerance
   Random random(6);
   int touching = 0;
@@ -236,7 +237,7 @@ TEST_CASE("a geom offset moves the geom, not the body") {
       if (kind != ColliderKind::Plane) place(colliders.back(), {1, 2, -0.3});
     }
     for (int i = 0; i < 50; ++i) {
-      const dBodyID body = dBodyCreate(world);
+      const dBodyID body = dBodyCreate(world.id());
       dBodySetPosition(body, 1, 2, dReal(random.uniform(-0.5, 1)));
       dQuaternion q = {dReal(random.uniform(-1, 1)), dReal(random.uniform(-1, 1)), dReal(random.uniform(-1, 1)), 1};
       dNormalize4(q);
@@ -260,5 +261,4 @@ TEST_CASE("a geom offset moves the geom, not the body") {
     }
     CHECK(touching > 100);
   }
-  dWorldDestroy(world);
 }

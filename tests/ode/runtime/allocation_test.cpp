@@ -10,6 +10,7 @@
 #include "ode/terrain.hpp"
 #include "supernormal/effects.hpp"
 #include "support/counted_allocations.hpp"
+#include "support/ode_world.hpp"
 
 using namespace supernormal::test;
 
@@ -101,13 +102,13 @@ TEST_CASE("after the first batch no batch allocates") {
 TEST_CASE("effects set up contacts and add forces without allocation") {
   namespace fx = supernormal::effects;
   OdeSession session;
-  const dWorldID world = dWorldCreate();
+  const World world;
   fx::Effects effects(
       {fx::Gravity{{0, 0, -9.81}}, fx::Friction{0.5, {}}, fx::RollingResistance{1e-3, 1e-3, {}}, fx::Hertz{1e7, 0.3, 0.8, {}},
        fx::Adhesion{1, {}}, fx::QuadraticDrag{1.2, 0.5}, fx::StokesDrag{1e-3}, fx::Buoyancy{1000, 0}},
       1e-3);
-  effects.set_up(world);
-  const dBodyID body = dBodyCreate(world);
+  effects.set_up(world.id());
+  const dBodyID body = dBodyCreate(world.id());
   const Geom puck(snCreateSuperellipsoid(nullptr, 1, 1, dReal(0.2), 20, 20));
   dGeomSetBody(puck, body);
   effects.add_body(body);
@@ -122,5 +123,4 @@ TEST_CASE("effects set up contacts and add forces without allocation") {
     effects.apply_forces();
   }
   CHECK(allocations() == before);
-  dWorldDestroy(world);
 }

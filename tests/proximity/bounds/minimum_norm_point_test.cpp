@@ -121,24 +121,14 @@ void check(const Points& points, double rounding) {
   }
 }
 
-class Draw {
- public:
-  explicit Draw(unsigned seed) : engine_(seed) {}
-  double gauss() { return gauss_(engine_); }
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+struct PointDraw : test::Draw {
+  using Draw::Draw;
   Vector3 vector() { return Vector3{gauss(), gauss(), gauss()}; }
-  Matrix3 rotation() {
-    return Eigen::Quaterniond(Eigen::Vector4d{gauss(), gauss(), gauss(), gauss()}).normalized().toRotationMatrix();
-  }
-  Points points(std::size_t count, const std::function<Vector3()>& make) {
+  static Points points(std::size_t count, const std::function<Vector3()>& make) {
     Points points(count);
     for (Vector3& point : points) point = make();
     return points;
   }
-
- private:
-  std::mt19937_64 engine_;
-  std::normal_distribution<double> gauss_;
 };
 
 std::size_t some(int trial) { return 1 + static_cast<std::size_t>(trial) % 10; }
@@ -146,7 +136,7 @@ std::size_t some(int trial) { return 1 + static_cast<std::size_t>(trial) % 10; }
 }  // namespace
 
 TEST_CASE("random points: the nearest point of the hull equals the nearest point by brute force") {
-  Draw draw(71);
+  PointDraw draw(71);
   int inside = 0, outside = 0;
   for (int trial = 0; trial < 1000; ++trial) {
     const Vector3 centre = draw.uniform(0, 2) * draw.vector();
@@ -159,7 +149,7 @@ TEST_CASE("random points: the nearest point of the hull equals the nearest point
 }
 
 TEST_CASE("a search that goes on with more points finds the nearest point of all, also of those that are not named again") {
-  Draw draw(76);
+  PointDraw draw(76);
   for (int trial = 0; trial < 300; ++trial) {
     const Vector3 centre = draw.uniform(0, 2) * draw.vector();
     Points points;
@@ -184,7 +174,7 @@ TEST_CASE("one point is its own hull") {
 }
 
 TEST_CASE("where four points surround the origin the result is exactly zero") {
-  Draw draw(72);
+  PointDraw draw(72);
   for (int trial = 0; trial < 300; ++trial) {
     const Matrix3 turn = draw.rotation();
     const double size = std::pow(10, draw.uniform(-6, 6));
@@ -199,7 +189,7 @@ TEST_CASE("where four points surround the origin the result is exactly zero") {
 }
 
 TEST_CASE("the origin is one of the points, or on an edge or a face") {
-  Draw draw(73);
+  PointDraw draw(73);
   for (int trial = 0; trial < 200; ++trial) {
     const Vector3 a = draw.vector(), b = draw.vector();
     Points points = draw.points(some(trial), [&] { return draw.vector(); });
@@ -215,7 +205,7 @@ TEST_CASE("the origin is one of the points, or on an edge or a face") {
 }
 
 TEST_CASE("degenerate sets: repeated points, points on a line, on a plane through the origin, and within rounding of one another") {
-  Draw draw(74);
+  PointDraw draw(74);
   for (int trial = 0; trial < 300; ++trial) {
     const std::size_t count = some(trial);
     const Vector3 a = draw.vector(), b = draw.vector(), c = draw.vector();
@@ -235,7 +225,7 @@ TEST_CASE("degenerate sets: repeated points, points on a line, on a plane throug
 }
 
 TEST_CASE("needles and discs of aspect 1e5") {
-  Draw draw(75);
+  PointDraw draw(75);
   for (int trial = 0; trial < 500; ++trial) {
     for (const Vector3& lengths : {Vector3(1, 1e-5, 1e-5), Vector3(1, 1, 1e-5)}) {
       const Matrix3 turn = draw.rotation();
@@ -247,7 +237,7 @@ TEST_CASE("needles and discs of aspect 1e5") {
 }
 
 TEST_CASE("points on one side of a plane surround no origin, however nearly they are on one line") {
-  Draw draw(78);
+  PointDraw draw(78);
   for (int trial = 0; trial < 3000; ++trial) {
     const Matrix3 turn = draw.rotation();
     const double height = std::pow(10, draw.uniform(-14, -10)), width = std::pow(10, draw.uniform(-6, -2));
@@ -258,7 +248,7 @@ TEST_CASE("points on one side of a plane surround no origin, however nearly they
 }
 
 TEST_CASE("the hull only grows with its points: the nearest point comes nearer") {
-  Draw draw(76);
+  PointDraw draw(76);
   for (int trial = 0; trial < 200; ++trial) {
     const Vector3 centre = 2 * draw.vector();
     Points points;
@@ -273,7 +263,7 @@ TEST_CASE("the hull only grows with its points: the nearest point comes nearer")
 }
 
 TEST_CASE("the unit of length, however small or large, changes nothing") {
-  Draw draw(77);
+  PointDraw draw(77);
   for (int trial = 0; trial < 100; ++trial) {
     const Vector3 centre = draw.vector();
     const Points points = draw.points(some(trial), [&] { return Vector3(centre + draw.vector()); });

@@ -5,12 +5,19 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <ostream>
 #include <sstream>
 #include <utility>
 
 #include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/capsule.hpp"
+#include "supernormal/shapes/cylinder.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/linear_image.hpp"
+#include "supernormal/shapes/minkowski_sum.hpp"
 #include "supernormal/shapes/polytope.hpp"
+#include "supernormal/shapes/rounded.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/shapes/superovoid.hpp"
 #include "support/rotation_between.hpp"
 
@@ -80,9 +87,6 @@ class Comparison {
     found_ = find_proximity_derivatives(shape1, pair_.pose1, shape2, pair_.pose2, answer);
     ++tally_.statuses[found_.status];
     tally_.evaluations += found_.evaluations;
-    auto& kind = tally_.kinds[pair_.kind];
-    ++kind[0];
-    kind[1] += found_.has_normal;
     const bool is_finite = found_.gap_gradient.allFinite() && found_.normal.allFinite() && found_.point1.allFinite() &&
                            found_.point2.allFinite() && found_.gap_hessian.allFinite();
     tally_.not_finite += !is_finite;
@@ -102,7 +106,6 @@ class Comparison {
       ++tally_.unreferenced;
       return;
     }
-    ++kind[2];
     compare_first(reference);
     compare_second(reference);
     compare_parameters(reference);
@@ -286,8 +289,6 @@ class Comparison {
   }
 
   void count(Quantity what, double difference, double error) {
-    static constexpr const char* kNames[QuantityCount] = {"gap",     "normal",     "point1",  "point2",
-                                                          "hessian", "parameters", "swapped", "moved"};
     Tally::Figures& figures = tally_.figures[what];
     if (!(error <= kResolution * kLargestErrors[what])) {
       ++figures.undecided;
@@ -299,7 +300,7 @@ class Comparison {
     ++figures.wrong;
     if (tally_.first_wrong.size() > 3000) return;
     std::ostringstream text;
-    text << name_ << ' ' << pair_.kind << ": " << kNames[what] << " off by " << difference << " (reference " << error
+    text << name_ << ' ' << pair_.kind << ": " << kQuantityNames[what] << " off by " << difference << " (reference " << error
          << "), status " << static_cast<int>(found_.status) << '\n';
     tally_.first_wrong += text.str();
   }
@@ -316,26 +317,25 @@ class Comparison {
 
 }  // namespace
 
+// A distribution for each, so that a seed gives the pairs of lib/proximity/README.md.
 Vector3 DerivativePairs::direction() {
   std::normal_distribution<double> gauss;
-  return Vector3{gauss(engine_), gauss(engine_), gauss(engine_)}.normalized();
+  return Vector3{gauss(engine()), gauss(engine()), gauss(engine())}.normalized();
 }
 
-Vector3 DerivativePairs::lengths(double low, double high) {
-  return scale_ * Vector3{log_uniform(low, high), log_uniform(low, high), log_uniform(low, high)};
-}
+Vector3 DerivativePairs::lengths(double low, double high) { return scale_ * log_within(low, high); }
 
 PairedBody DerivativePairs::smooth(int kind) {
   const auto superellipsoid = [this](double low, double high, double least, double most) {
     const Vector3 a = lengths(low, high);
     const double delta = log_uniform(least, most);
-    return paired_superellipsoid(a, delta, log_uniform(least, most));
+    return paired(std::make_shared<Superellipsoid>(a, delta, log_uniform(least, most)));
   };
   switch (kind) {
     case 0:
-      return paired_ellipsoid(lengths(0.5, 1.5));
+      return paired(std::make_shared<Ellipsoid>(lengths(0.5, 1.5)));
     case 1:
-      return paired_ellipsoid(lengths(0.05, 5));
+      return paired(std::make_shared<Ellipsoid>(lengths(0.05, 5)));
     case 2:
       return superellipsoid(0.5, 1.5, 1.3, 5);
     case 3:
@@ -350,18 +350,18 @@ PairedBody DerivativePairs::smooth(int kind) {
       const Vector3 a = lengths(0.5, 1.5);
       const double delta = log_uniform(1.3, 5), epsilon = log_uniform(1.3, 5);
       const double taper = uniform(-0.9, 0.9) * Superovoid::max_taper(epsilon);
-      return paired_superovoid(a, delta, epsilon, taper, taper);
+      return paired(std::make_shared<Superovoid>(a, delta, epsilon, taper, taper));
     }
     case 8:
-      return rounded(superellipsoid(0.5, 1.5, 1.05, 20), scale_ * log_uniform(0.01, 0.5));
+      return paired(std::make_shared<Rounded>(superellipsoid(0.5, 1.5, 1.05, 20).shape, scale_ * log_uniform(0.01, 0.5)));
     case 9: {
       const PairedBody first = superellipsoid(0.5, 1.5, 1.3, 8);
-      return sum(first, paired_ellipsoid(lengths(0.2, 1)));
+      return paired(std::make_shared<MinkowskiSum>(first.shape, std::make_shared<Ellipsoid>(lengths(0.2, 1))));
     }
     default: {
       Matrix3 matrix = Eigen::AngleAxisd(uniform(0, 3), direction()).toRotationMatrix();
       for (int i = 0; i < 9; ++i) matrix(i) += 0.3 * uniform(-1, 1);
-      return image(superellipsoid(0.5, 1.5, 1.3, 8), matrix);
+      return paired(std::make_shared<LinearImage>(superellipsoid(0.5, 1.5, 1.3, 8).shape, matrix));
     }
   }
 }
@@ -371,19 +371,20 @@ PairedBody DerivativePairs::any(int kind) {
   const Vector3 a = lengths(0.5, 1.5);
   switch (kind) {
     case 11:
-      return paired_box(a);
+      return paired(std::make_shared<Box>(a));
     case 12:
-      return paired_capsule(a.x(), a.z());
+      return paired(std::make_shared<Capsule>(a.x(), a.z()));
     case 13:
-      return paired_cylinder(a.x(), a.z());
+      return paired(std::make_shared<Cylinder>(a.x(), a.z()));
     case 14: {
       auto points = std::make_shared<std::vector<Vector3>>();
-      const int count = std::uniform_int_distribution<int>(3, 12)(engine_);
+      const int count = whole(3, 12);
       for (int k = 0; k < count; ++k) points->push_back(a.cwiseProduct(direction()));
-      return paired_polytope(points);
+      // It refers to its points.
+      return paired(std::shared_ptr<const Shape>(new Polytope(*points), [points](const Shape* it) { delete it; }));
     }
     default:
-      return rounded(paired_box(a), scale_ * log_uniform(0.01, 0.5));
+      return paired(std::make_shared<Rounded>(std::make_shared<Box>(a), scale_ * log_uniform(0.01, 0.5)));
   }
 }
 
@@ -398,7 +399,7 @@ Vector3 DerivativePairs::normal_of_face_or_edge(int kind, const Shape& shape) {
       return is_face ? Vector3(0, 0, 1) : Vector3(std::cos(angle), std::sin(angle), 0);
     case 14: {
       const auto points = dynamic_cast<const Polytope&>(shape).points();
-      const auto any = [&] { return points[std::uniform_int_distribution<std::size_t>(0, points.size() - 1)(engine_)]; };
+      const auto any = [&] { return points[static_cast<std::size_t>(whole(0, static_cast<int>(points.size()) - 1))]; };
       for (int k = 0; k < 100; ++k) {
         const Vector3 a = any(), b = any(), c = any(), n = (b - a).cross(c - a);
         if (n.norm() < 1e-3) continue;
@@ -408,7 +409,7 @@ Vector3 DerivativePairs::normal_of_face_or_edge(int kind, const Shape& shape) {
       return direction();
     }
     default: {
-      const int axis = std::uniform_int_distribution<int>(0, 2)(engine_);
+      const int axis = whole(0, 2);
       if (is_face) return Vector3::Unit(axis);
       Vector3 n = direction();
       n[axis] = 0;
@@ -435,7 +436,7 @@ Vector3 DerivativePairs::witness(const Shape& shape, const Vector3& n) {
 
 DerivativePair DerivativePairs::draw_flat() {
   scale_ = log_uniform(2e-3, 7);
-  const int kind1 = count_ % kKinds, kind2 = std::uniform_int_distribution<int>(0, kKinds - 1)(engine_);
+  const int kind1 = count_ % kKinds, kind2 = whole(0, kKinds - 1);
   DerivativePair pair{std::string(kKindNames[kind1]) + " and " + kKindNames[kind2], any(kind1), {}, {}, {}};
   const bool is_small = uniform(0, 1) < 0.5;  // a body anywhere on the side of a larger one
   if (is_small) scale_ *= log_uniform(1e-3, 1);
@@ -464,7 +465,7 @@ DerivativePair DerivativePairs::draw_flat() {
 DerivativePair DerivativePairs::draw() {
   const int kind1 = count_ % kKinds;
   // Half of the partners are of the same kind, the others of any.
-  const int kind2 = (count_ / kKinds) % 2 == 0 ? kind1 : std::uniform_int_distribution<int>(0, kKinds - 1)(engine_);
+  const int kind2 = (count_ / kKinds) % 2 == 0 ? kind1 : whole(0, kKinds - 1);
   DerivativePair pair{std::string(kKindNames[kind1]), any(kind1), any(kind2), {}, {}};
   const auto rotation = [this] { return Eigen::AngleAxisd(uniform(0, 3.14), direction()).toRotationMatrix(); };
   pair.pose1.rotation = rotation();
@@ -534,32 +535,6 @@ void compare_flat(const DerivativePair& pair, const std::string& name, FlatTally
     tally.wrong_pairs += text.str();
   }
   if (!found.has_gap && kink < kSame * size) ++tally.needless;
-}
-
-void print(std::ostream& out, const FlatTally& tally) {
-  out << tally.pairs << " flat pairs: gradient defined " << tally.defined << ", wrong " << tally.wrong << ", Jacobians, too "
-      << tally.second << "; refused " << tally.refused << ", without need " << tally.needless << "; others " << tally.unanswered
-      << "; " << tally.evaluations / static_cast<double>(tally.pairs) << " evaluations\n"
-      << tally.wrong_pairs;
-}
-
-void print(std::ostream& out, const Tally& tally) {
-  static constexpr const char* kStatuses[] = {"smooth",         "active set", "degenerate",    "free on a face", "singular",
-                                              "several maxima", "no Hessian", "not converged", "invalid"};
-  static constexpr const char* kNames[QuantityCount] = {
-      "gap", "normal", "point 1", "point 2", "Hessian of the gap", "parameters", "swapped bodies", "moved frame"};
-  out << tally.pairs << " pairs, " << tally.not_finite << " with numbers that are not finite, " << tally.unreferenced
-      << " beyond the reference, " << tally.evaluations / static_cast<double>(tally.pairs) << " evaluations\n";
-  for (const auto& [status, count] : tally.statuses) out << "  " << kStatuses[static_cast<int>(status)] << ": " << count << '\n';
-  out << "quantity | compared | undecided | wrong | worst relative error\n";
-  for (int k = 0; k < QuantityCount; ++k) {
-    const Tally::Figures& f = tally.figures[static_cast<std::size_t>(k)];
-    out << kNames[k] << " | " << f.compared << " | " << f.undecided << " | " << f.wrong << " | " << f.worst << '\n';
-  }
-  out << "kind: pairs, all derivatives defined, compared\n";
-  for (const auto& [kind, counts] : tally.kinds)
-    out << "  " << kind << ": " << counts[0] << ", " << counts[1] << ", " << counts[2] << '\n';
-  out << tally.first_wrong;
 }
 
 }  // namespace supernormal::test

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <array>
-#include <iosfwd>
 #include <map>
-#include <random>
 #include <string>
 
 #include "proximity/derivatives/long_normal.hpp"
 #include "supernormal/proximity/derivatives.hpp"
+#include "support/draw.hpp"
 
 namespace supernormal::test {
 
@@ -19,17 +18,15 @@ struct DerivativePair {
 };
 
 /// Draws pairs: the kinds of bodies in turn, apart, touching and overlapped by up to 0.3 of the smallest half-extent.
-class DerivativePairs {
+class DerivativePairs : private Draw {
  public:
-  explicit DerivativePairs(unsigned seed) : engine_(seed) {}
+  using Draw::Draw;
   DerivativePair draw();
 
   /// Bodies of 1 mm to 10 m, a face or flat side of one opposite to one of the other, tilted by 0 to 1e-3 rad.
   DerivativePair draw_flat();
 
  private:
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
   Vector3 direction();
   Vector3 lengths(double low, double high);
   PairedBody smooth(int kind);
@@ -37,7 +34,6 @@ class DerivativePairs {
   Vector3 normal_of_face_or_edge(int kind, const Shape& shape);
   Vector3 witness(const Shape& shape, const Vector3& n);
 
-  std::mt19937_64 engine_;
   double scale_ = 1;  // of the lengths
   int count_ = 0;
 };
@@ -45,6 +41,8 @@ class DerivativePairs {
 /// What differs, relative to the norm of the derivative in units of the bodies' size. The last two compare all derivatives with
 /// those of the swapped bodies, and of both bodies in a moved frame.
 enum Quantity { OfGap, OfNormal, OfPoint1, OfPoint2, OfHessian, OfParameters, OfSwapped, OfMoved, QuantityCount };
+inline constexpr std::array<const char*, QuantityCount> kQuantityNames = {"gap",     "normal",     "point 1", "point 2",
+                                                                          "Hessian", "parameters", "swapped", "moved"};
 
 /// The figures of many comparisons.
 struct Tally {
@@ -55,7 +53,6 @@ struct Tally {
   std::array<Figures, QuantityCount> figures;
   std::map<DerivativeStatus, int> statuses;
   int pairs = 0, not_finite = 0, evaluations = 0, unreferenced = 0;
-  std::map<std::string, std::array<int, 3>> kinds;  // pairs, all derivatives defined, referenced
   std::string first_wrong;
 };
 
@@ -64,8 +61,6 @@ inline constexpr std::array<double, QuantityCount> kLargestErrors = {1e-6, 1e-6,
 
 /// Compares one pair and adds it to the tally. `name` is for the report.
 void compare(const DerivativePair& pair, const std::string& name, Tally& tally);
-
-void print(std::ostream& out, const Tally& tally);
 
 /// Gradients of the gap of flat pairs, beside one-sided differences over 1e-6 rad.
 struct FlatTally {
@@ -78,7 +73,5 @@ struct FlatTally {
 
 /// Compares one pair and adds it to the tally. `name` is for the report.
 void compare_flat(const DerivativePair& pair, const std::string& name, FlatTally& tally);
-
-void print(std::ostream& out, const FlatTally& tally);
 
 }  // namespace supernormal::test

@@ -14,11 +14,6 @@ using Real22 = Eigen::Matrix<Real, 2, 2>;
 
 constexpr int kMaxSteps = 60;
 
-Real33 rotation_by(const Real3& w) {
-  const Real angle = w.norm();
-  return angle > 0 ? Eigen::AngleAxis<Real>(angle, w / angle).toRotationMatrix() : Real33(Real33::Identity());
-}
-
 /// One solution, in the frame of the world but with the origin in body 1.
 class Search {
  public:
@@ -172,8 +167,6 @@ class Search {
 };
 
 }  // namespace
-
-LongPose LongPose::moved(const Real3& v, const Real3& w) const { return {position + v, rotation_by(w) * rotation}; }
 
 LongPose exact_pose(const Pose& pose) {
   LongPose out{pose.position.cast<Real>(), pose.rotation.cast<Real>()};

@@ -1,18 +1,18 @@
 // The common normal in long double, and derivatives of it by differences.
 #pragma once
 
-#include "proximity/derivatives/long_body.hpp"
 #include "supernormal/proximity/pose.hpp"
+#include "support/long_body.hpp"
 
 namespace supernormal::test {
 
-struct LongPose {
-  Real3 position = Real3::Zero();
-  Real33 rotation = Real33::Identity();
-
-  /// Moved by v (m) and rotated by exp([w]), w in rad, about its origin.
-  LongPose moved(const Real3& v, const Real3& w) const;
+/// A body of the library and its reference.
+struct PairedBody {
+  std::shared_ptr<const Shape> shape;
+  std::shared_ptr<const LongBody> exact;
 };
+
+inline PairedBody paired(std::shared_ptr<const Shape> shape) { return {shape, long_body_of(*shape)}; }
 
 /// The pose in long double, its matrix made orthonormal beyond double precision.
 LongPose exact_pose(const Pose& pose);

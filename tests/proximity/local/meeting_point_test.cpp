@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "supernormal/shapes/capsule.hpp"
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/polytope.hpp"
+#include "support/draw.hpp"
 #include "support/shape_samples.hpp"
 
 using namespace supernormal;
@@ -38,26 +38,9 @@ std::vector<Named> bodies_with_straight_edges() {
           {"polytope", std::make_shared<Polytope>(many)}};
 }
 
-/// Random orientations, and directions from body 1 to body 2, the same in every run.
-class RandomPoses {
- public:
-  explicit RandomPoses(unsigned seed) : generator_(seed) {}
-
-  Matrix3 rotation() { return Eigen::Quaternion<double>(normal(), normal(), normal(), normal()).normalized().toRotationMatrix(); }
-  Vector3 direction() { return Vector3(normal(), normal(), normal()).normalized(); }
-  double share() { return uniform_(generator_); }
-
- private:
-  double normal() { return normal_(generator_); }
-
-  std::mt19937 generator_;
-  std::normal_distribution<double> normal_;
-  std::uniform_real_distribution<double> uniform_;
-};
-
 /// Both bodies in random orientations, `gap` apart; the second pose.
-Pose place(const Shape& shape1, const Pose& pose1, const Shape& shape2, double gap, RandomPoses& random) {
-  Pose pose2{4 * random.direction(), random.rotation()};
+Pose place(const Shape& shape1, const Pose& pose1, const Shape& shape2, double gap, Draw& draw) {
+  Pose pose2{4 * draw.direction(), draw.rotation()};
   const Proximity far = find_proximity(shape1, pose1, shape2, pose2);
   pose2.position -= (far.gap - gap) * far.normal;
   return pose2;
@@ -84,12 +67,12 @@ struct NearestPoints {
 }  // namespace
 
 TEST_CASE("two capsules touch where their segments are nearest to one another") {
-  RandomPoses random(92);
+  Draw draw(92);
   const Capsule capsule1(0.5, 1), capsule2(0.3, 1);
   for (int sample = 0; sample < 3000; ++sample) {
-    const Pose pose1{Vector3::Zero(), random.rotation()};
-    const double depth = 0.02 * random.share();
-    const Pose pose2 = place(capsule1, pose1, capsule2, -depth, random);
+    const Pose pose1{Vector3::Zero(), draw.rotation()};
+    const double depth = 0.02 * draw.uniform(0, 1);
+    const Pose pose2 = place(capsule1, pose1, capsule2, -depth, draw);
     const Proximity out = find_proximity(capsule1, pose1, capsule2, pose2);
     const NearestPoints nearest(pose1, pose2, 1);
     const Vector3 way = nearest.point2 - nearest.point1;
@@ -101,15 +84,15 @@ TEST_CASE("two capsules touch where their segments are nearest to one another") 
 TEST_CASE("bodies with straight edges have their witness points opposite one another, and in both bodies") {
   constexpr double kAcross = 1e-6;
   constexpr double kHeight = 2e-9;
-  RandomPoses random(93);
+  Draw draw(93);
   const std::vector<Named> bodies = bodies_with_straight_edges();
   for (const Named& one : bodies) {
     for (const Named& other : bodies) {
       for (int sample = 0; sample < 300; ++sample) {
-        const Pose pose1{Vector3::Zero(), random.rotation()};
-        const double gap = sample % 3 == 0 ? 0.05 : -0.02 * random.share();
+        const Pose pose1{Vector3::Zero(), draw.rotation()};
+        const double gap = sample % 3 == 0 ? 0.05 : -0.02 * draw.uniform(0, 1);
         const bool is_thin = one.name == "segment" && other.name == "segment";  // segments do not overlap
-        const Pose pose2 = place(*one.shape, pose1, *other.shape, is_thin ? 0.05 : gap, random);
+        const Pose pose2 = place(*one.shape, pose1, *other.shape, is_thin ? 0.05 : gap, draw);
         const Proximity out = find_proximity(*one.shape, pose1, *other.shape, pose2);
         CAPTURE(one.name);
         CAPTURE(other.name);
@@ -164,12 +147,12 @@ TEST_CASE("what is far below its tangent plane does not become a witness point")
 }
 
 TEST_CASE("an edge across the edge of a cylinder's cap: the contact is on both") {
-  RandomPoses random(95);
+  Draw draw(95);
   const Box box(Vector3(1, 0.7, 1.4));
   const Cylinder cylinder(0.8, 0.9);
   for (int sample = 0; sample < 1000; ++sample) {
-    const Pose pose1{Vector3::Zero(), random.rotation()};
-    const Pose pose2 = place(box, pose1, cylinder, -0.01 * random.share(), random);
+    const Pose pose1{Vector3::Zero(), draw.rotation()};
+    const Pose pose2 = place(box, pose1, cylinder, -0.01 * draw.uniform(0, 1), draw);
     const Proximity out = find_proximity(box, pose1, cylinder, pose2);
     if (out.status != Status::Converged) continue;
     const Vector3 in_box = pose1.rotation.transpose() * (out.contact - pose1.position);
@@ -182,19 +165,18 @@ TEST_CASE("an edge across the edge of a cylinder's cap: the contact is on both")
 
 // Cuts at points of a cap's edge that coincide but for rounding do not show where the edge continues.
 TEST_CASE("a cylinder that overlaps a box or another cylinder converges") {
-  std::mt19937 engine(61);
-  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); };
-  const auto direction = [&] { return Vector3{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}.normalized(); };
+  Draw draw(61);
+  const auto direction = [&] { return draw.within(-1, 1).normalized(); };
   for (int k = 0; k < 4000; ++k) {
     CAPTURE(k);
-    const Cylinder cylinder(uniform(0.3, 1), uniform(0.3, 1));
-    const Box box(Vector3{uniform(0.3, 1), uniform(0.3, 1), uniform(0.3, 1)});
-    const Cylinder other(uniform(0.3, 1), uniform(0.3, 1));
+    const Cylinder cylinder(draw.uniform(0.3, 1), draw.uniform(0.3, 1));
+    const Box box(draw.within(0.3, 1));
+    const Cylinder other(draw.uniform(0.3, 1), draw.uniform(0.3, 1));
     const Shape& partner = k % 2 == 0 ? static_cast<const Shape&>(box) : other;
     Pose pose2;
-    pose2.rotation = Eigen::AngleAxisd(uniform(0, 3), direction()).toRotationMatrix();
+    pose2.rotation = Eigen::AngleAxisd(draw.uniform(0, 3), direction()).toRotationMatrix();
     const Vector3 n = direction();
-    const double depth = k % 4 < 2 ? std::pow(10, uniform(-6, -2)) : uniform(0.01, 0.3);
+    const double depth = k % 4 < 2 ? std::pow(10, draw.uniform(-6, -2)) : draw.uniform(0.01, 0.3);
     pose2.position = cylinder.point(n) - depth * n - pose2.rotation * partner.point(-(pose2.rotation.transpose() * n));
     CHECK(find_proximity(cylinder, {}, partner, pose2).status == Status::Converged);
   }

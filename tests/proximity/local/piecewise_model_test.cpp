@@ -6,10 +6,10 @@
 #include <cfenv>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "proximity/local/strict_complementarity.hpp"
+#include "support/draw.hpp"
 #include "support/relative.hpp"
 
 using namespace supernormal;
@@ -35,20 +35,17 @@ double best_rise(const PiecewiseModel& model, const Vector2& u, int halvings) {
   return rise;
 }
 
-struct Draw {
-  std::mt19937_64 engine{3};
-  std::normal_distribution<double> gauss;
-
-  double operator()() { return gauss(engine); }
+struct ModelDraw : test::Draw {
+  ModelDraw() : Draw(3) {}
 
   Symmetric2 definite() {
-    const double xx = std::exp((*this)()), yy = std::exp((*this)());
-    return {xx, std::tanh((*this)()) * std::sqrt(xx * yy), yy};
+    const double xx = std::exp(gauss()), yy = std::exp(gauss());
+    return {xx, std::tanh(gauss()) * std::sqrt(xx * yy), yy};
   }
 
   std::vector<Piece> pieces(std::size_t count) {
     std::vector<Piece> pieces;
-    for (std::size_t k = 0; k < count; ++k) pieces.push_back({k == 0 ? 0 : std::abs((*this)()), Vector2{(*this)(), (*this)()}});
+    for (std::size_t k = 0; k < count; ++k) pieces.push_back({k == 0 ? 0 : std::abs(gauss()), Vector2{gauss(), gauss()}});
     return pieces;
   }
 };
@@ -56,7 +53,7 @@ struct Draw {
 }  // namespace
 
 TEST_CASE("the maximum of a concave model is one: nothing around it is higher") {
-  Draw draw;
+  ModelDraw draw;
   int met[4] = {};
   for (int k = 0; k < 2000; ++k) {
     const std::vector<Piece> pieces = draw.pieces(1 + static_cast<std::size_t>(k) % 12);
@@ -70,7 +67,7 @@ TEST_CASE("the maximum of a concave model is one: nothing around it is higher") 
 }
 
 TEST_CASE("the active pieces meet at the maximum, and their weighted slopes balance the curvature") {
-  Draw draw;
+  ModelDraw draw;
   for (int k = 0; k < 2000; ++k) {
     const std::vector<Piece> pieces = draw.pieces(8);
     const PiecewiseModel model{pieces, draw.definite()};
@@ -91,11 +88,11 @@ TEST_CASE("the active pieces meet at the maximum, and their weighted slopes bala
 }
 
 TEST_CASE("within a radius the gain is positive whatever the curvature, and as large as the first-order bound allows") {
-  Draw draw;
+  ModelDraw draw;
   for (int k = 0; k < 2000; ++k) {
     const std::vector<Piece> pieces = draw.pieces(1 + static_cast<std::size_t>(k) % 8);
-    const Symmetric2 A{draw(), draw(), draw()};
-    const double radius = std::exp(2 * draw());
+    const Symmetric2 A{draw.gauss(), draw.gauss(), draw.gauss()};
+    const double radius = std::exp(2 * draw.gauss());
     const PiecewiseModel model{pieces, A};
     const PiecewiseModel::Peak peak = model.maximize(radius);
     CHECK(peak.u.norm() <= 1.11 * radius);

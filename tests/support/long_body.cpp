@@ -1,4 +1,4 @@
-#include "proximity/derivatives/long_body.hpp"
+#include "support/long_body.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -122,10 +122,6 @@ std::vector<Real3> box_vertices(const std::vector<Real>& q) {
   return points;
 }
 
-std::shared_ptr<LongBody> make(Kind kind, std::vector<Real> parameters) {
-  return std::make_shared<LongBody>(LongBody{kind, std::move(parameters), {}});
-}
-
 }  // namespace
 
 Real3 LongBody::point(const Real3& n) const {
@@ -215,55 +211,46 @@ std::shared_ptr<const LongBody> LongBody::with_change(std::size_t k, Real change
   return changed;
 }
 
-PairedBody paired_superellipsoid(const Vector3& a, double delta, double epsilon) {
-  return {std::make_shared<Superellipsoid>(a, delta, epsilon), make(Kind::Superellipsoid, {a.x(), a.y(), a.z(), delta, epsilon})};
+std::shared_ptr<const LongBody> long_body_of(const Shape& shape) {
+  const auto make = [](Kind kind, std::vector<Real> parameters, std::vector<std::shared_ptr<const LongBody>> parts = {}) {
+    return std::make_shared<LongBody>(
+        LongBody{.kind = kind, .parameters = std::move(parameters), .vertices = {}, .parts = std::move(parts)});
+  };
+  const auto with_lengths = [](const Vector3& a, std::vector<Real> others) {
+    others.insert(others.begin(), {a.x(), a.y(), a.z()});
+    return others;
+  };
+  if (const auto* it = dynamic_cast<const Superellipsoid*>(&shape))
+    return make(Kind::Superellipsoid, with_lengths(it->half_axes(), {it->delta(), it->epsilon()}));
+  if (const auto* it = dynamic_cast<const Ellipsoid*>(&shape))
+    return make(Kind::Superellipsoid, with_lengths(it->half_axes(), {2, 2}));
+  if (const auto* it = dynamic_cast<const Superovoid*>(&shape))
+    return make(Kind::Superovoid, with_lengths(it->half_axes(), {it->delta(), it->epsilon(), it->taper_x(), it->taper_y()}));
+  if (const auto* it = dynamic_cast<const Sphere*>(&shape)) return make(Kind::Sphere, {it->radius()});
+  if (const auto* it = dynamic_cast<const Box*>(&shape)) return make(Kind::Box, with_lengths(it->half_lengths(), {}));
+  if (const auto* it = dynamic_cast<const Capsule*>(&shape)) return make(Kind::Capsule, {it->radius(), it->half_length()});
+  if (const auto* it = dynamic_cast<const Cylinder*>(&shape)) return make(Kind::Cylinder, {it->radius(), it->half_length()});
+  if (const auto* it = dynamic_cast<const Rounded*>(&shape)) return make(Kind::Rounded, {it->radius()}, {long_body_of(it->core())});
+  if (const auto* it = dynamic_cast<const MinkowskiSum*>(&shape))
+    return make(Kind::Sum, {}, {long_body_of(it->first()), long_body_of(it->second())});
+  if (const auto* it = dynamic_cast<const LinearImage*>(&shape)) {
+    const auto image = make(Kind::Image, {}, {long_body_of(it->shape())});
+    image->matrix = it->matrix().cast<Real>();
+    return image;
+  }
+  const auto polytope = make(Kind::Polytope, {});
+  for (const Vector3& p : dynamic_cast<const Polytope&>(shape).points()) polytope->vertices.emplace_back(p.cast<Real>());
+  return polytope;
 }
 
-PairedBody paired_ellipsoid(const Vector3& a) {
-  return {std::make_shared<Ellipsoid>(a), make(Kind::Superellipsoid, {a.x(), a.y(), a.z(), 2, 2})};
+LongPose LongPose::moved(const Real3& v, const Real3& w) const {
+  const Real angle = w.norm();
+  return {position + v, angle > 0 ? Real33(Eigen::AngleAxis<Real>(angle, w / angle) * rotation) : rotation};
 }
 
-PairedBody paired_superovoid(const Vector3& a, double delta, double epsilon, double taper_x, double taper_y) {
-  return {std::make_shared<Superovoid>(a, delta, epsilon, taper_x, taper_y),
-          make(Kind::Superovoid, {a.x(), a.y(), a.z(), delta, epsilon, taper_x, taper_y})};
-}
-
-PairedBody paired_sphere(double radius) { return {std::make_shared<Sphere>(radius), make(Kind::Sphere, {radius})}; }
-
-PairedBody paired_box(const Vector3& a) { return {std::make_shared<Box>(a), make(Kind::Box, {a.x(), a.y(), a.z()})}; }
-
-PairedBody paired_capsule(double radius, double half_length) {
-  return {std::make_shared<Capsule>(radius, half_length), make(Kind::Capsule, {radius, half_length})};
-}
-
-PairedBody paired_cylinder(double radius, double half_length) {
-  return {std::make_shared<Cylinder>(radius, half_length), make(Kind::Cylinder, {radius, half_length})};
-}
-
-PairedBody paired_polytope(const std::shared_ptr<const std::vector<Vector3>>& points) {
-  auto exact = make(Kind::Polytope, {});
-  for (const Vector3& p : *points) exact->vertices.emplace_back(p.cast<Real>());
-  const auto* shape = new Polytope(*points);
-  return {std::shared_ptr<const Shape>(shape, [points](const Polytope* it) { delete it; }), exact};
-}
-
-PairedBody rounded(const PairedBody& core, double radius) {
-  auto exact = make(Kind::Rounded, {radius});
-  exact->parts = {core.exact};
-  return {std::make_shared<Rounded>(core.shape, radius), exact};
-}
-
-PairedBody sum(const PairedBody& first, const PairedBody& second) {
-  auto exact = make(Kind::Sum, {});
-  exact->parts = {first.exact, second.exact};
-  return {std::make_shared<MinkowskiSum>(first.shape, second.shape), exact};
-}
-
-PairedBody image(const PairedBody& body, const Matrix3& matrix) {
-  auto exact = make(Kind::Image, {});
-  exact->parts = {body.exact};
-  exact->matrix = matrix.cast<Real>();
-  return {std::make_shared<LinearImage>(body.shape, matrix), exact};
+Real long_gap(const LongBody& body1, const LongPose& pose1, const LongBody& body2, const LongPose& pose2, const Real3& normal) {
+  const Real3 n = normal.normalized(), n1 = pose1.rotation.transpose() * n, n2 = -(pose2.rotation.transpose() * n);
+  return n.dot(pose2.position - pose1.position) - n1.dot(body1.point(n1)) - n2.dot(body2.point(n2));
 }
 
 }  // namespace supernormal::test

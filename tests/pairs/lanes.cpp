@@ -1,6 +1,4 @@
-// Any number of random pairs among many: their intervals, and their digits in every width of the lanes.
-//
-//     lane_sets PAIRS SEED        PAIRS of each of eight classes at each of six gaps: 48 sets
+// Pairs of eight classes at six gaps among many: their intervals, and their digits in every width of the lanes.
 //
 // Every second pair starts from the normal of a pose nearby. Batches take turns with four tolerances. Under floating-point traps,
 // each pair is asked alone, in every kernel that the processor has, and by find_proximities(). Three facts are tested:
@@ -9,26 +7,23 @@
 // * its interval contains the largest gap: the gap at which the bodies were placed, where that is proved, and an answer at 1e-14,
 //   certified where the bodies overlap;
 // * no batch allocates.
-//
-// Prints a row for each set. Exit code 0: all hold; 1: some do not.
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <random>
-#include <span>
+#include <sstream>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "pairs/kinds.hpp"
 #include "proximity/among_many.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
-#include "supernormal/shapes/ellipsoid.hpp"
-#include "supernormal/shapes/superellipsoid.hpp"
 #include "support/counted_allocations.hpp"
+#include "support/drawn_pairs.hpp"
 #include "support/painted_stack.hpp"
 #include "support/traps.hpp"
-#include "whole_number.hpp"
 
 namespace {
 
@@ -72,61 +67,24 @@ struct Pair {
   Vector3 first_normal;
 };
 
-class Drawing {
- public:
-  explicit Drawing(unsigned seed) : engine_(seed) {}
+std::unique_ptr<Shape> draw_body(drawn_pairs::Draw& draw, const Class& kind, double size) {
+  const Vector3 half = size * kind.factors.cwiseProduct(draw.within(0.5, 1.5));
+  if (kind.least_exponent == kind.largest_exponent) return std::make_unique<Ellipsoid>(half);
+  const double delta = draw.log_uniform(kind.least_exponent, kind.largest_exponent);
+  return std::make_unique<Superellipsoid>(half, delta, draw.log_uniform(kind.least_exponent, kind.largest_exponent));
+}
 
-  Pair draw(const Class& kind, double gap) {
-    Pair pair;
-    pair.shape1 = body(kind, 1);
-    pair.shape2 = body(kind, std::pow(kind.least_size, uniform(0, 1)));
-    pair.pose1 = {Vector3{uniform(-10, 10), uniform(-10, 10), uniform(-10, 10)}, rotation()};
-    const double unit = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
-    pair.placed = gap * unit;
-    kind.is_on_faces ? lay_on_face(pair) : place_anywhere(pair);
-    Pose earlier = pair.pose2;  // as in the step before of a simulation
-    earlier.position += 1e-3 * unit * direction();
-    earlier.rotation = Eigen::AngleAxisd(1e-3, direction()).toRotationMatrix() * earlier.rotation;
-    pair.first_normal = pair.pose1.rotation.transpose() * find_proximity(*pair.shape1, pair.pose1, *pair.shape2, earlier).normal;
-    return pair;
-  }
-
- private:
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
-  Vector3 direction() { return Vector3{gauss_(engine_), gauss_(engine_), gauss_(engine_)}.normalized(); }
-  Matrix3 rotation() {
-    return Eigen::Quaterniond(Eigen::Vector4d{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)})
-        .normalized()
-        .toRotationMatrix();
-  }
-
-  std::unique_ptr<Shape> body(const Class& kind, double size) {
-    const Vector3 half = size * kind.factors.cwiseProduct(Vector3{uniform(0.5, 1.5), uniform(0.5, 1.5), uniform(0.5, 1.5)});
-    if (kind.least_exponent == kind.largest_exponent) return std::make_unique<Ellipsoid>(half);
-    const double delta = log_uniform(kind.least_exponent, kind.largest_exponent);
-    return std::make_unique<Superellipsoid>(half, delta, log_uniform(kind.least_exponent, kind.largest_exponent));
-  }
-
-  void place_anywhere(Pair& pair) {
-    pair.pose2.rotation = rotation();
-    const Vector3 n = direction();
-    pair.pose2.position = pair.pose1.position + pair.pose1.rotation * pair.shape1->point(pair.pose1.rotation.transpose() * n) -
-                          pair.pose2.rotation * pair.shape2->point(-(pair.pose2.rotation.transpose() * n)) + pair.placed * n;
-  }
-
-  void lay_on_face(Pair& pair) {
-    const Vector3 n = pair.pose1.rotation.col(2);
-    pair.pose2.rotation = Eigen::AngleAxisd(uniform(-3, 3), n) * pair.pose1.rotation;
-    const Vector3 aside = 0.5 * (uniform(-1, 1) * pair.pose1.rotation.col(0) + uniform(-1, 1) * pair.pose1.rotation.col(1));
-    const double height = pair.shape1->half_extents().z() + pair.shape2->half_extents().z() + pair.placed;
-    pair.pose2.position = pair.pose1.position + aside + height * n;
-    // The faces are not level, so n is not stationary. Its s is still at most the largest.
-  }
-
-  std::mt19937_64 engine_;
-  std::normal_distribution<double> gauss_;
-};
+Pair draw_pair(drawn_pairs::Draw& draw, const Class& kind, double gap) {
+  Pair pair;
+  pair.shape1 = draw_body(draw, kind, 1);
+  pair.shape2 = draw_body(draw, kind, std::pow(kind.least_size, draw.uniform(0, 1)));
+  const double unit = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
+  pair.placed = gap * unit;
+  draw.place(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, gap);
+  if (kind.is_on_faces) draw.lay_on_face(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, pair.placed);
+  pair.first_normal = draw.earlier_normal(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, unit);
+  return pair;
+}
 
 struct Row {
   long pairs = 0, different = 0, outside = 0, unproved_references = 0, allocations = 0;
@@ -137,8 +95,14 @@ struct Row {
 /// Pairs of one set that are asked together.
 class Batch {
  public:
-  Batch(const Class& kind, const Gap& gap, const Settings& settings, std::vector<Pair> pairs)
-      : kind_(kind), gap_(gap), settings_(settings), pairs_(std::move(pairs)), alone_(pairs_.size()), among_(pairs_.size()) {
+  Batch(Report& report, const Class& kind, const Gap& gap, const Settings& settings, std::vector<Pair> pairs)
+      : report_(report),
+        kind_(kind),
+        gap_(gap),
+        settings_(settings),
+        pairs_(std::move(pairs)),
+        alone_(pairs_.size()),
+        among_(pairs_.size()) {
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       const Pair& pair = pairs_[k];
       const Vector3* const first = k % 2 == 0 ? nullptr : &pair.first_normal;
@@ -194,10 +158,14 @@ class Batch {
     }
     if (is_inside && answer.status != Status::InvalidInput) return;
     ++row.outside;
-    std::printf("%s, %s: the gap is at least %.17g and at most %.17g, and the answer %.17g to %.17g\n", kind_.name, gap_.name,
-                highest, ceiling, answer.gap, answer.gap + answer.global_error);
+    std::ostringstream what;
+    what.precision(17);
+    what << kind_.name << ", " << gap_.name << ": the gap is at least " << highest << " and at most " << ceiling
+         << ", and the answer " << answer.gap << " to " << answer.gap + answer.global_error;
+    report_.fault(what.str());
   }
 
+  Report& report_;
   const Class& kind_;
   const Gap& gap_;
   Settings settings_;
@@ -207,51 +175,34 @@ class Batch {
   std::vector<WayAmongMany> ways_ = ways_among_many();
 };
 
-Row run(const Class& kind, const Gap& gap, std::size_t count, unsigned seed) {
-  Drawing drawing(seed);
+void run(const Class& kind, const Gap& gap, std::size_t count, std::uint64_t seed, Report& report) {
+  drawn_pairs::Draw draw(seed);
   Row row;
   for (std::size_t first = 0, turn = 0; first < count; first += kBatch, ++turn) {
     Settings settings;
     settings.tolerance = kTolerances[turn % std::size(kTolerances)];
     settings.stop_when_apart = gap.is_early;
     std::vector<Pair> pairs;
-    for (std::size_t k = first; k < std::min(first + kBatch, count); ++k) pairs.push_back(drawing.draw(kind, gap.placed));
-    Batch(kind, gap, settings, std::move(pairs)).ask(row);
+    for (std::size_t k = first; k < std::min(first + kBatch, count); ++k) pairs.push_back(draw_pair(draw, kind, gap.placed));
+    Batch(report, kind, gap, settings, std::move(pairs)).ask(row);
   }
-  std::printf("| %s, %s | %ld | %.2f | %ld | %ld | %.2f | %ld | %ld |\n", kind.name, gap.name, row.pairs,
-              row.evaluations / static_cast<double>(row.pairs), row.different, row.outside, row.worst, row.unproved_references,
-              row.allocations);
-  std::fflush(stdout);
-  return row;
+  const std::string name = std::string(kind.name) + ", " + gap.name;
+  report.row(name, {static_cast<double>(row.pairs), row.evaluations / static_cast<double>(row.pairs),
+                    static_cast<double>(row.different), static_cast<double>(row.outside), row.worst,
+                    static_cast<double>(row.unproved_references), static_cast<double>(row.allocations)});
+  if (row.different > 0) report.fault(name + ": pairs have other digits among many than alone");
+  if (row.allocations > 0) report.fault(name + ": batches allocate");
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const int pairs = argc == 3 ? whole_number(argv[1]) : -1;
-  const int seed = argc == 3 ? whole_number(argv[2]) : -1;
-  if (pairs < 1 || seed < 0) {
-    std::fprintf(stderr, "lane_sets PAIRS SEED: PAIRS is a number from 1, SEED one from 0\n");
-    return 2;
-  }
+void supernormal::test::run_lanes(const Draws& draws, Report& report) {
   for (const WayAmongMany& way : ways_among_many()) std::printf("%s; ", way.name.c_str());
-  std::printf(
-      "\n\n| set | pairs | evaluations | differ | outside | largest error / bound | references not proved | allocations |\n");
-  std::printf("|---|--:|--:|--:|--:|--:|--:|--:|\n");
-  Row all;
-  auto of_set = static_cast<unsigned>(seed);
+  std::printf("\n\n");
+  report.head(
+      {"set", "pairs", "evaluations", "differ", "outside", "largest error / bound", "references not proved", "allocations"});
+  std::uint64_t seed = draws.seed;
   for (const Class& kind : kClasses) {
-    for (const Gap& gap : kGaps) {
-      const Row row = run(kind, gap, static_cast<std::size_t>(pairs), of_set++);
-      all.pairs += row.pairs;
-      all.different += row.different;
-      all.outside += row.outside;
-      all.allocations += row.allocations;
-      all.unproved_references += row.unproved_references;
-    }
+    for (const Gap& gap : kGaps) run(kind, gap, draws.count, seed++, report);
   }
-  std::printf("%ld pairs, of which %ld differ, %ld are outside of their interval, and %ld have a reference that is not proved; ",
-              all.pairs, all.different, all.outside, all.unproved_references);
-  std::printf("%ld allocations\n", all.allocations);
-  return all.different == 0 && all.outside == 0 && all.allocations == 0 ? 0 : 1;
 }

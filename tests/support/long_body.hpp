@@ -1,4 +1,4 @@
-// Bodies in long double: an independent reference for derivatives.
+// Bodies in long double: an independent reference for derivatives and moving bodies.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,22 +40,18 @@ struct LongBody {
   std::shared_ptr<const LongBody> with_change(std::size_t k, Real change) const;
 };
 
-/// A body of the library and its reference.
-struct PairedBody {
-  std::shared_ptr<const Shape> shape;
-  std::shared_ptr<const LongBody> exact;
+/// The reference of a body of the library. Throws std::bad_cast for a class that it does not know.
+std::shared_ptr<const LongBody> long_body_of(const Shape& shape);
+
+struct LongPose {
+  Real3 position = Real3::Zero();
+  Real33 rotation = Real33::Identity();
+
+  /// Moved by v (m) and rotated by exp([w]), w in rad, about its origin.
+  LongPose moved(const Real3& v, const Real3& w) const;
 };
 
-PairedBody paired_superellipsoid(const Vector3& half_axes, double delta, double epsilon);
-PairedBody paired_ellipsoid(const Vector3& half_axes);
-PairedBody paired_superovoid(const Vector3& half_axes, double delta, double epsilon, double taper_x, double taper_y);
-PairedBody paired_sphere(double radius);
-PairedBody paired_box(const Vector3& half_lengths);
-PairedBody paired_capsule(double radius, double half_length);
-PairedBody paired_cylinder(double radius, double half_length);
-PairedBody paired_polytope(const std::shared_ptr<const std::vector<Vector3>>& points);
-PairedBody rounded(const PairedBody& core, double radius);
-PairedBody sum(const PairedBody& first, const PairedBody& second);
-PairedBody image(const PairedBody& body, const Matrix3& matrix);
+/// s(n), m: a lower bound of the gap for any normal from body 1 to body 2, and the gap at the common normal of separate bodies.
+Real long_gap(const LongBody& body1, const LongPose& pose1, const LongBody& body2, const LongPose& pose2, const Real3& normal);
 
 }  // namespace supernormal::test
