@@ -102,6 +102,7 @@ TEST_CASE("proximity: the points are on both surfaces, and a displacement by the
       const snProximity apart = proximity(body, collider);
       if (apart.gap < 0) continue;  // the body is behind a plane
       check_answer(body, collider, apart);
+      if (kind == ColliderKind::Plane) CHECK((apart.evaluations == 0 && apart.error == 0));  // explicit
       CHECK(collide(body, collider).empty());
 
       move(body, double{apart.gap} * to_vec(apart.normal));

@@ -45,30 +45,6 @@ std::vector<dContactGeom> two_steps(std::vector<Geom>& pile) {
 
 }  // namespace
 
-TEST_CASE("warm start: from the second time on a separated pair costs one evaluation, and none if it cannot have met") {
-  OdeSession session;
-  Random random(24);
-  int spheres_remembered = 0;
-  for (int i = 0; i < 50; ++i) {
-    const Geom g1(random_body(random));
-    const Geom g2(random_body(random));
-    const Geom sphere(dCreateSphere(nullptr, 1));
-    place(g2, 4.0 * random.direction());
-    place(sphere, 4.0 * random.direction());
-    for (const dGeomID collider : {dGeomID(g2), dGeomID(sphere)}) {
-      CHECK(collide(g1, collider).empty());
-      move(g1, 1e-3 * random.direction());
-      snResetStatistics();
-      CHECK(collide(g1, collider).empty());
-      if (collider == dGeomID(sphere) && statistics().queries_warm == 0) continue;  // its direction is now in another cell
-      spheres_remembered += collider == dGeomID(sphere) ? 1 : 0;
-      CHECK(statistics().queries_warm == 1);
-      CHECK(statistics().evaluations_warm == (collider == dGeomID(sphere) ? 1 : 0));
-    }
-  }
-  CHECK(spheres_remembered > 40);
-}
-
 TEST_CASE("warm start: a touching pair that hardly moved costs two evaluations") {
   OdeSession session;
   Random random(25);
@@ -109,17 +85,6 @@ TEST_CASE("warm start: the contacts are the same as from a cold start, within th
     CHECK(std::abs(warm[i].depth - cold[i].depth) < within_rounding(3e-9));
   }
   CHECK(shallow > 50);
-}
-
-TEST_CASE("without warm start the contacts are a function of the poses, bit for bit") {
-  OdeSession session;
-  snSetWarmStart(0);
-  auto pile = make_pile(3);
-  const auto once = two_steps(pile);
-  for (std::size_t i = 0; i < pile.size(); ++i) move(pile[i], {-2e-3 * static_cast<double>(i % 3), 0, 0});
-  const auto rebuilt_poses = make_pile(3);
-  for (std::size_t i = 0; i < pile.size(); ++i) place(pile[i], to_vec(dGeomGetPosition(rebuilt_poses[i])));
-  CHECK(same_bits(two_steps(pile), once));
 }
 
 TEST_CASE("warm start: the same scene built again gives the same bits, at any addresses and cache contents") {
