@@ -412,8 +412,8 @@ SUPERNORMAL_ODE_API int snBatchCollide(snBatchID batch, dSpaceID space, int max_
  * contacts with dContactSoftCFM only. ODE tells nobody the moved callback of a body, so it is not called. */
 typedef struct snStepper* snStepperID;
 
-/** Creates a stepper for bodies of `world`. A world must have only one: each calls dWorldQuickStep, which moves the bodies of the
- * others once more. Returns 0 (and snLastError) if refused. */
+/** Creates a stepper for bodies of `world`. A world has only one, because each calls dWorldQuickStep, which moves the other bodies:
+ * a second one is refused until the first is destroyed. Destroy it before the world. Returns 0 (and snLastError) if refused. */
 SUPERNORMAL_ODE_API snStepperID snStepperCreate(dWorldID world);
 
 /** Destroys it; its bodies stay. Does nothing for 0. */
@@ -435,8 +435,9 @@ SUPERNORMAL_ODE_API int snStepperAddContact(snStepperID stepper, const dContact*
 
 /** Moves the bodies by `step` (s, > 0), keeps the contact forces for the next call, and forgets the contacts. Returns the time
  * done, s. It is less than `step` if bodies have left the paths for which their contacts were found, as after an impact: then
- * collide again, and call it with the rest. Forces and torques on bodies act for the time done, and are then removed, as by a step
- * of ODE: add them again for the rest. Returns a number < 0 (and snLastError) if it refuses; it has then changed nothing. */
+ * collide again, and call it with the rest. Forces and torques on bodies act for the whole step, and are removed as by a step of
+ * ODE. In the call with the rest they act on, unless the body has been given a force or a torque since: then that acts in their
+ * place. Returns a number < 0 (and snLastError) if it refuses; it has then changed nothing. */
 SUPERNORMAL_ODE_API dReal snStepperStep(snStepperID stepper, dReal step);
 
 /** sag: the largest overlap of a contact at rest, relative to the least radius of gyration of its bodies, in [1e-12, 1]; default

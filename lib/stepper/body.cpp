@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "ode/geom/convert.hpp"
 
@@ -19,6 +20,10 @@ using ode::to_vector;
 // throws on passes a wall (README).
 constexpr double kFarOff = 0.25;
 constexpr double kFarTurned = 0.5;  // rad; the same for a body as long as twice its size
+
+void require(bool is_finite, const char* what) {
+  if (!is_finite) throw std::invalid_argument(std::string(what) + " is not finite");
+}
 
 /// The orientation after a rotation (rad, world frame).
 Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Vector3& rotation) {
@@ -43,14 +48,14 @@ double least_moment(const Matrix3& inertia) {
 
 }  // namespace
 
-void Body::read(const Vector3& gravity) {
+void Body::read(const Vector3& gravity, bool is_rest) {
   start = to_vector(dBodyGetPosition(id));
   const dReal* const q = dBodyGetQuaternion(id);
   orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
   rotation = orientation.toRotationMatrix();
   velocity = first_velocity_ = to_vector(dBodyGetLinearVel(id));
   angular_velocity = to_vector(dBodyGetAngularVel(id));
-  moved = rotated = acceleration_ = torque_ = Vector3::Zero();
+  moved = rotated = acceleration_ = Vector3::Zero();
   is_touched = is_borne = is_followed = is_centred = false;
   max_angular_speed_ = dBodyGetMaxAngularSpeed(id);
   limit_angular_speed();
@@ -59,19 +64,23 @@ void Body::read(const Vector3& gravity) {
   stirs = is_free || !velocity.isZero(0) || !angular_velocity.isZero(0);
   is_awake = stirs && dBodyIsEnabled(id) != 0;
   is_held = is_free && dBodyGetNumJoints(id) > 0;
+  const Vector3 force = to_vector(dBodyGetForce(id)), torque = to_vector(dBodyGetTorque(id));
+  require(force.allFinite() && torque.allFinite(), "a force or torque on a body");
+  if (!is_rest || !force.isZero(0) || !torque.isZero(0)) {
+    force_ = force;
+    torque_ = torque;
+  }
   inverse_mass = 0;
   world_inverse_inertia.setZero();
   if (is_free) {
     read_mass();
-    acceleration_ = inverse_mass * to_vector(dBodyGetForce(id));
+    acceleration_ = inverse_mass * force_;
     if (dBodyGetGravityMode(id) != 0) acceleration_ += gravity;
-    torque_ = to_vector(dBodyGetTorque(id));
   }
   keeps_momentum_ = is_free && dBodyGetGyroscopicMode(id) != 0;
-  if (!(start.allFinite() && rotation.allFinite()))
-    throw std::invalid_argument("a position or orientation of a body is not finite");
-  if (!(velocity.allFinite() && angular_velocity.allFinite())) throw std::invalid_argument("a velocity of a body is not finite");
-  if (!(acceleration_.allFinite() && torque_.allFinite())) throw std::invalid_argument("a force or torque on a body is not finite");
+  require(start.allFinite() && rotation.allFinite(), "a position or orientation of a body");
+  require(velocity.allFinite() && angular_velocity.allFinite(), "a velocity of a body");
+  require(acceleration_.allFinite(), "an acceleration of a body");
 }
 
 void Body::read_mass() {
@@ -84,8 +93,13 @@ void Body::read_mass() {
   size = std::sqrt(least_moment(inertia_) * inverse_mass);
 }
 
+void Body::restore_forces() const {
+  dBodySetForce(id, to_real(force_.x()), to_real(force_.y()), to_real(force_.z()));
+  dBodySetTorque(id, to_real(torque_.x()), to_real(torque_.y()), to_real(torque_.z()));
+}
+
 void Body::hold_still() {
-  velocity = angular_velocity = acceleration_ = torque_ = Vector3::Zero();
+  velocity = angular_velocity = acceleration_ = Vector3::Zero();
   inverse_mass = 0;
   world_inverse_inertia.setZero();
 }

@@ -10,8 +10,12 @@
 namespace supernormal::stepper {
 
 struct Body {
-  /// Reads state, mass and forces from ODE. Throws std::invalid_argument if a number is not finite.
-  void read(const Vector3& gravity);
+  /// Reads state, mass and forces from ODE. In the rest of a step that ended early, the forces of its first part act on, unless the
+  /// program has given others. Throws std::invalid_argument if a number is not finite.
+  void read(const Vector3& gravity, bool is_rest);
+
+  /// Gives ODE the forces and torques of the step, for what quickstep moves.
+  void restore_forces() const;
 
   /// Adds what forces and torques change in `time` (s).
   void apply_forces(double time);
@@ -79,6 +83,7 @@ struct Body {
   Matrix3 inertia_ = Matrix3::Zero();          // kg m^2, body's frame
   Matrix3 inverse_inertia_ = Matrix3::Zero();  // 1/(kg m^2), body's frame
   Vector3 acceleration_ = Vector3::Zero();     // m/s^2, of forces
+  Vector3 force_ = Vector3::Zero();            // N, as the program gave it
   Vector3 torque_ = Vector3::Zero();           // N m
   Vector3 first_velocity_ = Vector3::Zero();   // m/s, when the step began
   Vector3 first_angular_velocity_ = Vector3::Zero();

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
 #include <string>
+#include <unordered_set>
 
 #include "ode/geom/convert.hpp"
 #include "ode/support/require.hpp"
@@ -14,12 +16,38 @@
 #include "supernormal/supernormal.h"
 
 namespace supernormal::stepper {
+namespace {
+
+struct Claims {
+  std::mutex mutex;
+  std::unordered_set<dWorldID> worlds;  // those that have a stepper
+};
+
+Claims& claims() {
+  static Claims all;
+  return all;
+}
+
+dWorldID claimed(dWorldID world) {
+  const std::scoped_lock lock(claims().mutex);
+  if (claims().worlds.insert(world).second) return world;
+  throw std::invalid_argument("world has a stepper already, which moves all its bodies: destroy that one first");
+}
+
+}  // namespace
+
+void Stepper::Release::operator()(dWorldID world) const {
+  const std::scoped_lock lock(claims().mutex);
+  claims().worlds.erase(world);
+}
+
+Stepper::Stepper(dWorldID world) : world_(claimed(world)), joints_(dJointGroupCreate(0)) {}
 
 double Stepper::step(double time) {
   ode::require_positive("step", time, "s");
-  read_bodies();
-  set_up_contacts();
   const bool is_rest = left_ > 0 && std::abs(time - left_) <= 1e-6 * whole_;
+  read_bodies(is_rest);
+  set_up_contacts();
   if (!is_rest) whole_ = time;
   const int count = sub_steps_.choose(time, whole_);
   time_ = time / count;
@@ -98,13 +126,13 @@ bool Stepper::has_left_path(double time) const {
   return std::ranges::any_of(system_.bodies, [&](const Body& body) { return body.is_touched && body.has_left_path(time); });
 }
 
-void Stepper::read_bodies() {
+void Stepper::read_bodies(bool is_rest) {
   dVector3 gravity;
-  dWorldGetGravity(world_, gravity);
-  fastest_out_ = dWorldGetContactMaxCorrectingVel(world_);
+  dWorldGetGravity(world_.get(), gravity);
+  fastest_out_ = dWorldGetContactMaxCorrectingVel(world_.get());
   for (Body& body : system_.bodies) {
     if (body.id == nullptr) continue;
-    body.read(ode::to_vector(gravity));
+    body.read(ode::to_vector(gravity), is_rest);
   }
   spread(&Body::is_awake, &Body::stirs);
   spread(&Body::is_held, &Body::is_free);
@@ -133,24 +161,28 @@ void Stepper::step_others(double planned, double time) {
   for (Given& given : given_) {
     if (!is_of_quickstep(given)) continue;
     snContactLookAhead(&given.contact, ode::to_real(planned));
-    const dJointID joint = dJointCreateContact(world_, joints_, &given.contact);
+    const dJointID joint = dJointCreateContact(world_.get(), joints_.get(), &given.contact);
     dJointSetFeedback(joint, &given.feedback);
     dJointAttach(joint, body(given.body1).id, body(given.body2).id);
   }
   stopped_.clear();
   for (const Body& body : system_.bodies) {
-    if (body.id == nullptr || body.is_held || dBodyIsEnabled(body.id) == 0) continue;
+    if (body.id == nullptr || dBodyIsEnabled(body.id) == 0) continue;
+    if (body.is_held) {
+      body.restore_forces();
+      continue;
+    }
     dBodyDisable(body.id);
     stopped_.push_back(body.id);
   }
-  dWorldQuickStep(world_, ode::to_real(time));
+  dWorldQuickStep(world_.get(), ode::to_real(time));
   for (const dBodyID body : stopped_) dBodyEnable(body);
   for (std::size_t i = 0; i < given_.size(); ++i) {
     if (!is_of_quickstep(given_[i])) continue;
     const Vector3 force = ode::to_vector(given_[i].feedback.f1);  // on body 2, if body 1 is the world
     forces_[i] = given_[i].body1 == 0 ? Vector3(-force) : force;
   }
-  dJointGroupEmpty(joints_);
+  dJointGroupEmpty(joints_.get());
 }
 
 bool Stepper::is_of_quickstep(const Given& given) const {
@@ -178,7 +210,7 @@ void Stepper::set_up_contacts() {
   system_.contacts.clear();
   system_.pairs.clear();
   system_.rolling.clear();
-  const double layer = dWorldGetContactSurfaceLayer(world_);
+  const double layer = dWorldGetContactSurfaceLayer(world_.get());
   for (const Given& given : given_) {
     if (given.body1 < 0 || given.body2 < 0) continue;
     if (!body(given.body1).is_dynamic() && !body(given.body2).is_dynamic()) {
@@ -206,7 +238,7 @@ void Stepper::soften(double step) {
       contact.deepest = kDeep * contact.size;
       continue;
     }
-    const double erp = surface.erp < 0 ? double{dWorldGetERP(world_)} : surface.erp;
+    const double erp = surface.erp < 0 ? double{dWorldGetERP(world_.get())} : surface.erp;
     contact.deepest = std::numeric_limits<double>::infinity();
     contact.softness = softness_of(erp, std::max(0.0, surface.cfm), contact.normal().mobility, step, time_);
   }
@@ -231,7 +263,7 @@ int Stepper::index_of(const char* name, dBodyID body) const {
 }
 
 void Stepper::add_body(dBodyID body) {
-  if (dBodyGetWorld(body) != world_) throw std::invalid_argument("body is of another world than the stepper");
+  if (dBodyGetWorld(body) != world_.get()) throw std::invalid_argument("body is of another world than the stepper");
   if (indices_.contains(body)) throw std::invalid_argument("body is a body of the stepper already: it must be added once");
   system_.bodies.emplace_back().id = body;
   indices_[body] = static_cast<int>(system_.bodies.size()) - 1;

@@ -3,6 +3,7 @@
 
 #include <ode/ode.h>
 
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -16,12 +17,8 @@ namespace supernormal::stepper {
 /// All functions throw std::invalid_argument for a bad argument, and then change nothing.
 class Stepper {
  public:
-  explicit Stepper(dWorldID world) : world_(world), joints_(dJointGroupCreate(0)) {}
-  ~Stepper() { dJointGroupDestroy(joints_); }
-  Stepper(const Stepper&) = delete;
-  Stepper(Stepper&&) = delete;
-  Stepper& operator=(const Stepper&) = delete;
-  Stepper& operator=(Stepper&&) = delete;
+  /// A world has one stepper: each calls dWorldQuickStep, which moves all other bodies.
+  explicit Stepper(dWorldID world);
 
   void add_body(dBodyID body);
   void remove_body(dBodyID body);
@@ -46,7 +43,7 @@ class Stepper {
   Body& body(int index) { return system_.bodies[static_cast<std::size_t>(index)]; }
   const Body& body(int index) const { return system_.bodies[static_cast<std::size_t>(index)]; }
   bool is_of_quickstep(const Given& given) const;
-  void read_bodies();
+  void read_bodies(bool is_rest);
   void spread(bool Body::*property, bool Body::*source);
   void set_up_contacts();
   void soften(double step);
@@ -58,8 +55,12 @@ class Stepper {
   void step_others(double planned, double time);
   void let_sleep(double time);
 
-  dWorldID world_;
-  dJointGroupID joints_;  // contacts of bodies that quickstep moves
+  struct Release {
+    void operator()(dWorldID world) const;  // another stepper may have it
+    void operator()(dJointGroupID joints) const { dJointGroupDestroy(joints); }
+  };
+  std::unique_ptr<dxWorld, Release> world_;
+  std::unique_ptr<dxJointGroup, Release> joints_;  // contacts of bodies that quickstep moves
   System system_;
   std::unordered_map<dBodyID, int> indices_;  // in system_.bodies
   std::vector<Given> given_;

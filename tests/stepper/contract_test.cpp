@@ -56,7 +56,14 @@ TEST_CASE("bodies, contacts, steps and accuracies out of range are refused, and 
   CHECK(snStepperCreate(nullptr) == nullptr);
   CHECK(refused_with("snStepperCreate: world = NULL"));
   StepperWorld scene(0.01);
+  CHECK(snStepperCreate(scene.world.id()) == nullptr);
+  CHECK(refused_with("snStepperCreate: world has a stepper already"));
   const World other;
+  for (int i = 0; i < 2; ++i) {
+    const snStepperID of_other = snStepperCreate(other.id());
+    CHECK(of_other != nullptr);
+    snStepperDestroy(of_other);
+  }
   const snStepperID stepper = scene.stepper;
   const dBodyID ball = scene.add_ball(0.05, {0, 0, 0.05});
   const dBodyID stranger = dBodyCreate(scene.world.id());
@@ -204,6 +211,45 @@ TEST_CASE("a step ends early where a bullet throws a brick on, and the brick doe
   CHECK(parts > 1);
   CHECK(place_of(brick)[0] < 0.25);
   CHECK(place_of(bullet)[0] < place_of(brick)[0]);
+}
+
+TEST_CASE("forces that are added once act for a whole step, also if it ends early; those added for the rest take their place") {
+  // 0: once a step; 1: before each call; 2: once, and the rest is never asked for; 3: once, on a body that quickstep moves
+  for (const int way : {0, 1, 2, 3}) {
+    OdeSession session;
+    StepperWorld scene(0.01);
+    dWorldSetGravity(scene.world.id(), 0, 0, 0);
+    const dBodyID bullet = scene.add_ball(0.02, {-0.125, 0, 0});
+    scene.add_ball(0.02, {0, 0, 0});
+    const dBodyID pushed = scene.add_ball(0.05, {0, 5, 0});
+    const dBodyID held = scene.add_ball(0.05, {0, 7, 0});
+    dJointAttach(dJointCreateLMotor(scene.world.id(), nullptr), held, nullptr);
+    set_velocity(bullet, {10, 0, 0});
+    dGeomMoved(dBodyGetFirstGeom(bullet));
+    const dBodyID body = way == 3 ? held : pushed;
+    const auto push = [&] {
+      dBodyAddForce(body, 0, 0, 3);
+      dBodyAddTorque(body, 0, 0, dReal(1e-3));
+    };
+    double time = 0;
+    int parts = 0;
+    for (int i = 0; i < 2; ++i) {
+      push();
+      double left = 0.01;
+      do {
+        if (left < 0.01 && way == 1) push();
+        scene.collide();
+        const double done = snStepperStep(scene.stepper, dReal(left));
+        REQUIRE(done > 0);
+        time += done;
+        left = done >= left ? 0 : left - done;
+        ++parts;
+      } while (left > 0 && way != 2);
+    }
+    CHECK(parts > (way == 2 ? 1 : 2));
+    CHECK_MESSAGE(velocity_of(body)[2] == doctest::Approx(3 * time / mass_of(body)).epsilon(1e-6), way);
+    CHECK_MESSAGE(spin_of(body)[2] == doctest::Approx(1e-3 * time / (0.4 * mass_of(body) * 0.0025)).epsilon(1e-6), way);
+  }
 }
 
 TEST_CASE("kinematic bodies move as told, and push what they meet") {
