@@ -436,6 +436,87 @@ def test_restitution_of_contacts_before_overlap():
     assert height == pytest.approx(0.64 * 0.5, rel=1e-3)
 
 
+@pytest.fixture
+def tower(look_ahead):
+    """Ten bricks on a floor, which a stepper moves: (its step in s, the stepper, the bodies, a function that collides)."""
+    step = 1 / 30
+    look_ahead(step)
+    world, space = pyode.World(), pyode.SimpleSpace()
+    world.setGravity((0, 0, -9.81))
+    floor = pyode.GeomPlane(space, (0, 0, 1), 0)
+    stepper, bodies, bricks = so.Stepper(world), [], []
+    for k in range(10):
+        bodies.append(pyode.Body(world))
+        bricks.append(so.Superellipsoid(space, (0.1, 0.07, 0.05), 20, 20))
+        bricks[k].setBodyAndMass(bodies[k], 1000)
+        bodies[k].setPosition((0.002 * (k % 2), 0, 0.05 + 0.1 * k))
+        stepper.addBody(bodies[k])
+
+    def near(_, geom1, geom2):
+        for contact in pyode.collide(geom1, geom2):
+            contact.setMode(pyode.ContactApprox1)
+            contact.setMu(0.5)
+            stepper.addContact(contact, geom1.getBody(), geom2.getBody())
+
+    yield step, stepper, bodies, lambda: space.collide(None, near)
+    del floor, bricks
+
+
+def test_a_stepper_holds_a_tower(tower):
+    step, stepper, bodies, collide = tower
+    for _ in range(60):
+        left = step
+        while left > 0:
+            collide()
+            left -= stepper.step(left)
+    assert bodies[-1].getPosition() == pytest.approx((0.002, 0, 0.95), abs=1e-3)
+    collide()
+    stepper.step(step)
+    forces = np.array([stepper.contactForce(k) for k in range(40)])
+    weights = 9.81 * sum((k + 1) * body.getMass().mass for k, body in enumerate(bodies))
+    assert np.abs(forces[:, 2]).sum() == pytest.approx(weights, rel=1e-3)
+    stepper.removeBody(bodies[-1])
+    with pytest.raises(ValueError, match="body is not a body of the stepper: add it by addBody"):
+        stepper.removeBody(bodies[-1])
+
+
+def test_refusals_of_a_stepper(tower):
+    step, stepper, bodies, _ = tower
+    contact = pyode.Contact()
+    contact.setContactGeomParams((0, 0, 0), (0, 0, 1), 0.1, pyode.GeomSphere(), pyode.GeomSphere())
+    other = pyode.Body(pyode.World())
+    refusals = [
+        (lambda: stepper.step(0), "snStepperStep: step = 0 s"),
+        (lambda: stepper.addBody(bodies[0]), "must be added once"),
+        (lambda: stepper.addBody(other), "another world"),
+        (lambda: stepper.addContact(contact, other, None), "body1 is not a body of the stepper"),
+        (lambda: stepper.setAccuracy(least=9, most=8), "most = 8 is outside [9, "),
+        (lambda: stepper.contactForce(0), "contact = 0 is not one of the 0 contacts"),
+        (lambda: (contact.setMu(-1), stepper.addContact(contact, bodies[0], None)), "surface.mu = -1"),
+    ]
+    for call, message in refusals:
+        with pytest.raises(ValueError, match=re.escape(message)):
+            call()
+    for wrong in (lambda: so.Stepper(bodies[0]), lambda: stepper.addBody(1), lambda: stepper.addContact(1, bodies[0], None)):
+        with pytest.raises(TypeError):
+            wrong()
+    assert stepper.step(step) == step
+
+
+def test_a_stepper_dies_with_its_object_and_lets_bodies_go():
+    world = pyode.World()
+    body = pyode.Body(world)
+    before = sys.getrefcount(body), sys.getrefcount(world)
+    stepper = so.Stepper(world)
+    stepper.addBody(body)
+    assert sys.getrefcount(body) > before[0] and sys.getrefcount(world) > before[1]
+    stepper.removeBody(body)
+    assert sys.getrefcount(body) == before[0]
+    del stepper
+    gc.collect()
+    assert (sys.getrefcount(body), sys.getrefcount(world)) == before
+
+
 def test_wrong_types():
     with pytest.raises(TypeError, match="must be a supernormal.Shape"):
         so.Convex(pyode.SimpleSpace())

@@ -16,6 +16,7 @@
 #include "pyode_slots.hpp"
 #include "supernormal/shapes/description.hpp"
 #include "supernormal/shapes/shape.hpp"
+#include "supernormal/stepper.hpp"
 #include "supernormal/supernormal.h"
 
 namespace py = pybind11;
@@ -29,6 +30,7 @@ using Number = std::uintptr_t;
 // NOLINTBEGIN(performance-no-int-to-ptr): the integers were pointers
 dGeomID geom(Number number) { return reinterpret_cast<dGeomID>(number); }
 dSpaceID space(Number number) { return reinterpret_cast<dSpaceID>(number); }
+dBodyID body(Number number) { return reinterpret_cast<dBodyID>(number); }
 // NOLINTEND(performance-no-int-to-ptr)
 Number number(dGeomID geom) { return reinterpret_cast<Number>(geom); }
 
@@ -206,6 +208,23 @@ void bind_geoms(py::module_& m) {
   m.def("proximity", &proximity);
 }
 
+void bind_stepper(py::module_& m) {
+  using ode::Stepper;
+  m.def("body_of", [](Number g) { return reinterpret_cast<Number>(dGeomGetBody(geom(g))); });
+  py::class_<Stepper>(m, "Stepper")
+      .def(py::init([](Number of_the_world) { return Stepper(dBodyGetWorld(body(of_the_world))); }))
+      .def("add_body", [](Stepper& stepper, Number b) { stepper.add_body(body(b)); })
+      .def("remove_body", [](Stepper& stepper, Number b) { stepper.remove_body(body(b)); })
+      .def("add_contact", [](Stepper& stepper, const py::handle& contact, py::ssize_t slot, Number body1,
+                             Number body2) { stepper.add_contact(read_contact(contact, slot), body(body1), body(body2)); })
+      .def("step", [](Stepper& stepper, double time) { return stepper.step(real(time)); })
+      .def("set_accuracy", [](Stepper& stepper, double sag, int least, int most) { stepper.set_accuracy(real(sag), least, most); })
+      .def("contact_force", [](const Stepper& stepper, int contact) {
+        const Vector3 force = stepper.contact_force(contact);
+        return std::tuple(force.x(), force.y(), force.z());
+      });
+}
+
 void bind_library(py::module_& m) {
   m.def("geom_class", [] {
     accepted(snInit());
@@ -233,5 +252,6 @@ PYBIND11_MODULE(_ode, m) {
   py::module_::import("supernormal._core");  // registers Shape
   supernormal::python::bind_geoms(m);
   supernormal::python::bind_library(m);
+  supernormal::python::bind_stepper(m);
   supernormal::python::bind_slots(m);
 }

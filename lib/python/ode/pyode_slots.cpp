@@ -28,12 +28,6 @@ void write_word(const py::handle& object, py::ssize_t offset, Word word) {
   std::memcpy(reinterpret_cast<char*>(object.ptr()) + offset, &word, sizeof word);
 }
 
-dContact read_contact(const py::handle& contact, py::ssize_t offset) {
-  dContact held;
-  std::memcpy(&held, reinterpret_cast<const char*>(contact.ptr()) + offset, sizeof held);
-  return held;
-}
-
 /// The offset of `word` in `object`, after the object header. Throws unless it occurs exactly once.
 py::ssize_t find_word(const py::handle& object, Word word, const char* what) {
   py::ssize_t found = 0;
@@ -89,6 +83,12 @@ void look_ahead(const py::handle& contact, py::ssize_t offset, double step) {
 }
 
 }  // namespace
+
+dContact read_contact(const py::handle& contact, py::ssize_t offset) {
+  dContact held;
+  std::memcpy(&held, reinterpret_cast<const char*>(contact.ptr()) + offset, sizeof held);
+  return held;
+}
 
 void bind_slots(py::module_& m) {
   m.def("find_slots", &find_slots);

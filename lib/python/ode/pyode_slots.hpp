@@ -1,6 +1,7 @@
 // Makes a geom of ours an object of PyODE.
 #pragma once
 
+#include <ode/ode.h>
 #include <pybind11/pybind11.h>
 
 namespace supernormal::python {
@@ -12,5 +13,8 @@ namespace supernormal::python {
 ///
 /// Likewise, find_contact() finds the dContact in a contact of PyODE, because PyODE does not set some of its parameters.
 void bind_slots(pybind11::module_& m);
+
+/// The dContact at the offset that find_contact() found.
+dContact read_contact(const pybind11::handle& contact, pybind11::ssize_t offset);
 
 }  // namespace supernormal::python

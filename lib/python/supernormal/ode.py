@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import functools
 import sys
-from typing import Any, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -37,6 +37,7 @@ __all__ = [
     "Ellipsoid",
     "GeomProximity",
     "Statistics",
+    "Stepper",
     "Superellipsoid",
     "Superovoid",
     "contactLookAhead",
@@ -313,9 +314,13 @@ def contactLookAhead(contact: Any, step: float) -> None:
     ode.ContactApprox1: without it mu is a force, which acts before the bodies touch. With ode.ContactBounce, in the default mode of
     ode.Contact, bodies bounce ahead of touch: see snContactLookAhead. Raises ValueError for a bounce outside [0, 1].
     """
+    _require_contact(contact)
+    _ode.contact_look_ahead(contact, _contact_slot(), step)
+
+
+def _require_contact(contact: Any) -> None:
     if not isinstance(contact, _pyode.Contact):
         raise TypeError(f"contact is a {type(contact).__name__}, but must be an ode.Contact")
-    _ode.contact_look_ahead(contact, _contact_slot(), step)
 
 
 @functools.lru_cache(maxsize=None)
@@ -328,6 +333,81 @@ def _contact_slot() -> int:
     contact.setFDir1(direction)
     contact.setContactGeomParams((7, 8, 9), (0, 0, 1), depth, sphere, sphere)
     return _ode.find_contact(contact, mu, motion2, depth, direction)
+
+
+class Stepper:
+    """Moves bodies of an ode.World in place of World.quickStep(), from the contact forces of the last step, in sub-steps.
+
+        stepper = supernormal.ode.Stepper(world)
+        stepper.addBody(body)                    # every body that may touch one of its bodies
+        supernormal.ode.setDefaultLookAhead(step)
+        left = step
+        while left > 0:                          # after an impact a step may end early
+            space.collide(None, near)            # calls addContact(contact, geom1.getBody(), geom2.getBody())
+            left -= stepper.step(left)
+
+    It calls World.quickStep(), which moves the other bodies. A world has one stepper. A body that was added lives as long as the
+    stepper, or until removeBody(). What is refused raises ValueError, and then nothing has changed.
+    """
+
+    def __init__(self, world: Any) -> None:
+        body = _pyode.Body(world)  # lives until its world has been read
+        self._stepper = _ode.Stepper(_body_number(body))
+        self._world = world
+        self._bodies: Dict[Any, int] = {}
+
+    def addBody(self, body: Any) -> None:
+        """The stepper moves this ode.Body from now on. It must be of the world, and not be added yet."""
+        number = _body_number(body)
+        self._stepper.add_body(number)
+        self._bodies[body] = number
+
+    def removeBody(self, body: Any) -> None:
+        """The stepper leaves this ode.Body, and forgets the contacts that it was given with it."""
+        self._stepper.remove_body(self._number("body", body))
+        del self._bodies[body]
+
+    def addContact(self, contact: Any, body1: Any, body2: Any) -> None:
+        """Adds an ode.Contact for the next step, in place of an ode.ContactJoint.
+
+        The bodies are bodies of the stepper; one may be None, the world. A negative depth is a gap; do not call contactLookAhead().
+        Contacts of the same two geoms are added one after the other. Parameters have the ranges of ODE; bounce is in [0, 1].
+        """
+        _require_contact(contact)
+        self._stepper.add_contact(contact, _contact_slot(), self._number("body1", body1), self._number("body2", body2))
+
+    def step(self, time: float) -> float:
+        """Moves the bodies by `time`, s, > 0, and forgets the contacts. Returns the time done, s.
+
+        It is less than `time` if bodies have left the paths for which their contacts were found: collide again, and step by the rest.
+        """
+        return self._stepper.step(time)
+
+    def setAccuracy(self, sag: float = 2e-3, least: int = 8, most: int = 64) -> None:
+        """Sets the largest overlap of a contact at rest and the numbers of sub-steps of a step.
+
+        sag: relative to the least radius of gyration of its bodies, in [1e-12, 1]; least and most: in [1, 1000000]. The loads decide
+        between them.
+        """
+        self._stepper.set_accuracy(sag, least, most)
+
+    def contactForce(self, contact: int) -> Vector:
+        """The force on body1, N, its mean over the last step. Contacts have the numbers 0, 1, ... in the order of addContact()."""
+        return self._stepper.contact_force(contact)
+
+    def _number(self, name: str, body: Any) -> int:
+        if body is None:
+            return 0
+        if body not in self._bodies:
+            raise ValueError(f"{name} is not a body of the stepper: add it by addBody()")
+        return self._bodies[body]
+
+
+def _body_number(body: Any) -> int:
+    """The dBodyID of an ode.Body, which only geoms tell."""
+    geom = _pyode.GeomSphere()
+    geom.setBody(body)
+    return _ode.body_of(geom._id())
 
 
 def setWarmStart(on: bool) -> None:
