@@ -33,6 +33,12 @@ Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Vector3& 
   return (Eigen::Quaterniond(std::cos(angle / 2), axis.x(), axis.y(), axis.z()) * orientation).normalized();
 }
 
+/// A vector after a rotation (rad), to the second order.
+Vector3 nearly_turned(const Vector3& vector, const Vector3& rotation) {
+  const Vector3 change = rotation.cross(vector);
+  return vector + change + 0.5 * rotation.cross(change);
+}
+
 /// 1 if the speed is not above the threshold of ODE's damping; the factor that ODE gives the velocity in `fraction` of a step.
 double damping(const Vector3& velocity, double scale, double threshold, double fraction) {
   return scale > 0 && velocity.squaredNorm() > threshold * threshold ? std::pow(1 - scale, fraction) : 1;
@@ -118,16 +124,15 @@ void Body::apply_forces(double time) {
 void Body::advance(double time) {
   limit_angular_speed();
   Vector3 spin = angular_velocity;  // in the middle of the time
+  Vector3 momentum;
   if (keeps_momentum_) {
-    const Vector3 momentum = rotation * (inertia_ * (rotation.transpose() * spin));
-    spin = spin_of(turned(orientation, 0.5 * time * spin).toRotationMatrix(), momentum);
-    orientation = turned(orientation, time * spin);
-    rotation = orientation.toRotationMatrix();
-    angular_velocity = spin_of(rotation, momentum);
-  } else {
-    orientation = turned(orientation, time * spin);
-    rotation = orientation.toRotationMatrix();
+    momentum = rotation * (inertia_ * (rotation.transpose() * spin));
+    const Vector3 half = 0.5 * time * spin;
+    spin = nearly_turned(spin_of(rotation, nearly_turned(momentum, -half)), half);
   }
+  orientation = turned(orientation, time * spin);
+  rotation = orientation.toRotationMatrix();
+  if (keeps_momentum_) angular_velocity = spin_of(rotation, momentum);
   moved += time * velocity;
   rotated += time * spin;
   if (is_followed) world_inverse_inertia = rotation * inverse_inertia_ * rotation.transpose();

@@ -3,7 +3,9 @@
 
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "stepper/body.hpp"
@@ -11,59 +13,66 @@
 
 namespace supernormal::stepper {
 
-/// One direction in which a contact pushes.
-struct Row {
-  Vector3 direction;       ///< unit; of the force on body 1; body 2 has the opposite
-  Vector3 lever1, lever2;  ///< m; (place - centre of mass) x direction
-  Vector3 response1,
-      response2;        ///< 1/(kg m); the changes of the angular velocities by a unit impulse, of body 2 with the sign of body 1
-  double mobility = 0;  ///< 1/kg; the change of velocity by a unit impulse
-  double impulse = 0;   ///< N s; in the present sub-step, so far
-  double later = 0;     ///< N s; the part of the last impulse that follows after the positions
-  double recalled = 0;  ///< N s; the impulse in a sub-step by the force of the last step
-  double total = 0;     ///< N s; in the sub-steps so far
-  double motion = 0;    ///< m/s; the velocity that the surface asks for
-  double centring = 0;  ///< m/s; half of what turning geometry takes from the velocity in a sub-step (moving_contacts.hpp)
-};
-
 /// How a contact gives way: an impulse changes by -mass (velocity + rate gap) / mobility - keep impulse.
 struct Softness {
   double rate = 0;  ///< 1/s
   double mass = 1;
   double keep = 0;
+  double deepest = 0;  ///< relative to the size; a deeper overlap is corrected no faster than this one
+};
+
+/// A contact as a program gave it.
+struct Given {
+  dContact contact;
+  Surface surface;
+  int body1, body2;   ///< in System::bodies; -1: the body was removed
+  Softness softness;  ///< if the surface has its own
+  dJointFeedback feedback;
+};
+
+/// One direction in which a contact pushes, or an axis about which it turns.
+struct Row {
+  Vector3 direction;             ///< unit; of the force or torque on body 1; body 2 has the opposite
+  Vector3 response1, response2;  ///< 1/(kg m) or 1/(kg m^2); of the angular velocities to a unit impulse; body 2: opposite sign
+  double mobility = 0;           ///< 1/kg or 1/(kg m^2); the change of the relative velocity by a unit impulse
+  double impulse = 0;            ///< N s or N m s; in the present sub-step, so far
+  double later = 0;              ///< N s or N m s; the part of the last impulse that follows after the positions
+  double total = 0;              ///< N s; so far in the step; along the normal without impacts
 };
 
 struct Contact {
+  std::array<Row, 3> rows;  ///< along the normal, and two across it
+  Vector3 arm1, arm2;       ///< m; from the centres of mass to the place
+  double impact = 0;        ///< N s; along the normal, of all impacts so far in the step
+  double first_gap = 0;     ///< m; when the step began
+  double gap = 0;           ///< m; when the bodies last moved
+  double size = 0;          ///< m; of the smaller of its moving bodies
+  double tangent_mass = 0;  ///< kg; for both directions across the normal
+  double part_before = 1;   ///< the part of its last impulse that acts before the positions
+  const Given* given = nullptr;
+  const Softness* softness = nullptr;
   int body1 = 0, body2 = 0;  ///< in System::bodies
-  std::array<Row, 3> rows;   ///< along the normal, and two across it
-  double gap = 0;            ///< m; when the step began; of a contact that moves: now
-  double layer = 0;          ///< m; the overlap that is not corrected
-  double deepest = 0;        ///< m; a deeper overlap is corrected no faster than this one
-  double size = 0;           ///< m; of the smaller of its moving bodies
-  double tangent_mass = 0;   ///< kg; for both directions across the normal
-  Softness softness;
-  double impact = 0;                     ///< N s; along the normal, of an impact
-  double separation_speed = 0;           ///< m/s; after the impact
-  Vector3 of_impacts = Vector3::Zero();  ///< N s; on body 1, of all impacts of the step
-  const Surface* surface = nullptr;
-  double part_before = 1;  ///< the part of its last impulse that acts before the positions
-  bool moves = false;      ///< whether place and normal follow the bodies within the step
-  int rolling = -1;        ///< in System::rolling; -1: none
-  int given = 0;           ///< its number in the order in which the program added it
-  Vector3 place1, place2;  ///< m; in the frames of the bodies
-  dGeomID geom1 = nullptr, geom2 = nullptr;
+  int rolling = -1;          ///< in System::rolling; -1: none
+  int moving = -1;           ///< in System::centring, if place and normal follow the bodies within the step; -1: they do not
 
   const Row& normal() const { return rows[0]; }
   Row& normal() { return rows[0]; }
+  const Surface& surface() const { return given->surface; }
+  bool is_idle() const { return rows[0].impulse == 0 && rows[1].impulse == 0 && rows[2].impulse == 0; }
 };
 
-/// Torques about the two directions across a contact's normal and about the normal. The axis of a row is its lever; its direction
-/// is 0.
+/// Torques about the two directions across a contact's normal and about the normal.
 using Rolling = std::array<Row, 3>;
 
 /// All contacts of two geoms, one after the other.
 struct Pair {
   int first = 0, count = 0;
+};
+
+/// An impact at a contact.
+struct Impact {
+  double speed = 0;    ///< m/s; after it; 0: none
+  double impulse = 0;  ///< N s
 };
 
 /// What one step solves.
@@ -72,53 +81,97 @@ struct System {
   std::vector<Contact> contacts;
   std::vector<Pair> pairs;
   std::vector<Rolling> rolling;
+  /// m/s; half of what turning geometry takes from the velocities in a sub-step, world frame (moving_contacts.hpp).
+  std::vector<Vector3> centring;
+  std::vector<Impact> impacts;  ///< of the pair that bounces
+  bool has_bounces = false;     ///< whether a contact has a restitution
 
   Body& body1(const Contact& contact) { return bodies[static_cast<std::size_t>(contact.body1)]; }
   Body& body2(const Contact& contact) { return bodies[static_cast<std::size_t>(contact.body2)]; }
   const Body& body1(const Contact& contact) const { return bodies[static_cast<std::size_t>(contact.body1)]; }
   const Body& body2(const Contact& contact) const { return bodies[static_cast<std::size_t>(contact.body2)]; }
-  Contact& contact(int index) { return contacts[static_cast<std::size_t>(index)]; }
-  const Contact& contact(int index) const { return contacts[static_cast<std::size_t>(index)]; }
 
+  std::span<Contact> contacts_of(const Pair& pair) {
+    return std::span(contacts).subspan(static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.count));
+  }
   Rolling* rolling_of(const Contact& contact) {
     return contact.rolling < 0 ? nullptr : &rolling[static_cast<std::size_t>(contact.rolling)];
   }
 
-  /// Calls visit(contact, row) for all rows.
-  template <typename Visit>
-  void for_each_row(const Visit& visit) {
-    for (Contact& contact : contacts) {
-      for (Row& row : contact.rows) visit(contact, row);
-      if (Rolling* const torques = rolling_of(contact)) {
-        for (Row& row : *torques) visit(contact, row);
-      }
-    }
-  }
-
-  /// m/s, or rad/s; of body 1 against body 2.
-  double velocity(const Contact& contact, const Row& row) const {
+  /// m/s; of body 1 against body 2.
+  Vector3 velocity(const Contact& contact) const {
     const Body& one = body1(contact);
     const Body& two = body2(contact);
-    return row.direction.dot(one.velocity - two.velocity) + row.lever1.dot(one.angular_velocity) -
-           row.lever2.dot(two.angular_velocity);
+    return one.velocity - two.velocity + one.angular_velocity.cross(contact.arm1) - two.angular_velocity.cross(contact.arm2);
+  }
+  /// rad/s
+  double spin(const Contact& contact, const Row& row) const {
+    return row.direction.dot(body1(contact).angular_velocity - body2(contact).angular_velocity);
   }
 
-  /// m; between the places that touched or were nearest when the step began.
-  double gap(const Contact& contact) const {
-    if (contact.moves) return contact.gap;
+  /// After the bodies have moved: the gap of the places that touched or were nearest when the step began.
+  void update_gap(Contact& contact) const {
+    if (contact.moving >= 0) return;
     const Body& one = body1(contact);
     const Body& two = body2(contact);
-    const Row& row = contact.normal();
-    return contact.gap + row.direction.dot(one.moved - two.moved) + row.lever1.dot(one.rotated) - row.lever2.dot(two.rotated);
+    const Vector3 moved = one.moved - two.moved + one.rotated.cross(contact.arm1) - two.rotated.cross(contact.arm2);
+    contact.gap = contact.first_gap + contact.normal().direction.dot(moved);
   }
 
   void push(const Contact& contact, const Row& row, double impulse) {
+    body1(contact).velocity += impulse * body1(contact).inverse_mass * row.direction;
+    body2(contact).velocity -= impulse * body2(contact).inverse_mass * row.direction;
+    turn(contact, row, impulse);
+  }
+  void turn(const Contact& contact, const Row& row, double impulse) {
+    body1(contact).angular_velocity += impulse * row.response1;
+    body2(contact).angular_velocity -= impulse * row.response2;
+  }
+
+  /// Pushes along both directions across the normal.
+  void push_across(const Contact& contact, double first, double second) {
+    const auto& [normal, along, across] = contact.rows;
     Body& one = body1(contact);
     Body& two = body2(contact);
-    one.velocity += impulse * one.inverse_mass * row.direction;
-    one.angular_velocity += impulse * row.response1;
-    two.velocity -= impulse * two.inverse_mass * row.direction;
-    two.angular_velocity -= impulse * row.response2;
+    const Vector3 sum = first * along.direction + second * across.direction;
+    one.velocity += one.inverse_mass * sum;
+    two.velocity -= two.inverse_mass * sum;
+    one.angular_velocity += first * along.response1 + second * across.response1;
+    two.angular_velocity -= first * along.response2 + second * across.response2;
+  }
+
+  /// Pushes by the last impulses, or by the part of them that acts before the positions.
+  void push_before(Contact& contact) {
+    if (contact.part_before < 1) {
+      for_each_row_of(contact, [&](Row& row) {
+        row.later = row.impulse * (1 - contact.part_before);
+        row.impulse -= row.later;
+      });
+    }
+    push_all(contact, &Row::impulse);
+  }
+  /// Pushes by the other part.
+  void push_after(Contact& contact) {
+    if (contact.part_before == 1) return;
+    push_all(contact, &Row::later);
+    for_each_row_of(contact, [](Row& row) { row.impulse += row.later; });
+  }
+
+ private:
+  template <typename Visit>
+  void for_each_row_of(Contact& contact, const Visit& visit) {
+    std::ranges::for_each(contact.rows, visit);
+    if (Rolling* const torques = rolling_of(contact)) std::ranges::for_each(*torques, visit);
+  }
+
+  void push_all(const Contact& contact, double Row::*impulse) {
+    const auto& [normal, along, across] = contact.rows;
+    if (normal.*impulse == 0 && along.*impulse == 0 && across.*impulse == 0) return;  // then nothing rolls, either
+    push(contact, normal, normal.*impulse);
+    push_across(contact, along.*impulse, across.*impulse);
+    if (const Rolling* const torques = rolling_of(contact)) {
+      for (const Row& row : *torques) turn(contact, row, row.*impulse);
+    }
   }
 };
 
@@ -127,6 +180,6 @@ struct System {
 void set_rows(System& system, Contact& contact, const Vector3& place, const Vector3& normal, const Vector3& along);
 
 /// Sets up the contact that a program has given.
-Contact contact_of(System& system, const dContact& given, const Surface& surface, int body1, int body2);
+Contact contact_of(System& system, const Given& given);
 
 }  // namespace supernormal::stepper

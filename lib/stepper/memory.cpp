@@ -33,62 +33,72 @@ void Memory::forget(dBodyID body) {
 }
 
 void Memory::recall(System& system, double time) {
+  next_.clear();
   for (const Pair& pair : system.pairs) recall_pair(system, pair, time);
 }
 
 void Memory::recall_pair(System& system, const Pair& pair, double time) {
-  const Contact& of = system.contact(pair.first);
-  const Key key = key_of(of.geom1, system.body1(of), of.geom2, system.body2(of));
+  const Contact& of = system.contacts_of(pair).front();
+  const Body& one = system.body1(of);
+  const Body& two = system.body2(of);
+  const Key key = key_of(of.given->contact.geom.g1, one, of.given->contact.geom.g2, two);
+  const double sign = key.is_swapped ? -1 : 1;
+  const bool by_low = one.is_dynamic() != key.is_swapped;
   const std::span<Force> known = forces_of(key);
-  for (int k = 0; k < pair.count; ++k) {
-    Contact& contact = system.contact(pair.first + k);
-    const bool by_first = system.body1(contact).is_dynamic();
+  for (Contact& contact : system.contacts_of(pair)) {
+    Force& force = next_.emplace_back();
+    force.key = key;
+    force.body1 = one.id;
+    force.body2 = two.id;
+    force.order = static_cast<int>(next_.size());
+    force.place_low = one.rotation.transpose() * contact.arm1;
+    force.place_high = two.rotation.transpose() * contact.arm2;
+    if (key.is_swapped) force.place_low.swap(force.place_high);
     Force* nearest = nullptr;
     double least = std::numeric_limits<double>::infinity();
-    for (Force& force : known) {
-      if (force.is_taken) continue;
-      const Vector3& place = by_first == key.is_swapped ? force.place_high : force.place_low;
-      const double distance = (place - (by_first ? contact.place1 : contact.place2)).squaredNorm();
-      if (distance >= least) continue;
+    for (Force& last : known) {
+      const double distance =
+          by_low ? (last.place_low - force.place_low).squaredNorm() : (last.place_high - force.place_high).squaredNorm();
+      if (last.is_taken || distance >= least) continue;
       least = distance;
-      nearest = &force;
+      nearest = &last;
     }
-    if (nearest == nullptr) return;
+    if (nearest == nullptr) continue;
     nearest->is_taken = true;
-    const double sign = key.is_swapped ? -1 : 1;
-    contact.rows[0].impulse = time * nearest->normal;
-    for (std::size_t i = 1; i < 3; ++i) contact.rows[i].impulse = sign * time * nearest->tangential.dot(contact.rows[i].direction);
+    force.normal = nearest->normal;
+    force.tangential = nearest->tangential;
+    force.torque = nearest->torque;
+    contact.rows[0].impulse = time * force.normal;
+    for (std::size_t i = 1; i < 3; ++i) contact.rows[i].impulse = sign * time * force.tangential.dot(contact.rows[i].direction);
     if (Rolling* const torques = system.rolling_of(contact)) {
-      for (Row& row : *torques) row.impulse = sign * time * nearest->torque.dot(row.lever1);
+      for (Row& row : *torques) row.impulse = sign * time * force.torque.dot(row.direction);
     }
-    if (!contact.moves || known.size() > 1) continue;
-    for (Row& row : contact.rows) row.centring = sign * nearest->centring.dot(row.direction);
+    if (contact.moving >= 0 && known.size() == 1) system.centring[std::size_t(contact.moving)] = sign * nearest->centring;
   }
 }
 
-void Memory::keep(System& system, double time) {
-  std::erase_if(forces_, [](const Force& force) { return !force.is_left || force.is_taken; });
-  for (Force& force : forces_) force.is_left = false;
-  for (const Contact& contact : system.contacts) {
-    Force& force = forces_.emplace_back();
-    force.key = key_of(contact.geom1, system.body1(contact), contact.geom2, system.body2(contact));
-    force.body1 = system.body1(contact).id;
-    force.body2 = system.body2(contact).id;
-    force.order = static_cast<int>(forces_.size());
-    const bool swapped = force.key.is_swapped;
-    force.place_low = swapped ? contact.place2 : contact.place1;
-    force.place_high = swapped ? contact.place1 : contact.place2;
-    const double sign = swapped ? -1 : 1;
-    const auto& rows = contact.rows;
-    force.normal = rows[0].impulse / time;
-    force.tangential = sign / time * (rows[1].impulse * rows[1].direction + rows[2].impulse * rows[2].direction);
-    force.torque.setZero();
+void Memory::keep(System& system, double time, double part) {
+  for (std::size_t i = 0; i < next_.size(); ++i) {
+    const Contact& contact = system.contacts[i];
+    Force& force = next_[i];
+    const double sign = force.key.is_swapped ? -1 : 1;
+    const auto& [normal, first, second] = contact.rows;
+    Vector3 torque = Vector3::Zero();
     if (const Rolling* const torques = system.rolling_of(contact)) {
-      for (const Row& row : *torques) force.torque += sign / time * row.impulse * row.lever1;
+      for (const Row& row : *torques) torque += row.impulse * row.direction;
     }
-    force.centring =
-        sign * (rows[0].centring * rows[0].direction + rows[1].centring * rows[1].direction + rows[2].centring * rows[2].direction);
+    force.normal += part * (normal.impulse / time - force.normal);
+    force.tangential +=
+        part * (sign / time * (first.impulse * first.direction + second.impulse * second.direction) - force.tangential);
+    force.torque += part * (sign / time * torque - force.torque);
+    if (contact.moving >= 0) force.centring = sign * system.centring[std::size_t(contact.moving)];
   }
+  for (Force& force : forces_) {
+    if (!force.is_left || force.is_taken) continue;
+    force.is_left = false;
+    next_.push_back(force);
+  }
+  forces_.swap(next_);
   // By the order among themselves, or the addresses would decide between two contacts at one place.
   std::ranges::sort(forces_, [](const Force& a, const Force& b) {
     return is_before(a.key, b.key) || (!is_before(b.key, a.key) && a.order < b.order);

@@ -21,8 +21,8 @@ class Memory {
   /// Forgets the forces on a body: another one may come to have its address, and its geoms'.
   void forget(dBodyID body);
 
-  /// Keeps the forces that act in the present sub-step of `time` (s).
-  void keep(System& system, double time);
+  /// Keeps the forces that act in the present sub-step of `time` (s): those that were recalled, and `part` of what they changed by.
+  void keep(System& system, double time, double part);
 
  private:
   // Of two geoms, that with the lower address is the first. The addresses decide only who is who, so they change no digit.
@@ -34,12 +34,12 @@ class Memory {
   struct Force {
     Key key;
     dBodyID body1 = nullptr, body2 = nullptr;
-    int order = 0;                  // among the contacts of the step
-    Vector3 place_low, place_high;  // m, in the frames of the bodies
-    double normal = 0;              // N
-    Vector3 tangential;             // N, world frame, on the body of the geom `low`
-    Vector3 torque;                 // N m, world frame, on the same body
-    Vector3 centring;               // m/s, of a contact that moves
+    int order = 0;                         // among the contacts of the step
+    Vector3 place_low, place_high;         // m, in the frames of the bodies, when the step began
+    double normal = 0;                     // N
+    Vector3 tangential = Vector3::Zero();  // N, world frame, on the body of the geom `low`
+    Vector3 torque = Vector3::Zero();      // N m, world frame, on the same body
+    Vector3 centring = Vector3::Zero();    // m/s, of a contact that moves
     bool is_taken = false;
     bool is_left = false;
   };
@@ -49,6 +49,7 @@ class Memory {
   void recall_pair(System& system, const Pair& pair, double time);
 
   std::vector<Force> forces_;  // sorted by their keys
+  std::vector<Force> next_;    // of the contacts of this step
 };
 
 }  // namespace supernormal::stepper

@@ -73,15 +73,24 @@ bool step_to_normal(const Shape& shape1, const Pose& pose1, const Shape& shape2,
   return true;
 }
 
+/// m/s; along the rows.
+Vector3 velocity_along(const System& system, const Contact& contact) {
+  const Vector3 velocity = system.velocity(contact);
+  return {velocity.dot(contact.rows[0].direction), velocity.dot(contact.rows[1].direction),
+          velocity.dot(contact.rows[2].direction)};
+}
+
 }  // namespace
 
 void MovingContacts::choose(System& system, double step) {
   list_.clear();
   for (const Pair& pair : system.pairs) choose_of(system, pair, step);
+  system.centring.assign(list_.size(), Vector3::Zero());
 }
 
 void MovingContacts::choose_of(System& system, const Pair& pair, double step) {
-  const Contact& contact = system.contact(pair.first);
+  const std::span<Contact> contacts = system.contacts_of(pair);
+  const Contact& contact = contacts.front();
   if (contact.gap >= kNear * contact.size || contact.gap < -kDeep * contact.size) return;
   const Body& one = system.body1(contact);
   const Body& two = system.body2(contact);
@@ -94,18 +103,17 @@ void MovingContacts::choose_of(System& system, const Pair& pair, double step) {
   const bool has_plane = moving.side1.shape == nullptr || moving.side2.shape == nullptr;
   if (!(is_round(moving.side1.shape) && is_round(moving.side2.shape)) && turn < kRestsFlat) return;
   if (pair.count > 1) {
-    int touching = 0;
-    for (int k = 0; k < pair.count; ++k)
-      touching += system.contact(pair.first + k).gap < contact.gap + kTogether * contact.size ? 1 : 0;
+    const auto touching =
+        std::ranges::count_if(contacts, [&](const Contact& other) { return other.gap < contact.gap + kTogether * contact.size; });
     if (!has_plane || turn < kSpins || touching > 1) return;
   }
-  for (int k = 0; k < pair.count; ++k) {
-    moving.contact = pair.first + k;
-    moving.is_fixed = k > 0;
-    Contact& moved = system.contact(moving.contact);
+  for (Contact& moved : contacts) {
     if (moved.gap >= kNear * moved.size) continue;
-    moved.moves = true;
-    moving.first_gap = moved.gap;
+    moved.moving = static_cast<int>(list_.size());
+    moving.contact = static_cast<int>(&moved - system.contacts.data());
+    moving.is_fixed = &moved != &contact;
+    moving.place1 = one.rotation.transpose() * moved.arm1;
+    moving.place2 = two.rotation.transpose() * moved.arm2;
     list_.push_back(moving);
   }
   for (Body* const body : {&system.body1(contact), &system.body2(contact)})
@@ -129,20 +137,21 @@ bool MovingContacts::Moving::read_sides(const System& system, const Contact& at)
     side.in_body = {body.rotation.transpose() * (pose.position - body.start), body.rotation.transpose() * pose.rotation};
     return true;
   };
-  return read(at.geom1, system.body1(at), side1) && read(at.geom2, system.body2(at), side2) &&
+  const dContactGeom& geometry = at.given->contact.geom;
+  return read(geometry.g1, system.body1(at), side1) && read(geometry.g2, system.body2(at), side2) &&
          (side1.shape != nullptr || side2.shape != nullptr);
 }
 
 void MovingContacts::Moving::follow(System& system) const {
-  Contact& at = system.contact(contact);
+  Contact& at = system.contacts[std::size_t(contact)];
   const Body& one = system.body1(at);
   const Body& two = system.body2(at);
   if (is_fixed) {
-    const Vector3 point1 = one.centre() + one.rotation * at.place1;
-    const Vector3 point2 = two.centre() + two.rotation * at.place2;
+    const Vector3 point1 = one.centre() + one.rotation * place1;
+    const Vector3 point2 = two.centre() + two.rotation * place2;
     const Vector3 normal = at.normal().direction;
     const Vector3 place = at.body1 == 0 ? point2 : at.body2 == 0 ? point1 : Vector3(0.5 * (point1 + point2));
-    place_at(system, at, place, normal, first_gap + normal.dot(point1 - point2));
+    place_at(system, at, place, normal, at.first_gap + normal.dot(point1 - point2));
     return;
   }
   if (side1.shape == nullptr || side2.shape == nullptr) {
@@ -173,17 +182,16 @@ void MovingContacts::follow(System& system) const {
 }
 
 void MovingContacts::begin_turn(const System& system) {
-  for (Moving& moving : list_) {
-    const Contact& contact = system.contact(moving.contact);
-    for (std::size_t k = 0; k < 3; ++k) moving.before[k] = system.velocity(contact, contact.rows[k]);
-  }
+  for (Moving& moving : list_) moving.before = velocity_along(system, system.contacts[std::size_t(moving.contact)]);
 }
 
 void MovingContacts::end_turn(System& system) const {
   for (const Moving& moving : list_) {
-    Contact& contact = system.contact(moving.contact);
-    for (std::size_t k = 0; k < 3; ++k)
-      contact.rows[k].centring = -0.5 * (system.velocity(contact, contact.rows[k]) - moving.before[k]);
+    const Contact& contact = system.contacts[std::size_t(moving.contact)];
+    const Vector3 taken = velocity_along(system, contact) - moving.before;
+    Vector3& centring = system.centring[std::size_t(contact.moving)];
+    centring.setZero();
+    for (int k = 0; k < 3; ++k) centring -= 0.5 * taken[k] * contact.rows[std::size_t(k)].direction;
   }
 }
 

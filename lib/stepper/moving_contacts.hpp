@@ -1,7 +1,6 @@
 // Contacts that follow their bodies within a step.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "stepper/contact.hpp"
@@ -14,13 +13,13 @@ namespace supernormal::stepper {
 /// evaluation of the gap function.
 class MovingContacts {
  public:
-  /// Chooses the contacts of `system` that move in a step (s) and sets Contact::moves.
+  /// Chooses the contacts of `system` that move in a step (s) and sets Contact::moving.
   void choose(System& system, double step);
 
   /// Brings gap, place and normal to the bodies' present poses.
   void follow(System& system) const;
 
-  /// Before the bodies move: the velocities of the rows.
+  /// Before the bodies move: the velocities at the contacts, along their rows.
   void begin_turn(const System& system);
 
   /// After the contacts have followed: the next biased sweep aims at half of what the turning took from the velocities, against it.
@@ -41,9 +40,9 @@ class MovingContacts {
     Side side1, side2;
     Vector3 plane_normal = Vector3::Zero();
     double plane_offset = 0;
-    bool is_fixed = false;  // to both bodies
-    double first_gap = 0;   // m, if fixed
-    std::array<double, 3> before{};
+    bool is_fixed = false;   // to both bodies
+    Vector3 place1, place2;  // m; in the frames of the bodies, if fixed
+    Vector3 before = Vector3::Zero();
   };
   void choose_of(System& system, const Pair& pair, double step);
 

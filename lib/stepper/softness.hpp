@@ -1,6 +1,8 @@
 // How contacts that overlap give way: a spring and a damper, integrated implicitly, so what a sweep has not solved cannot ring.
 #pragma once
 
+#include <limits>
+
 #include "stepper/contact.hpp"
 
 namespace supernormal::stepper {
@@ -20,18 +22,19 @@ inline constexpr double kDeep = 0.1;
 inline Softness softness_in(double time, double spring) {
   const double phase = kPhase * time / spring;
   const double damping = phase * (2 * kDampingRatio + phase);
-  return {.rate = phase / (2 * kDampingRatio + phase) / time, .mass = damping / (1 + damping), .keep = 1 / (1 + damping)};
+  return {phase / (2 * kDampingRatio + phase) / time, damping / (1 + damping), 1 / (1 + damping), kDeep};
 }
 
 /// Of a contact with quickstep's ERP and CFM, m/(N s), in sub-steps of `time` of a `step` (s). It is the spring and the damper that
 /// these two numbers are to quickstep.
 inline Softness softness_of(double erp, double cfm, double mobility, double step, double time) {
-  if (cfm == 0) return {.rate = erp / step};
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  if (cfm == 0) return {erp / step, 1, 0, kAny};
   const double spring = erp / (step * cfm);  // N/m
   const double damper = (1 - erp) / cfm;     // N s/m
   const double resistance = time * spring + damper;
   const double compliance = 1 / (time * resistance);  // 1/kg
-  return {.rate = spring / resistance, .mass = mobility / (mobility + compliance), .keep = compliance / (mobility + compliance)};
+  return {spring / resistance, mobility / (mobility + compliance), compliance / (mobility + compliance), kAny};
 }
 
 }  // namespace supernormal::stepper

@@ -12,7 +12,6 @@
 #include "ode/support/require.hpp"
 #include "stepper/impacts.hpp"
 #include "stepper/softness.hpp"
-#include "stepper/sweep.hpp"
 #include "supernormal/supernormal.h"
 
 namespace supernormal::stepper {
@@ -50,24 +49,25 @@ double Stepper::step(double time) {
   set_up_contacts();
   if (!is_rest) whole_ = time;
   const int count = sub_steps_.choose(time, whole_);
-  time_ = time / count;
-  soften(whole_);
+  const double sub_step_time = time / count;
+  soften(sub_step_time);
   moving_.choose(system_, time);
   centre();
-  memory_.recall(system_, time_);
-  system_.for_each_row([](const Contact&, Row& row) { row.recalled = row.impulse; });
+  memory_.recall(system_, sub_step_time);
   moving_.follow(system_);  // a contact ahead has the normal of the place where the bodies will meet
+  SweepSettings settings{.time = sub_step_time,
+                         .fastest_out = dWorldGetContactMaxCorrectingVel(world_.get()),
+                         .layer = dWorldGetContactSurfaceLayer(world_.get())};
   double done = 0;
   int made = 0;
   do {
-    sub_step(made++);
-    done = made < count ? made * time_ : time;
+    sub_step(made++, settings);
+    done = made < count ? made * sub_step_time : time;
   } while (made < count && !has_left_path(done));
-  system_.for_each_row([](const Contact&, Row& row) { row.total += row.impulse; });
   left_ = time - done;
   if (!system_.contacts.empty()) sub_steps_.learn(system_, done);  // what sleeps keeps its stiffness
-  settle_forces();
-  memory_.keep(system_, time_);
+  // In a far shorter step than the last an impulse is no force that lasts: times the next step it would throw the bodies.
+  memory_.keep(system_, sub_step_time, sub_step_time / sub_steps_.spring());
   keep_forces(done);
   step_others(time, done);
   for (Body& body : system_.bodies) {
@@ -87,39 +87,27 @@ void Stepper::centre() {
   }
 }
 
-void Stepper::sub_step(int number) {
-  for (Body& body : system_.bodies) body.apply_forces(time_ * body.part_before());
-  bounce(system_, time_);
-  system_.for_each_row([&](const Contact& contact, Row& row) {
-    const double last = row.impulse;
-    if (number > 0) row.total += last;
-    if (last == 0) {
-      row.later = 0;
-      return;
-    }
-    row.impulse = last * contact.part_before;
-    row.later = last - row.impulse;
-    system_.push(contact, row, row.impulse);
-  });
-  sweep(system_, {Sweep::Biased, number % 2 != 0, time_, number * time_, fastest_out_});
+void Stepper::sub_step(int number, SweepSettings settings) {
+  const double time = settings.time;
+  settings.is_backward = number % 2 != 0;
+  settings.elapsed = number * time;
+  for (Body& body : system_.bodies) body.apply_forces(time * body.part_before());
+  bounce(system_, time);
+  for (Contact& contact : system_.contacts) system_.push_before(contact);
+  sweep(system_, settings);
   moving_.begin_turn(system_);
-  for (Body& body : system_.bodies) body.advance(time_);
+  for (Body& body : system_.bodies) body.advance(time);
   moving_.follow(system_);
   moving_.end_turn(system_);
-  for (Body& body : system_.bodies) body.apply_forces(time_ * (1 - body.part_before()));
-  system_.for_each_row([&](const Contact& contact, Row& row) {
-    if (row.later == 0) return;
-    row.impulse += row.later;
-    system_.push(contact, row, row.later);
-  });
-  sweep(system_, {Sweep::Relaxing, number % 2 == 0, time_, (number + 1) * time_, fastest_out_});
-}
-
-// In a far shorter step than the last an impulse is no force that lasts: times the next step it would throw the bodies.
-void Stepper::settle_forces() {
-  const double part = time_ / sub_steps_.spring();
-  if (part == 1) return;
-  system_.for_each_row([part](const Contact&, Row& row) { row.impulse = row.recalled + part * (row.impulse - row.recalled); });
+  for (Body& body : system_.bodies) body.apply_forces(time * (1 - body.part_before()));
+  for (Contact& contact : system_.contacts) system_.push_after(contact);
+  settings.kind = Sweep::Relaxing;
+  settings.is_backward = !settings.is_backward;
+  settings.elapsed += time;
+  sweep(system_, settings);
+  for (Contact& contact : system_.contacts) {
+    for (Row& row : contact.rows) row.total += row.impulse;
+  }
 }
 
 bool Stepper::has_left_path(double time) const {
@@ -129,7 +117,6 @@ bool Stepper::has_left_path(double time) const {
 void Stepper::read_bodies(bool is_rest) {
   dVector3 gravity;
   dWorldGetGravity(world_.get(), gravity);
-  fastest_out_ = dWorldGetContactMaxCorrectingVel(world_.get());
   for (Body& body : system_.bodies) {
     if (body.id == nullptr) continue;
     body.read(ode::to_vector(gravity), is_rest);
@@ -210,45 +197,41 @@ void Stepper::set_up_contacts() {
   system_.contacts.clear();
   system_.pairs.clear();
   system_.rolling.clear();
-  const double layer = dWorldGetContactSurfaceLayer(world_.get());
+  system_.has_bounces = false;
   for (const Given& given : given_) {
     if (given.body1 < 0 || given.body2 < 0) continue;
     if (!body(given.body1).is_dynamic() && !body(given.body2).is_dynamic()) {
       memory_.leave(given.contact.geom.g1, body(given.body1), given.contact.geom.g2, body(given.body2));
       continue;
     }
-    Contact contact = contact_of(system_, given.contact, given.surface, given.body1, given.body2);
-    contact.layer = layer;
-    contact.given = static_cast<int>(&given - given_.data());
-    const Contact* const last = system_.contacts.empty() ? nullptr : &system_.contacts.back();
-    const bool is_same_pair = last != nullptr && last->geom1 == contact.geom1 && last->geom2 == contact.geom2 &&
-                              last->body1 == contact.body1 && last->body2 == contact.body2;
+    const Given* const last = system_.contacts.empty() ? nullptr : system_.contacts.back().given;
+    const bool is_same_pair = last != nullptr && last->contact.geom.g1 == given.contact.geom.g1 &&
+                              last->contact.geom.g2 == given.contact.geom.g2 && last->body1 == given.body1 &&
+                              last->body2 == given.body2;
     if (!is_same_pair) system_.pairs.push_back({static_cast<int>(system_.contacts.size()), 0});
     ++system_.pairs.back().count;
-    system_.contacts.push_back(contact);
+    system_.contacts.push_back(contact_of(system_, given));
   }
 }
 
-void Stepper::soften(double step) {
-  const Softness own = softness_in(time_, sub_steps_.spring());
+void Stepper::soften(double sub_step) {
+  softness_ = softness_in(sub_step, sub_steps_.spring());
   for (Contact& contact : system_.contacts) {
-    const Surface& surface = *contact.surface;
-    if (surface.erp < 0 && !(surface.cfm > 0)) {
-      contact.softness = own;
-      contact.deepest = kDeep * contact.size;
-      continue;
-    }
+    const Surface& surface = contact.surface();
+    contact.softness = &softness_;
+    if (surface.erp < 0 && !(surface.cfm > 0)) continue;
     const double erp = surface.erp < 0 ? double{dWorldGetERP(world_.get())} : surface.erp;
-    contact.deepest = std::numeric_limits<double>::infinity();
-    contact.softness = softness_of(erp, std::max(0.0, surface.cfm), contact.normal().mobility, step, time_);
+    Softness& own = given_[index_of(contact)].softness;
+    own = softness_of(erp, std::max(0.0, surface.cfm), contact.normal().mobility, whole_, sub_step);
+    contact.softness = &own;
   }
 }
 
 void Stepper::keep_forces(double time) {
   forces_.assign(given_.size(), Vector3::Zero());
   for (const Contact& contact : system_.contacts) {
-    Vector3& force = forces_[static_cast<std::size_t>(contact.given)];
-    force = contact.of_impacts / time;
+    Vector3& force = forces_[index_of(contact)];
+    force = contact.impact / time * contact.normal().direction;
     for (const Row& row : contact.rows) force += row.total / time * row.direction;
   }
 }
@@ -285,7 +268,8 @@ void Stepper::remove_body(dBodyID body) {
 
 void Stepper::add_contact(const dContact& contact, dBodyID body1, dBodyID body2) {
   if (body1 == body2) throw std::invalid_argument("body1 = body2, but a contact must have two bodies, or one and NULL");
-  given_.push_back({contact, surface_of(contact), index_of("body1", body1), index_of("body2", body2), {}});
+  given_.push_back({contact, surface_of(contact), index_of("body1", body1), index_of("body2", body2), {}, {}});
+  if (given_.back().body1 == 0) given_.back().surface.motion[1] *= -1;  // as in ODE, which then reverses the normal, but not fdir1
 }
 
 const Vector3& Stepper::contact_force(int contact) const {

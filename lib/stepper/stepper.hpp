@@ -11,6 +11,7 @@
 #include "stepper/memory.hpp"
 #include "stepper/moving_contacts.hpp"
 #include "stepper/sub_steps.hpp"
+#include "stepper/sweep.hpp"
 
 namespace supernormal::stepper {
 
@@ -32,24 +33,17 @@ class Stepper {
   const Vector3& contact_force(int contact) const;
 
  private:
-  struct Given {
-    dContact contact;
-    Surface surface;
-    int body1, body2;  // in system_.bodies; -1: the body was removed
-    dJointFeedback feedback;
-  };
-
   int index_of(const char* name, dBodyID body) const;
+  std::size_t index_of(const Contact& contact) const { return std::size_t(contact.given - given_.data()); }
   Body& body(int index) { return system_.bodies[static_cast<std::size_t>(index)]; }
   const Body& body(int index) const { return system_.bodies[static_cast<std::size_t>(index)]; }
   bool is_of_quickstep(const Given& given) const;
   void read_bodies(bool is_rest);
   void spread(bool Body::*property, bool Body::*source);
   void set_up_contacts();
-  void soften(double step);
+  void soften(double sub_step);
   void centre();
-  void sub_step(int number);
-  void settle_forces();
+  void sub_step(int number, SweepSettings settings);
   void keep_forces(double time);
   bool has_left_path(double time) const;
   void step_others(double planned, double time);
@@ -69,10 +63,9 @@ class Stepper {
   SubSteps sub_steps_;
   std::vector<dBodyID> stopped_;  // while quickstep moves the others
   std::vector<Vector3> forces_;   // N, of the contacts of the last step
-  double time_ = 0;               // s, of a sub-step
   double whole_ = 0;              // s; the step of which `left_` is the rest
   double left_ = 0;               // s; after a step that ended early
-  double fastest_out_ = 0;        // m/s; ODE's largest correcting velocity
+  Softness softness_;             // of contacts without one of their own
 };
 
 }  // namespace supernormal::stepper

@@ -42,9 +42,8 @@ void SubSteps::learn(const System& system, double time) {
   double stiffness = 0;  // 1/s^2; the square of the frequency that the sag needs
   double spin = 0;       // rad/s
   for (const Contact& contact : system.contacts) {
-    const Row& row = contact.normal();
-    stiffness = std::max(stiffness, row.total / time * row.mobility / (accuracy.sag * contact.size));
-    if (!contact.moves || row.total == 0) continue;
+    stiffness = std::max(stiffness, contact.normal().total / time * contact.normal().mobility / (accuracy.sag * contact.size));
+    if (contact.moving < 0 || contact.normal().total == 0) continue;
     spin = std::max(spin, (system.body1(contact).angular_velocity - system.body2(contact).angular_velocity).norm());
   }
   constexpr double kAny = std::numeric_limits<double>::infinity();

@@ -32,6 +32,8 @@ struct Surface {
   double erp = -1;                 ///< of quickstep's contact; negative: not chosen
   double cfm = -1;                 ///< 1/(N s/m); negative: not chosen
   bool has_direction = false;      ///< whether fdir1 is the first direction
+
+  bool slips() const { return slip[0] > 0 || slip[1] > 0; }
   bool rolls() const { return rolling[0].value > 0 || rolling[1].value > 0 || rolling[2].value > 0; }
 };
 

@@ -18,12 +18,12 @@ double metric(double limit, double largest) {
 void limit(Pairwise& impulses, const Pairwise& limits) {
   double beyond = 0;
   for (std::size_t k = 0; k < 2; ++k) {
-    if (impulses[k] != 0) beyond += impulses[k] / limits[k] * (impulses[k] / limits[k]);
+    const double part = impulses[k] == 0 ? 0 : impulses[k] / limits[k];
+    beyond += part * part;
   }
   if (beyond <= 1) return;
-  for (std::size_t k = 0; k < 2; ++k) {
-    if (!std::isinf(limits[k])) impulses[k] /= std::sqrt(beyond);
-  }
+  const double factor = 1 / std::sqrt(beyond);
+  for (std::size_t k = 0; k < 2; ++k) impulses[k] *= std::isinf(limits[k]) ? 1 : factor;
 }
 
 class Sweeper {
@@ -32,42 +32,49 @@ class Sweeper {
 
   void solve_normal(Contact& contact) const {
     Row& row = contact.normal();
-    const double gap = system_.gap(contact) - row.motion * settings_.elapsed;  // from a surface that moves
-    double velocity = system_.velocity(contact, row) - row.motion;
+    const Surface& surface = contact.surface();
+    if (!is_biased()) system_.update_gap(contact);
+    const double gap = contact.gap - surface.motion[0] * settings_.elapsed;  // from a surface that moves
+    double velocity = row.direction.dot(system_.velocity(contact)) - surface.motion[0];
     Softness softness;
     if (gap > 0) {
       // What may bounce in the next sub-step keeps its velocity.
-      if (!is_biased() && contact.surface->bounce > 0 && row.impulse == 0) return;
+      if (!is_biased() && surface.bounce > 0 && row.impulse == 0) return;
       velocity += gap / settings_.time;
-    } else if (is_biased() || contact.surface->cfm > 0) {
-      softness = contact.softness;
-      const double overlap = std::min(std::max(0.0, -gap - contact.layer), contact.deepest);
+    } else if (is_biased() || surface.cfm > 0) {
+      softness = *contact.softness;
+      const double overlap = std::min(std::max(0.0, -gap - settings_.layer), softness.deepest * contact.size);
       velocity -= std::min(softness.rate * overlap, settings_.fastest_out);
     }
-    if (is_biased() && (gap <= 0 || row.impulse > 0)) velocity -= row.centring;
+    if (gap <= 0 || row.impulse > 0) velocity -= centring(contact).dot(row.direction);
     const double change = -softness.mass * velocity / row.mobility - softness.keep * (row.impulse + pending(row));
-    add(contact, row, std::max(0.0, row.impulse + change));
+    const double impulse = std::max(0.0, row.impulse + change);
+    if (impulse == row.impulse) return;  // most contacts ahead have none
+    system_.push(contact, row, impulse - row.impulse);
+    row.impulse = impulse;
   }
 
   void solve_friction(Contact& contact) const {
+    if (contact.is_idle()) return;
     const double normal = contact.normal().impulse;
-    if (normal == 0 && contact.rows[1].impulse == 0 && contact.rows[2].impulse == 0) return;
-    const Surface& surface = *contact.surface;
+    const Surface& surface = contact.surface();
     const double time = is_biased() ? settings_.time * contact.part_before : settings_.time;
     const Pairwise limits = {surface.friction[0].in(time, normal), surface.friction[1].in(time, normal)};
     const double largest = std::max(limits[0], limits[1]);
-    const double slip = std::max(surface.slip[0], surface.slip[1]) / settings_.time;  // 1/kg
-    const double mass = contact.tangent_mass / (1 + contact.tangent_mass * slip);
+    double mass = contact.tangent_mass;
+    if (surface.slips()) mass /= 1 + mass * std::max(surface.slip[0], surface.slip[1]) / settings_.time;
+    const Vector3 velocity = system_.velocity(contact) - centring(contact);
     Pairwise impulses{};
     for (std::size_t k = 0; k < 2; ++k) {
       if (limits[k] == 0) continue;
       const Row& row = contact.rows[k + 1];
-      const double velocity = system_.velocity(contact, row) - row.motion - (is_biased() ? row.centring : 0) +
-                              surface.slip[k] / settings_.time * (row.impulse + pending(row));
-      impulses[k] = row.impulse - mass * metric(limits[k], largest) * velocity;
+      double sliding = velocity.dot(row.direction) - surface.motion[k + 1];
+      if (surface.slips()) sliding += surface.slip[k] / settings_.time * (row.impulse + pending(row));
+      impulses[k] = row.impulse - mass * metric(limits[k], largest) * sliding;
     }
     limit(impulses, limits);
-    for (std::size_t k = 0; k < 2; ++k) add(contact, contact.rows[k + 1], impulses[k]);
+    system_.push_across(contact, impulses[0] - contact.rows[1].impulse, impulses[1] - contact.rows[2].impulse);
+    for (std::size_t k = 0; k < 2; ++k) contact.rows[k + 1].impulse = impulses[k];
   }
 
   void solve_rolling(const Contact& contact) const {
@@ -76,9 +83,11 @@ class Sweeper {
     const double time = is_biased() ? settings_.time * contact.part_before : settings_.time;
     for (std::size_t k = 0; k < 3; ++k) {
       Row& row = (*torques)[k];
-      const double largest = contact.surface->rolling[k].in(time, contact.normal().impulse);
-      if (row.mobility > 0)
-        add(contact, row, std::clamp(row.impulse - system_.velocity(contact, row) / row.mobility, -largest, largest));
+      if (!(row.mobility > 0)) continue;
+      const double largest = contact.surface().rolling[k].in(time, contact.normal().impulse);
+      const double impulse = std::clamp(row.impulse - system_.spin(contact, row) / row.mobility, -largest, largest);
+      system_.turn(contact, row, impulse - row.impulse);
+      row.impulse = impulse;
     }
   }
 
@@ -88,10 +97,8 @@ class Sweeper {
   /// N s; what of the last impulse acts after the positions.
   double pending(const Row& row) const { return is_biased() ? row.later : 0; }
 
-  void add(const Contact& contact, Row& row, double impulse) const {
-    if (impulse == row.impulse) return;  // most contacts ahead have none
-    system_.push(contact, row, impulse - row.impulse);
-    row.impulse = impulse;
+  Vector3 centring(const Contact& contact) const {
+    return is_biased() && contact.moving >= 0 ? system_.centring[std::size_t(contact.moving)] : Vector3::Zero();
   }
 
   System& system_;
@@ -106,7 +113,7 @@ void sweep(System& system, const SweepSettings& settings) {
   for (int i = 0; i < pairs; ++i) {
     const Pair& pair = system.pairs[static_cast<std::size_t>(settings.is_backward ? pairs - 1 - i : i)];
     const auto contact = [&](int k) -> Contact& {
-      return system.contact(pair.first + (settings.is_backward ? pair.count - 1 - k : k));
+      return system.contacts[static_cast<std::size_t>(pair.first + (settings.is_backward ? pair.count - 1 - k : k))];
     };
     for (int k = 0; k < pair.count; ++k) sweeper.solve_normal(contact(k));
     for (int k = 0; k < pair.count; ++k) {

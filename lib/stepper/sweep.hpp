@@ -15,6 +15,7 @@ struct SweepSettings {
   double time = 0;         ///< s, of the sub-step
   double elapsed = 0;      ///< s, since the step began
   double fastest_out = 0;  ///< m/s; overlaps are corrected no faster
+  double layer = 0;        ///< m; an overlap that is not corrected
 };
 
 void sweep(System& system, const SweepSettings& settings);
