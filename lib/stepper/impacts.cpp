@@ -6,7 +6,6 @@
 namespace supernormal::stepper {
 namespace {
 
-constexpr double kStill = 1e-9;        // m/s; slower is rounding
 constexpr int kMostRounds = 100;       // a cradle of n balls takes n
 constexpr int kSweepsOfManifold = 30;  // four points of a brick: 1e-6 of the impulse is left
 
@@ -26,7 +25,7 @@ struct Striker {
   double leaving(const Contact& contact) const {
     const Surface& surface = contact.surface();
     const double arriving = approach(contact);
-    if (!(surface.bounce > 0 && arriving > std::max(surface.bounce_speed, kStill) && contact.gap <= time * arriving)) return 0;
+    if (!(surface.bounce > 0 && arriving > surface.bounce_speed && contact.gap <= time * arriving)) return 0;
     const Vector3 falling = system.body2(contact).acceleration() - system.body1(contact).acceleration();
     const double acceleration = contact.normal().direction.dot(falling);
     const double here = std::max(0.0, arriving - acceleration * time / 2);

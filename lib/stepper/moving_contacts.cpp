@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
@@ -24,14 +23,9 @@ constexpr double kRests = 1e-5;
 // rad; flat bodies that turn less in a step have a contact that stays, up to the manifold of the next step.
 constexpr double kRestsFlat = 0.002;
 
-// rad; a manifold of which one point touches follows if the body turns more in a step, as the rim of a coin that spins.
-constexpr double kSpins = 0.02;
-
-// Relative to the size: contacts whose gaps differ by less touch together.
+// Relative to the size: contacts whose gaps differ by less touch together. A manifold follows only if one point of it touches, as
+// the rim of a coin that spins.
 constexpr double kTogether = 1e-4;
-
-// The largest change of a normal in a sub-step: beyond, a step of Newton's method is no step to the maximum.
-constexpr double kLargestChange = 0.2;
 
 bool is_round(const Shape* shape) { return shape == nullptr || shape->traits().is_round; }
 
@@ -61,10 +55,8 @@ bool step_to_normal(const Shape& shape1, const Pose& pose1, const Shape& shape2,
   const Matrix3 curvature = jet.jet1.H + H2 + jet.s * Matrix3::Identity();
   const Vector3 slope = jet.d - jet.s * first;
   // Regular in three dimensions, with the same solution in the tangent plane.
-  const Vector3 change = (curvature + curvature.trace() * first * first.transpose()).inverse() * slope;
-  const double turn = change.norm();
-  if (!(turn < std::numeric_limits<double>::infinity())) return false;
-  const Vector3 dn = turn > kLargestChange ? Vector3(kLargestChange / turn * change) : change;
+  const Vector3 dn = (curvature + curvature.trace() * first * first.transpose()).inverse() * slope;
+  if (!dn.allFinite()) return false;
   const Vector3 point1 = jet.jet1.r + jet.jet1.H * dn;
   const Vector3 point2 = function.offset() + function.rotation() * jet.jet2.r - H2 * dn;
   answer.place = pose1.position + pose1.rotation * (0.5 * (point1 + point2));
@@ -105,7 +97,7 @@ void MovingContacts::choose_of(System& system, const Pair& pair, double step) {
   if (pair.count > 1) {
     const auto touching =
         std::ranges::count_if(contacts, [&](const Contact& other) { return other.gap < contact.gap + kTogether * contact.size; });
-    if (!has_plane || turn < kSpins || touching > 1) return;
+    if (!has_plane || touching > 1) return;
   }
   for (Contact& moved : contacts) {
     if (moved.gap >= kNear * moved.size) continue;
