@@ -113,7 +113,8 @@ void sweep(System& system, const SweepSettings& settings) {
   for (int i = 0; i < pairs; ++i) {
     const Pair& pair = system.pairs[static_cast<std::size_t>(settings.is_backward ? pairs - 1 - i : i)];
     const auto contact = [&](int k) -> Contact& {
-      return system.contacts[static_cast<std::size_t>(pair.first + (settings.is_backward ? pair.count - 1 - k : k))];
+      const int place = settings.is_backward ? pair.count - 1 - k : k;
+      return system.contacts_of(pair)[static_cast<std::size_t>(place)];
     };
     for (int k = 0; k < pair.count; ++k) sweeper.solve_normal(contact(k));
     for (int k = 0; k < pair.count; ++k) {
