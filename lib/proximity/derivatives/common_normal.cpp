@@ -23,7 +23,8 @@ constexpr double kLargestStep = 1e-7;
 // 1e-6.
 constexpr int kMostSteps = 32;
 
-// Of a step that led down. With 0.5, 12 000 flat pairs (`derivatives 6000 5 --flat`, and 6) take 4.66 instead of 4.51 evaluations.
+// Of a step that led down. With 0.5, 12 000 flat pairs (`pairs flat_derivatives 6000 5`, and 6) take 4.66 instead of 4.51
+// evaluations.
 constexpr double kShorter = 0.25;
 
 // Of the radius of curvature across an infinite one: a body not aligned with its axes, of 1e10 half-extents in one direction, tells

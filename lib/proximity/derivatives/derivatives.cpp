@@ -19,8 +19,8 @@ namespace {
 constexpr int kV1 = 0, kW1 = 3, kV2 = 6, kW2 = 9;
 
 // How far a witness point may move, beyond what its derivative says, as a body rotates by kNearby: this part of what it says, or so
-// many sizes of the smaller body. Of 12 000 flat pairs (`derivatives 6000 5 --flat`, and 6) 3 gradients are wrong, as with 0.01.
-// With 1, 438 are wrong.
+// many sizes of the smaller body. Of 12 000 flat pairs (`pairs flat_derivatives 6000 5`, and 6) 3 gradients are wrong, as with
+// 0.01. With 1, 438 are wrong.
 constexpr double kBend = 0.1;
 constexpr double kLeastBend = 1e-5;  // with 1e-6, 3 % fewer of these pairs have Jacobians; with 1e-4, 1 % more
 

@@ -11,7 +11,7 @@ using Kind = TangentResponse::Kind;
 constexpr double kParallel = 1e-7;
 
 // In sizes of the smaller body: a point that moves by less as the body rotates by kNearby is on no flat side. With 1e-12 no
-// gradient of `derivatives 6000 5 --flat`, and 6, changes, and they take 6.7 instead of 4.5 evaluations. Without flat sides 411
+// gradient of `pairs flat_derivatives 6000 5`, and 6, changes, and they take 6.7 instead of 4.5 evaluations. Without flat sides 411
 // gradients are wrong instead of 3.
 constexpr double kFlat = 1e-5;
 
