@@ -23,8 +23,10 @@ constexpr double kRests = 1e-5;
 // rad; flat bodies that turn less in a step have a contact that stays, up to the manifold of the next step.
 constexpr double kRestsFlat = 0.002;
 
-// Relative to the size: contacts whose gaps differ by less touch together. A manifold follows only if one point of it touches, as
-// the rim of a coin that spins.
+// rad; a manifold of which one point touches follows if the body turns more in a step, as the rim of a coin that spins.
+constexpr double kSpins = 0.02;
+
+// Relative to the size: contacts whose gaps differ by less touch together.
 constexpr double kTogether = 1e-4;
 
 bool is_round(const Shape* shape) { return shape == nullptr || shape->traits().is_round; }
@@ -97,7 +99,7 @@ void MovingContacts::choose_of(System& system, const Pair& pair, double step) {
   if (pair.count > 1) {
     const auto touching =
         std::ranges::count_if(contacts, [&](const Contact& other) { return other.gap < contact.gap + kTogether * contact.size; });
-    if (!has_plane || touching > 1) return;
+    if (!has_plane || turn < kSpins || touching > 1) return;
   }
   for (Contact& moved : contacts) {
     if (moved.gap >= kNear * moved.size) continue;
