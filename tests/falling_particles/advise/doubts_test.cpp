@@ -328,7 +328,7 @@ TEST_CASE("doubts: what a part presses with is compared with the iterations and 
   // p d^2 step^2 / m is 0.05 x 20 radii r, with d = 2 r and m = 4 pi / 3 r^3 1200 kg/m^3.
   const double most = 0.05 * 20 * 3e-3 * std::numbers::pi / 3 * 3e-3 * 1200 / (5e-4 * 5e-4);  // Pa, in one layer
   const std::string lid = "shape = \"box\"\nsize = [0.05, 0.06, 0.01]\nposition = [0.025, 0.03, 0.3]\n";
-  const auto pressed = [&](double pressure, std::vector<std::string> overrides = {}) {
+  const auto pressed = [&](double pressure, const std::vector<std::string>& overrides = {}) {
     const std::string drive = "drive = { axis = [0, 0, -1], gain = 1e-6, largest_speed = 0.1, area = 0.003, stress = ";
     return scene_of(std::string(kSceneText) + "[[part]]\nname = \"p\"\n" + lid + drive + shortest(pressure) + " }\n", overrides);
   };
