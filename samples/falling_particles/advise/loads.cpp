@@ -22,8 +22,8 @@ namespace {
 struct Extremes {
   const GrainCount* heavy = nullptr;
   const GrainCount* light = nullptr;
-  double most = 0;          // kg
-  double least = INFINITY;  // kg
+  double most = 0;   // kg
+  double least = 0;  // kg
 
   double size() const { return light->smallest_scale() * light->kind.smallest_half_axis(); }         // m
   double diameter() const { return std::cbrt(6 / std::numbers::pi * least / light->kind.density); }  // m, as a sphere
@@ -36,11 +36,11 @@ Extremes extremes_of(const Scene& scene) {
     const double mass = mass_of(entry.kind);
     const double most = std::pow(entry.largest_scale(), 3) * mass;
     const double least = std::pow(entry.smallest_scale(), 3) * mass;
-    if (most > found.most) {
+    if (found.heavy == nullptr || most > found.most) {
       found.heavy = &entry;
       found.most = most;
     }
-    if (least < found.least) {
+    if (found.light == nullptr || least < found.least) {
       found.light = &entry;
       found.least = least;
     }
@@ -169,7 +169,7 @@ void add_pressure(const Wall& part, const Pressing& pressing, const Extremes& gr
 
 void add_doubts_about_loads(const Scene& scene, std::vector<std::string>& doubts) {
   const Extremes grains = extremes_of(scene);
-  if (grains.heavy == nullptr || has_springs(scene) || scene.compression) return;
+  if (grains.heavy == nullptr || grains.light == nullptr || has_springs(scene) || scene.compression) return;
   if (scene.solver.erp == 0) {
     doubts.emplace_back("solver.erp is 0: overlaps are never corrected, and grains sink; 0.2 would do");
     return;
