@@ -12,8 +12,9 @@ TEST_CASE("a ball rolls by (7/10) v^2 R / (g rho) in every direction") {
   // The torque against rolling is rho N, so the deceleration is (5/7) g rho / R.
   const double rho = 2e-3;
   const double speed = 0.5;
-  for (const auto& [angle, step] :
+  for (const std::pair<double, double>& both :
        {std::pair(0.0, kStep), {0.3, kStep}, {45 * kDegree, kStep}, {1.2, kStep}, {0.3, 1e-3}, {1.2, 1e-2}}) {
+    const double angle = both.first, step = both.second;
     CAPTURE(angle);
     CAPTURE(step);
     OdeSession session;

@@ -12,7 +12,7 @@ struct PairedBody {
   std::shared_ptr<const LongBody> exact;
 };
 
-inline PairedBody paired(std::shared_ptr<const Shape> shape) { return {shape, long_body_of(*shape)}; }
+inline PairedBody paired(const std::shared_ptr<const Shape>& shape) { return {shape, long_body_of(*shape)}; }
 
 /// The pose in long double, its matrix made orthonormal beyond double precision.
 LongPose exact_pose(const Pose& pose);
