@@ -26,8 +26,6 @@ constexpr double kFar = 1e6;       // m and rad; there the last bit of a coordin
 constexpr double kSmall = 1e-6;    // m
 constexpr double kMasses = 1e18;   // kg; a ball of kSmall and 1000 kg/m^3 has 4e-15 kg
 constexpr double kMoments = 1e30;  // kg m^2: kMasses at a distance of kFar
-constexpr double kNoLimit =
-    1e16;  // SDF's own number for a joint without limits; its files also write infinity and the largest double
 constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr double kLeastStep = 1e-6;  // s
 

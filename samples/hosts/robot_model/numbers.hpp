@@ -8,6 +8,9 @@
 
 namespace robot_model {
 
+/// SDF's own number for no limit, of a stop (m or rad) and of a coefficient of friction.
+inline constexpr double kNoLimit = 1e16;
+
 /// Whether the reader takes numbers from `path`: the names of an element and of its child or attribute, as in "mass/value".
 bool takes_numbers(std::string_view path);
 

@@ -6,15 +6,14 @@
 #include <stdexcept>
 
 #include "formats.hpp"
+#include "numbers.hpp"
 
 namespace robot_model {
 
 namespace {
 
-/// Stops from here on are none: SDF's own number for them, and others' infinity.
-constexpr double kNoLimit = 1e16;
-
-/// ODE has no stops of a hinge beyond half a revolution.
+/// Stops from kNoLimit on are none, infinity and the largest double among them. ODE has no stops of a hinge beyond half a
+/// revolution.
 Scene without_far_stops(Scene scene) {
   for (Joint& joint : scene.joints) {
     for (double* stop : {&joint.lower, &joint.upper}) {
