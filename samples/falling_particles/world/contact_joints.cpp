@@ -35,6 +35,15 @@ void set_relative_velocity(dContact& contact, const Vector3& velocity) {
 
 bool are_walls(dGeomID g1, dGeomID g2) { return grain_of(g1) == nullptr && grain_of(g2) == nullptr; }
 
+/// m/s, the velocity of the first body relative to the second one that two bodies need in a step (s) besides equal velocities at
+/// their contact, along its surface, because the contact is elsewhere in the middle of the step. It is taken to move as the mean of
+/// both centres. Two bodies that ride on each other turn with one angular velocity; then the place does not matter, and they follow
+/// the chord of the turn. What they move along the normal is left out, since an impact ends within the step.
+Vector3 excess_of_riders(dBodyID body1, dBodyID body2, const Vector3& normal, double step) {
+  const double turn = normal.dot(to_vector(dBodyGetAngularVel(body1)) + to_vector(dBodyGetAngularVel(body2)));
+  return step / 4 * turn * normal.cross(to_vector(dBodyGetLinearVel(body1)) - to_vector(dBodyGetLinearVel(body2)));
+}
+
 bool is_same_pair(const dContactGeom& a, const dContactGeom& b) { return a.g1 == b.g1 && a.g2 == b.g2; }
 
 }  // namespace
@@ -89,14 +98,23 @@ ContactJoints::Side ContactJoints::side_of(dGeomID geom) const {
 void ContactJoints::follow_chords(std::span<dContact> contacts, const Side& side1, const Side& side2) const {
   if (contacts.empty()) return;
   const dContactGeom& geom = contacts.front().geom;
-  const bool is_wall_first = grain_of(geom.g1) == nullptr;
-  if (are_walls(geom.g1, geom.g2)) return;
-  if ((is_wall_first ? side1 : side2).body == nullptr || (!is_wall_first && grain_of(geom.g2) != nullptr)) return;
-  const dBodyID grain = (is_wall_first ? side2 : side1).body;
-  const Vector3 excess = world_.walls().chord_excess(is_wall_first ? geom.g1 : geom.g2, to_vector(dBodyGetPosition(grain)),
-                                                     to_vector(dBodyGetLinearVel(grain)));
+  const bool is_grain1 = grain_of(geom.g1) != nullptr;
+  const bool is_grain2 = grain_of(geom.g2) != nullptr;
+  if (is_grain1 && is_grain2) {
+    // All contacts of the pair ask for one velocity.
+    const Vector3 excess = excess_of_riders(side1.body, side2.body, to_vector(geom.normal), world_.scene().time.step);
+    if (excess.isZero(0)) return;
+    for (dContact& contact : contacts) set_relative_velocity(contact, excess);
+    return;
+  }
+  // Of two walls the first is free, and rides.
+  const bool is_rider_first = is_grain1 || !is_grain2;
+  const auto [rider, wall] = is_rider_first ? std::pair{side1.body, side2.body} : std::pair{side2.body, side1.body};
+  if (rider == nullptr || wall == nullptr) return;
+  const Vector3 excess = world_.walls().chord_excess(is_rider_first ? geom.g2 : geom.g1, to_vector(dBodyGetPosition(rider)),
+                                                     to_vector(dBodyGetLinearVel(rider)));
   if (excess.isZero(0)) return;
-  for (dContact& contact : contacts) set_relative_velocity(contact, is_wall_first ? Vector3(-excess) : excess);
+  for (dContact& contact : contacts) set_relative_velocity(contact, is_rider_first ? excess : Vector3(-excess));
 }
 
 void ContactJoints::measure(dJointID joint, const dContact& contact, bool is_reversed) {

@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kFall = 9.81;
 constexpr double kStepOfWalls = 2e-4;
+constexpr double kTurn = 6.3;  // rad/s, of a turntable
 
 GrainKind light_ball() { return {"ball", {5e-3, 5e-3, 5e-3}, 2, 2, 0, 2000, "test"}; }
 GrainKind brick() { return {"brick", {0.01, 0.01, 4e-3}, 20, 20, 0, 2000, "test"}; }
@@ -228,6 +229,55 @@ TEST_CASE("a grain that rides on a rotating wall stays at its distance from the 
     CHECK(drift(plane({motion(Conveyor{Vector3::Zero(), turn})}), brick(), step, {0, 0, 0}) < 1e-6);
     // A ball that rolls without slip circles about the same axis, with 2/7 of the angular velocity.
     CHECK(drift(plane({motion(turn)}), light_ball(), step, {0, 0, 0}) < 2e-5);
+  }
+}
+
+TEST_CASE("a brick that rides on a plate, a free box on a rotating wall or a grain, stays at its distance from the axis") {
+  const auto speeds_at = [](const Vector3& position) {
+    return WallVelocity{Vector3(0, 0, kTurn).cross(position), Vector3(0, 0, kTurn)};
+  };
+  const Wall table = plane({motion(Rotation{Vector3::UnitZ(), {0, 0, 0}, kTurn * 30 / std::numbers::pi})});
+  for (const double step : {2e-3, 5e-4}) {
+    CAPTURE(step);
+    const auto on_table = [&](std::vector<Wall> walls, const GrainKind& kind) {
+      walls.push_back(table);
+      Scene scene = scene_on(std::move(walls), kind, {fx::Friction{1, {}}, fx::SurfaceLayer{1e-5}});
+      scene.time.step = step;
+      scene.solver.iterations = 100;
+      return scene;
+    };
+    const auto drift = [&](const World& world, const Scene& scene, const auto& position) {
+      Stepper stepper(world, scene);
+      const auto distance_after = [&](double duration) {
+        for (long left = std::lround(duration / step); left > 0; --left) stepper.step();
+        return position().head(2).norm();
+      };
+      const double before = distance_after(0.3);
+      return std::abs(distance_after(2) - before);
+    };
+    SUBCASE("a free box") {
+      const Vector3 place(0.05, 0.01, 0.01);
+      Wall box{"box", BoxShape{{0.03, 0.03, 0.02}}, {place, Eigen::Quaterniond::Identity()}};
+      box.flight = Flight{0.1, Vector3::Zero(), 0.1 / 6 * 9e-4 * Eigen::Matrix3d::Identity(), speeds_at(place)};
+      const Scene scene = on_table({box}, brick());
+      const World world(scene, {at(0.5)});
+      CHECK(drift(world, scene, [&] { return world.walls().state(0).pose.position; }) < 1e-6);
+    }
+    SUBCASE("a brick on a plate") {
+      GrainKind plate = brick();
+      plate.half_axes = {0.08, 0.08, 4e-3};
+      Scene scene = on_table({}, plate);
+      scene.kinds.push_back({brick(), 1});
+      const Vector3 place(0.05, 0.01, 12e-3);
+      const World world(
+          scene,
+          {{0, {0, 0, 4e-3}, {1, 0, 0, 0}, 1, {0, 0, 0}, {0, 0, kTurn}},
+           {1, {place.x(), place.y(), place.z()}, {1, 0, 0, 0}, 1, {-kTurn * place.y(), kTurn * place.x(), 0}, {0, 0, kTurn}}});
+      CHECK(drift(world, scene, [&] {
+              const Point p = world.grains()[1].position();
+              return Vector3(p[0], p[1], p[2]);
+            }) < 1e-4);
+    }
   }
 }
 
