@@ -46,16 +46,13 @@ double bytes_of_table(const MeasurementRequest& request, const Simulation& simul
 
 double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }  // s
 
-/// Takes the first steps as a run does.
+/// Takes the first steps.
 void time_steps(Simulation& simulation, Forecast& result) {
   constexpr int kSteps = 20;
   constexpr double kLongest = 0.5;  // s
   const double start = processor_time();
   do {
-    const double now = ++result.timed_steps * simulation.world.scene().time.step;
-    simulation.watches.energy.exchange(simulation.population.before_step(now));
-    simulation.stepper.step();
-    simulation.watches.after_step(now, simulation.stepper);
+    simulation.advance(++result.timed_steps * simulation.world.scene().time.step);
   } while (result.timed_steps < std::min(kSteps, result.steps) && processor_time() - start < kLongest);
   result.step = (processor_time() - start) / result.timed_steps;
 }

@@ -67,6 +67,12 @@ Simulation::Simulation(const Scene& scene, int threads, Saved&& saved)
   snResetStatistics();
 }
 
+void Simulation::advance(double now) {
+  watches.energy.exchange(population.before_step(now));
+  stepper.step();
+  watches.after_step(now, stepper);
+}
+
 std::string Simulation::save_for(const std::vector<supernormal::effects::Effect>& effects) const {
   Writer writer;
   writer(world.save(), random, stepper, watches, population);

@@ -48,6 +48,9 @@ class Simulation {
   /// Resumes the same scene from the result of save().
   Simulation(const Scene& scene, int threads, const std::string& saved);
 
+  /// Takes the step that ends at `now` (s), as a run without files does.
+  void advance(double now);
+
   /// Call it between two steps.
   std::string save() const { return save_for(world.scene().effects); }
   /// The same for a simulation with other effects. The work for effects that it lacks is forgotten.

@@ -17,14 +17,9 @@ namespace {
 
 Scene sample(const std::string& name) { return load_scene(std::string(SUPERNORMAL_SAMPLES) + "/scenes/" + name + ".toml"); }
 
-/// Steps as a run does; from step `from`, exclusive, to step `to`.
+/// From step `from`, exclusive, to step `to`.
 void advance(Simulation& simulation, const Scene& scene, int from, int to) {
-  for (int step = from + 1; step <= to; ++step) {
-    const double now = step * scene.time.step;
-    simulation.watches.energy.exchange(simulation.population.before_step(now));
-    simulation.stepper.step();
-    simulation.watches.after_step(now, simulation.stepper);
-  }
+  for (int step = from + 1; step <= to; ++step) simulation.advance(step * scene.time.step);
 }
 
 /// All numbers that a simulation has between two steps, bit for bit; not the times that steps took.
