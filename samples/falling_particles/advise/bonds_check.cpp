@@ -6,7 +6,9 @@
 
 #include "common/input_error.hpp"
 #include "common/interval.hpp"
+#include "doubts.hpp"
 #include "refusals.hpp"
+#include "world/placement.hpp"
 
 namespace falling_particles {
 namespace {
@@ -62,6 +64,28 @@ void refuse_bad_bonds(const World& world) {
                            " of the smallest half-axis, or other bonds have them; allowed: a start with such pairs");
   }
   refuse_stiff_bonds(world, scene.solver.iterations);
+}
+
+// bonds.md, "The step": a step damps a motion of angular frequency w by w step / 2 of the critical damping. The fastest motion of a
+// grain has (w step)^2 = Stiffness::relative, against neighbours of its own mass that move the other way.
+void add_doubts_about_bonds(const Scene& scene, std::vector<std::string>& doubts) {
+  const auto breaks = [](const BondRule& rule) {
+    return std::min(rule.tensile_strength, rule.shear_strength) < BondRule::kUnbreakable;
+  };
+  if (std::ranges::none_of(scene.bonds, breaks)) return;
+  Random random(scene.seed);
+  const World world(scene, place(scene, random));
+  const auto [relative, grain, index] = world.bonds()->stiffness();
+  if (!(relative > 0)) return;
+  const BondRule& rule = scene.bonds[world.bonds()->all()[index].rule];
+  const double by_step = std::sqrt(relative) / 2;
+  if (!breaks(rule) || by_step <= rule.damping) return;
+  const std::string remedy =
+      rule.damping > 0 ? "time.step up to " + rounded(scene.time.step * rule.damping / by_step) + " s would damp as much as that"
+                       : "half the time.step damps half as much";
+  doubts.push_back("bond \"" + rule.name + "\": a step damps its fastest motions by " + rounded(by_step) +
+                   " of the critical damping, besides bond.damping = " + shortest(rule.damping) +
+                   ", so impacts break fewer bonds; " + remedy);
 }
 
 void refuse_stiff_bonds(const World& world, int iterations) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "advise/doubts.hpp"
 #include "advise/forecast.hpp"
 #include "advise/refusals.hpp"
 #include "common/input_error.hpp"
@@ -128,11 +129,7 @@ struct Run {
   Run(const std::string& grains, const std::string& sections, const std::vector<std::string>& overrides = {})
       : scene(scene_with(folder, grains, sections, overrides)), simulation(scene, 1) {}
 
-  void step() {
-    simulation.watches.energy.exchange(simulation.population.before_step(++steps * scene.time.step));
-    simulation.stepper.step();
-    simulation.watches.after_step(steps * scene.time.step, simulation.stepper);
-  }
+  void step() { simulation.advance(++steps * scene.time.step); }
   void advance(double seconds) {
     for (const int end = steps + static_cast<int>(std::lround(seconds / scene.time.step)); steps < end;) step();
   }
@@ -583,6 +580,23 @@ std::string refusal_of(const std::string& sections, const std::vector<std::strin
 }
 
 }  // namespace
+
+TEST_CASE("bonds: a step that damps more than the scene asks is told where bonds may break") {
+  const auto told = [](const std::string& keys, const std::vector<std::string>& overrides = {}) {
+    const TemporaryFolder folder;
+    std::vector<std::string> doubts;
+    add_doubts_about_bonds(scene_with(folder, rods(3), bond("glue", "touching = 0.01\n" + keys), overrides), doubts);
+    return doubts;
+  };
+  CHECK(told("damping = 0.05\n").empty());  // nothing breaks
+  const std::vector<std::string> damped = told("damping = 0.05\ntensile_strength = 1e6\n");
+  REQUIRE(damped.size() == 1);
+  check_says(damped[0], {"bond \"glue\": a step damps its fastest motions by ", "besides bond.damping = 0.05", "time.step up to "});
+  const double step = std::stod(damped[0].substr(damped[0].find("time.step up to ") + 16));
+  CHECK(told("damping = 0.05\ntensile_strength = 1e6\n", {"time.step=" + shortest(1.1 * step)}).size() == 1);
+  CHECK(told("damping = 0.05\ntensile_strength = 1e6\n", {"time.step=" + shortest(0.9 * step)}).empty());
+  check_says(told("shear_strength = 1e6\n").at(0), {"besides bond.damping = 0", "half the time.step damps half as much"});
+}
 
 TEST_CASE("bonds: mistakes are refused with their name, value and range") {
   CHECK(refusal_of(bond("glue", "touching = 0.01\n")).empty());
