@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 #include "ode/geom/convert.hpp"
+#include "ode/support/require.hpp"
 
 namespace supernormal::stepper {
 namespace {
 
+using ode::require_finite;
 using ode::to_real;
 using ode::to_vector;
 
@@ -20,10 +20,6 @@ using ode::to_vector;
 // throws on passes a wall (README).
 constexpr double kFarOff = 0.25;
 constexpr double kFarTurned = 0.5;  // rad; the same for a body as long as twice its size
-
-void require(bool is_finite, const char* what) {
-  if (!is_finite) throw std::invalid_argument(std::string(what) + " is not finite");
-}
 
 /// The orientation after a rotation (rad, world frame).
 Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Vector3& rotation) {
@@ -70,8 +66,8 @@ void Body::read(const Vector3& gravity, bool is_rest) {
   stirs = is_free || !velocity.isZero(0) || !angular_velocity.isZero(0);
   is_awake = stirs && dBodyIsEnabled(id) != 0;
   is_held = is_free && dBodyGetNumJoints(id) > 0;
-  const Vector3 force = to_vector(dBodyGetForce(id)), torque = to_vector(dBodyGetTorque(id));
-  require(force.allFinite() && torque.allFinite(), "a force or torque on a body");
+  const Vector3 force = require_finite("force on a body", to_vector(dBodyGetForce(id)));
+  const Vector3 torque = require_finite("torque on a body", to_vector(dBodyGetTorque(id)));
   if (!is_rest || !force.isZero(0) || !torque.isZero(0)) {
     force_ = force;
     torque_ = torque;
@@ -84,9 +80,11 @@ void Body::read(const Vector3& gravity, bool is_rest) {
     if (dBodyGetGravityMode(id) != 0) acceleration_ += gravity;
   }
   keeps_momentum_ = is_free && dBodyGetGyroscopicMode(id) != 0;
-  require(start.allFinite() && rotation.allFinite(), "a position or orientation of a body");
-  require(velocity.allFinite() && angular_velocity.allFinite(), "a velocity of a body");
-  require(acceleration_.allFinite(), "an acceleration of a body");
+  require_finite("position of a body", start);
+  require_finite("unit quaternion of a body, x, y and z", orientation.vec());
+  require_finite("velocity of a body", velocity);
+  require_finite("angular velocity of a body", angular_velocity);
+  require_finite("acceleration of a body", acceleration_);
 }
 
 void Body::read_mass() {
