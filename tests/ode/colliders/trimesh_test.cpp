@@ -277,6 +277,48 @@ TEST_CASE("a body in a corner of a mesh room has one contact for each wall, and 
   for (const Spaced& s : spaced) CHECK(std::all_of(s.between.begin(), s.between.end(), [](char c) { return c == 'x'; }));
 }
 
+TEST_CASE("a flat body in a corner of a mesh room has a contact with each wall, and equal shares of the others") {
+  OdeSession session;
+  const MeshGeom room(box_arrays(3, 4, 5, true));
+  const Geom body(snCreateSuperellipsoid(nullptr, dReal(0.3), dReal(0.2), dReal(0.25), 40, 40));
+  place(body, {3 - 0.295, 4 - 0.195, 5 - 0.245});
+  for (int most = 1; most <= 12; ++most) {
+    CAPTURE(most);
+    std::array<int, 3> of_wall{};
+    const auto contacts = collide(body, room, most);
+    for (const dContactGeom& contact : contacts) {
+      for (std::size_t axis = 0; axis < 3; ++axis) of_wall[axis] += std::abs(contact.normal[axis]) > dReal(0.9) ? 1 : 0;
+    }
+    CHECK(3 - std::count(of_wall.begin(), of_wall.end(), 0) == std::min(most, 3));
+    if (most < 3) continue;
+    const auto [least, largest] = std::minmax_element(of_wall.begin(), of_wall.end());
+    CHECK(*largest - *least <= 1);
+    CHECK(contacts.size() == static_cast<std::size_t>(most));
+  }
+}
+
+TEST_CASE("a query of a body that looks ahead at a mesh is counted") {
+  OdeSession session;
+  const MeshGeom floor(floor_arrays(2, 2, 1));
+  const dWorldID world = dWorldCreate();
+  {
+    const Geom ball(snCreateEllipsoid(nullptr, dReal(0.1), dReal(0.1), dReal(0.08)));
+    const dBodyID body = dBodyCreate(world);
+    dGeomSetBody(ball, body);
+    dBodySetPosition(body, dReal(0.8), dReal(1.1), dReal(0.2));
+    dBodySetLinearVel(body, 0, 0, -20);
+    snGeomSetLookAhead(ball, dReal(0.01));
+    snResetStatistics();
+    CHECK(collide(ball, floor, 4).size() == 1);
+    snStatistics statistics;
+    snGetStatistics(&statistics);
+    CHECK(statistics.queries_cold + statistics.queries_warm >= 1);
+    CHECK(statistics.evaluations_cold + statistics.evaluations_warm >= 1);
+    CHECK(statistics.contacts == 1);
+  }
+  dWorldDestroy(world);
+}
+
 TEST_CASE("meshes of one triangle, without a usable triangle and with repeated triangles have the right contacts") {
   OdeSession session;
   const Geom body(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.7), dReal(0.3)));
