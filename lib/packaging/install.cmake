@@ -60,6 +60,7 @@ install(
   PATTERN "*.hpp"
   PATTERN supernormal.h EXCLUDE
   PATTERN effects.hpp EXCLUDE
+  PATTERN geom.hpp EXCLUDE
   PATTERN stepper.hpp EXCLUDE)
 configure_package_config_file(
   ${CMAKE_CURRENT_LIST_DIR}/supernormalConfig.cmake.in ${PROJECT_BINARY_DIR}/supernormalConfig.cmake
@@ -101,7 +102,7 @@ if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
 endif()
 install(
   FILES ${PROJECT_SOURCE_DIR}/include/supernormal/supernormal.h ${PROJECT_SOURCE_DIR}/include/supernormal/effects.hpp
-        ${PROJECT_SOURCE_DIR}/include/supernormal/stepper.hpp
+        ${PROJECT_SOURCE_DIR}/include/supernormal/geom.hpp ${PROJECT_SOURCE_DIR}/include/supernormal/stepper.hpp
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/supernormal
   COMPONENT supernormal_development)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/supernormalOde.cmake.in ${PROJECT_BINARY_DIR}/supernormalOde.cmake @ONLY)

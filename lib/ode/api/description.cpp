@@ -11,18 +11,11 @@
 #include "ode/geom/body.hpp"
 #include "ode/support/last_error.hpp"
 #include "ode/support/require.hpp"
+#include "supernormal/geom.hpp"
 #include "supernormal/supernormal.h"
 
 namespace supernormal::ode {
 namespace {
-
-/// Refuses points, segments and flat shapes across an axis. The core takes them, but a geom must have an interior.
-void require_widths(const Shape& shape) {
-  const char* const names[] = {"the half-width of the shape along x", "the half-width of the shape along y",
-                               "the half-width of the shape along z"};
-  const Vector3 half = shape.half_extents();
-  for (int axis = 0; axis < 3; ++axis) require_in(names[axis], half[axis], kMinLength, kMaxLength, "m");
-}
 
 void copy_geom(dGeomID from, dGeomID to) {
   const dReal* const position = dGeomGetPosition(from);
@@ -57,9 +50,7 @@ extern "C" int snGeomDescribe(dGeomID geom, char* text, int capacity) {
 extern "C" dGeomID snCreateFromDescription(dSpaceID space, const char* text) {
   return guarded("snCreateFromDescription", dGeomID{}, [&] {
     require_not_null("text", text);
-    const auto shape = read_shape(text);
-    require_widths(*shape);
-    return create_geom(space, Body::of(shape));
+    return create_geom(space, read_shape(text));
   });
 }
 
