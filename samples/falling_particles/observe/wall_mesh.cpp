@@ -50,13 +50,29 @@ std::vector<Vector3> circle(double radius) {
   return corners;
 }
 
+Vector3 corner_of(const Box3& box, int index) { return box.corner(static_cast<Box3::CornerType>(index)); }
+
+/// The rectangle in the plane z = 0 of a frame on which a box stands.
+std::vector<Vector3> below(const Box3& box, const WallPose& pose, const Eigen::Quaterniond& turn) {
+  Eigen::AlignedBox2d shadow;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3 there = turn.conjugate() * (pose.rotation.conjugate() * (corner_of(box, corner) - pose.position));
+    shadow.extend(Eigen::Vector2d(there.head<2>()));
+  }
+  const Eigen::Vector2d centre = shadow.center(), size = shadow.sizes();
+  std::vector<Vector3> corners = rectangle(size.x(), size.y());
+  for (Vector3& corner : corners) corner.head<2>() += centre;
+  return corners;
+}
+
 struct Mesher {
-  double extent;
+  const Box3& region;
+  const WallPose& pose;
 
   Mesh operator()(const PlaneShape& plane) const {
     Mesh mesh;
-    const std::vector<Vector3> outline = plane.shown_radius > 0 ? circle(plane.shown_radius) : rectangle(extent, extent);
-    const auto turn = rotation_between(Vector3::UnitZ(), plane.normal);
+    const Eigen::Quaterniond turn = rotation_between(Vector3::UnitZ(), plane.normal);
+    const std::vector<Vector3> outline = plane.shown_radius > 0 ? circle(plane.shown_radius) : below(region, pose, turn);
     for (const Vector3& corner : outline) mesh.vertices.push_back(vertex(turn * corner));
     for (unsigned int i = 2; i < outline.size(); ++i) mesh.triangles.push_back({0, i - 1, i});
     return mesh;
@@ -115,9 +131,29 @@ std::vector<std::array<unsigned int, 2>> sharp_edges(const Mesh& mesh) {
 
 }  // namespace
 
-WallPicture picture_of(const Wall& wall, double extent) {
-  WallPicture picture{
-      wall.name, wall.moves() ? WallPicture::Role::Moving : WallPicture::Role::Still, std::visit(Mesher{extent}, wall.shape), {}};
+Box3 region_of_planes(Box3 contents, std::span<const Wall> walls) {
+  constexpr double kAcross = 1e-6;  // rad; a plane that is tilted more bounds no side of the box
+  const Vector3 size = contents.sizes();
+  Vector3 least = contents.min() - size / 2, most = contents.max() + size / 2;
+  for (const Wall& wall : walls) {
+    const auto* const plane = std::get_if<PlaneShape>(&wall.shape);
+    if (plane == nullptr) continue;
+    const Vector3 normal = wall.start.rotation * plane->normal;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(normal[axis]) < 1 - kAcross * kAcross) continue;
+      double& side = normal[axis] > 0 ? least[axis] : most[axis];
+      const double place = wall.start.position[axis];
+      if (std::abs(place - side) <= size.norm()) side = place;
+    }
+  }
+  return {least.cwiseMin(most), least.cwiseMax(most)};
+}
+
+WallPicture picture_of(const Wall& wall, const Box3& region) {
+  WallPicture picture{wall.name,
+                      wall.moves() ? WallPicture::Role::Moving : WallPicture::Role::Still,
+                      std::visit(Mesher{region, wall.start}, wall.shape),
+                      {}};
   // Smooth bodies have no edges, however sharply their triangles bend.
   if (!std::holds_alternative<SmoothShape>(wall.shape)) picture.edges = sharp_edges(picture.mesh);
   const auto* const mesh = std::get_if<MeshShape>(&wall.shape);
@@ -129,7 +165,8 @@ WallPicture picture_of(const Wall& wall, double extent) {
 
 std::vector<SurfacePoint> surface_of(const Wall& wall, const Container& container) {
   const Rectangle plan = plan_of(container);
-  const Mesh mesh = picture_of(wall, std::hypot(plan.width[0], plan.width[1])).mesh;
+  const Vector3 half = Vector3::Constant(std::hypot(plan.width[0], plan.width[1]) / 2);
+  const Mesh mesh = picture_of(wall, {wall.start.position - half, wall.start.position + half}).mesh;
   const auto corner = [&](unsigned int index) {
     const auto& [x, y, z] = mesh.vertices[index];
     return wall.moves() ? wall.start(Vector3(x, y, z)) : Vector3(x, y, z);

@@ -38,10 +38,21 @@ WallPlace place_of(const WallPose& pose) {
   return {{p.x(), p.y(), p.z()}, {q.w(), q.x(), q.y(), q.z()}, 1};
 }
 
-/// m, a width of planes such that the grains of the scene stay above them.
-double width_of_planes(const Scene& scene) {
+/// The container's plan up to `top` (m), the feeders, and the parts that are not infinite. A resumed run finds the same.
+Box3 contents_box(const Scene& scene, double top) {
   const Rectangle plan = plan_of(scene.container);
-  return 2 * std::max(plan.width[0], plan.width[1]);
+  const double floor = lowest_start(scene.container);
+  Box3 box(Vector3(plan.corner[0], plan.corner[1], std::min(floor, top)));
+  box.extend(Vector3(plan.corner[0] + plan.width[0], plan.corner[1] + plan.width[1], std::max(floor, top)));
+  for (const Feeder& feeder : scene.feeders) {
+    const Vector3 corner(feeder.region.corner.data());
+    box.extend(corner).extend(Vector3(corner + Vector3(feeder.region.size.data())));
+  }
+  for (const Wall& wall : scene.parts()) {
+    const Vector3 radius = Vector3::Constant(bounding_radius(wall.shape));
+    if (radius.allFinite()) box.extend(Vector3(wall.start.position - radius)).extend(Vector3(wall.start.position + radius));
+  }
+  return box;
 }
 
 ContactState state_of(const dContactGeom& contact, const World& world) {
@@ -106,7 +117,8 @@ Contents contents_of(const World& world, const Scene& scene, double top) {
   Contents contents{&scene, {}, {}};
   add_new_grains(contents, world);
   contents.walls = pictures_of(scene.container, top, scene.periodic);
-  for (const Wall& wall : scene.parts()) contents.walls.push_back(picture_of(wall, width_of_planes(scene)));
+  const Box3 region = region_of_planes(contents_box(scene, top), scene.walls);
+  for (const Wall& wall : scene.parts()) contents.walls.push_back(picture_of(wall, region));
   return contents;
 }
 

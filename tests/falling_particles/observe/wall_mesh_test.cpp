@@ -38,6 +38,12 @@ bool is_closed(const Mesh& mesh) {
   return true;
 }
 
+/// m
+Box3 cube(double side, const Vector3& centre = Vector3::Zero()) {
+  const Vector3 half = Vector3::Constant(side / 2);
+  return {centre - half, centre + half};
+}
+
 }  // namespace
 
 TEST_CASE("pictures of parts are closed, look outwards, and have the parts' volumes") {
@@ -50,7 +56,7 @@ TEST_CASE("pictures of parts are closed, look outwards, and have the parts' volu
   for (const auto& [shape, wanted, edges] : shapes) {
     Wall wall{"part", shape};
     wall.motions = {{Translation{{1, 0, 0}}}};
-    const WallPicture picture = picture_of(wall, 1);
+    const WallPicture picture = picture_of(wall, cube(1));
     CHECK(picture.role == WallPicture::Role::Moving);
     CHECK(is_closed(picture.mesh));
     CHECK(volume(picture.mesh) == doctest::Approx(wanted).epsilon(0.02));
@@ -59,7 +65,7 @@ TEST_CASE("pictures of parts are closed, look outwards, and have the parts' volu
 }
 
 TEST_CASE("the picture of a plane looks along the plane's own normal") {
-  const WallPicture picture = picture_of({"wall", PlaneShape{0, -Vector3::UnitY()}, {{0, 1, 0}}}, 0.4);
+  const WallPicture picture = picture_of({"wall", PlaneShape{0, -Vector3::UnitY()}, {{0, 1, 0}}}, cube(0.4));
   const auto& [a, b, c] = picture.mesh.triangles.at(0);
   const Vector3 p = vertex_at(picture.mesh, a);
   CHECK(((vertex_at(picture.mesh, b) - p).cross(vertex_at(picture.mesh, c) - p).normalized() + Vector3::UnitY()).norm() < 1e-6);
@@ -68,7 +74,7 @@ TEST_CASE("the picture of a plane looks along the plane's own normal") {
 
 TEST_CASE("the picture of a part that stands is where it stands, and that of a plane looks along its normal") {
   Wall wall{"wall", PlaneShape{}, {{0, 0, 2}, Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()))}};
-  const WallPicture picture = picture_of(wall, 0.4);
+  const WallPicture picture = picture_of(wall, cube(0.4, {0, 0, 2}));
   CHECK(picture.role == WallPicture::Role::Still);
   REQUIRE(picture.mesh.triangles.size() == 2);
   const auto& [a, b, c] = picture.mesh.triangles[0];
@@ -81,9 +87,37 @@ TEST_CASE("the picture of a part that stands is where it stands, and that of a p
   }
 }
 
+TEST_CASE("planes are drawn below the contents of the scene: the faces of a cell, and a floor as wide again") {
+  const Box3 contents(Vector3(1, 2, 3), Vector3(1.2, 2.4, 3.8));
+  const auto plane = [](const Vector3& normal, const Vector3& position) {
+    return Wall{"plane", PlaneShape{0, normal}, {position, Eigen::Quaterniond::Identity()}};
+  };
+  const std::vector<Wall> cell = {plane(Vector3::UnitX(), {0.95, 0, 0}), plane(-Vector3::UnitX(), {1.25, 7, 0}),
+                                  plane(Vector3::UnitY(), {0, 1.9, 0}),  plane(-Vector3::UnitY(), {0, 2.5, -3}),
+                                  plane(Vector3::UnitZ(), {5, 5, 2.9}),  plane(-Vector3::UnitZ(), {0, 0, 3.9})};
+  const Box3 room(Vector3(0.95, 1.9, 2.9), Vector3(1.25, 2.5, 3.9));
+  CHECK(region_of_planes(contents, cell).isApprox(room));
+  const auto box_of = [](const WallPicture& picture) {
+    Box3 box;
+    for (unsigned int i = 0; i < picture.mesh.vertices.size(); ++i) box.extend(vertex_at(picture.mesh, i));
+    return box;
+  };
+  Box3 drawn;
+  for (const Wall& wall : cell) {
+    const Box3 face = box_of(picture_of(wall, room));
+    CHECK(face.sizes().minCoeff() < 1e-6);
+    drawn.extend(face);
+  }
+  CHECK(drawn.isApprox(room, 1e-6));
+  const std::vector<Wall> floor = {plane(Vector3::UnitZ(), {50, -70, 2.9}), plane(Vector3(0, 0.6, 0.8), {0, 0, 2})};
+  const Box3 wide = region_of_planes(contents, floor);
+  CHECK(wide.isApprox(Box3(Vector3(0.9, 1.8, 2.9), Vector3(1.3, 2.6, 4.2))));
+  CHECK(box_of(picture_of(floor[0], wide)).isApprox(Box3(Vector3(0.9, 1.8, 2.9), Vector3(1.3, 2.6, 2.9)), 1e-6));
+}
+
 TEST_CASE("the picture of a ground has its samples around its position, and looks upwards") {
   const Wall ground{"ground", GroundShape{3, {0.1, 0.2}, {0, 0, 0.5, 0, 1, 0, 0, 0, 0}}, {{1, 2, 3}}};
-  const WallPicture picture = picture_of(ground, 1);
+  const WallPicture picture = picture_of(ground, cube(1));
   REQUIRE(picture.mesh.vertices.size() == 9);
   REQUIRE(picture.mesh.triangles.size() == 8);
   CHECK((vertex_at(picture.mesh, 0) - Vector3(0.9, 1.8, 3)).norm() < 1e-6);
@@ -99,7 +133,7 @@ TEST_CASE("the ends of a drum are shown as discs as wide as the drum") {
   const Drum drum{.diameter = 0.2, .length = 0.1, .segments = 24, .rpm = 10, .is_smooth = false, .turns_at = 0};
   const std::vector<Wall> walls = walls_in(drum);
   for (const std::size_t end : {1U, 2U}) {
-    const WallPicture picture = picture_of(walls[end], 0.7);
+    const WallPicture picture = picture_of(walls[end], cube(0.7));
     double radius = 0;
     for (const auto& [x, y, z] : picture.mesh.vertices) radius = std::max(radius, Vector3(x, y, z).norm());
     CHECK(radius == doctest::Approx(drum.outer_radius()).epsilon(1e-6));

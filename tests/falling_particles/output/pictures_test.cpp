@@ -60,7 +60,7 @@ std::vector<WallPicture> walls_of_scene(const Scene& scene) {
   std::vector<WallPicture> walls = pictures_of(scene.container, 0.1);
   Wall plate{"plate", BoxShape{{0.02, 0.04, 0.01}}};
   plate.motions = {{Translation{{1, 0, 0}}}};
-  walls.push_back(picture_of(plate, 1));
+  walls.push_back(picture_of(plate, {Vector3::Constant(-0.5), Vector3::Constant(0.5)}));
   return walls;
 }
 
