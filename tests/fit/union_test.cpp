@@ -25,6 +25,20 @@ TEST_CASE("a dumbbell is fitted by two bodies") {
   }
 }
 
+TEST_CASE("two ellipsoids that overlap are fitted by two, and one by one") {
+  const auto ellipsoid = [](double x, const Vector3& half_axes) {
+    return Body{Family::Ellipsoid, {x, 0, 0}, Eigen::Quaterniond::Identity(), half_axes};
+  };
+  const std::vector<Body> truth = {ellipsoid(-0.004, {0.009, 0.007, 0.006}), ellipsoid(0.01, {0.006, 0.005, 0.004})};
+  const FitSettings settings{.family = Family::Ellipsoid};
+  const std::vector<FittedBody> fitted = fit_union(scatter_union(truth, 250, 0, 1), 2, settings);
+  REQUIRE(fitted.size() == 2);
+  const std::size_t left = fitted[0].body.position.x() < fitted[1].body.position.x() ? 0 : 1;
+  CHECK((fitted[left].body.position - truth[0].position).norm() < 1e-4);
+  CHECK((fitted[1 - left].body.position - truth[1].position).norm() < 1e-4);
+  CHECK(fit_union(scatter_union({truth[0]}, 250, 0, 1), 2, settings).size() == 1);
+}
+
 TEST_CASE("the six bodies of an animal end with its points") {
   const auto ball = [](const Vector3& position, const Vector3& half_axes) {
     return Body{Family::Ellipsoid, position, Eigen::Quaterniond::Identity(), half_axes};
