@@ -90,7 +90,10 @@ def _queries(table, body_class, name):
         axes.set(
             xlabel="median error of the gap / smallest half-axis" if k > 1 else "", ylabel="" if k % 2 else "median time, µs"
         )
-    panels[1].legend(*panels[0].get_legend_handles_labels(), loc="upper left")
+    # A method may have points in some panels only.
+    handles = {label: handle for axes in panels for handle, label in zip(*axes.get_legend_handles_labels())}
+    named = [method for method in QUERY_METHODS if method in handles]
+    panels[1].legend([handles[method] for method in named], named, loc="upper left")
     return figure
 
 
@@ -124,7 +127,7 @@ def _outcomes(outcomes, forms):
         settled.bar(range(len(names)), heights, 0.7, bottom, color=colour, label=phase)
         bottom = [low + height for low, height in zip(bottom, heights)]
     settled.set(title="settled: a step of the same bed", ylabel="ms")
-    settled.set_xticks(range(len(names)), names, rotation=-35, ha="left", fontsize=7.5)
+    settled.set_xticks(range(len(names)), names, rotation=35, ha="right", rotation_mode="anchor", fontsize=7.5)
     settled.legend(loc="upper left")
     return figure
 
