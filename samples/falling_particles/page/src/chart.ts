@@ -8,7 +8,7 @@ const height = 150;
 const frame = { left: 8, right: 292, top: 22, bottom: 132 };
 
 export class EnergyChart {
-  private readonly cursor = makeSvg("line", { y1: frame.top, y2: frame.bottom, stroke: "#1d2733", "stroke-width": 1 });
+  private readonly cursor = makeSvg("line", { y1: frame.top, y2: frame.bottom, stroke: "var(--ink)", "stroke-width": 1 });
   private readonly values: SVGElement[];
   private readonly curves: { name: string; colour: string; numbers: number[] }[];
 
@@ -19,21 +19,23 @@ export class EnergyChart {
   ) {
     const total = run.kinetic.map((kinetic, k) => kinetic + run.potential[k]);
     this.curves = [
-      { name: "kinetic", colour: "#d55e00", numbers: run.kinetic },
-      { name: "potential", colour: "#0072b2", numbers: run.potential },
-      { name: "total", colour: "#1d2733", numbers: total },
+      { name: "kinetic", colour: "var(--kinetic)", numbers: run.kinetic },
+      { name: "potential", colour: "var(--potential)", numbers: run.potential },
+      { name: "total", colour: "var(--ink)", numbers: total },
     ];
     const all = this.curves.flatMap(({ numbers }) => numbers);
     const [least, most] = [Math.min(0, ...all), Math.max(0, ...all)];
     const y = (energy: number) => frame.bottom - ((energy - least) / (most - least || 1)) * (frame.bottom - frame.top);
     const svg = makeSvg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": "Energies over time" });
-    svg.append(makeSvg("line", { x1: frame.left, x2: frame.right, y1: y(0), y2: y(0), stroke: "#d6dce3" }));
+    svg.append(makeSvg("line", { x1: frame.left, x2: frame.right, y1: y(0), y2: y(0), stroke: "var(--line)" }));
     for (const { colour, numbers } of this.curves) {
       const points = numbers.map((energy, k) => `${this.x(run.times[k]).toFixed(1)},${y(energy).toFixed(1)}`);
       svg.append(makeSvg("polyline", { points: points.join(" "), fill: "none", stroke: colour, "stroke-width": 1.6 }));
     }
     this.values = this.curves.map(({ colour }, k) => {
-      const key = makeSvg("text", { x: frame.left + [0, 88, 198][k], y: 12 });
+      // Each third of the width holds the longest label, such as "potential −1.23 mJ".
+      const x = [frame.left, (frame.left + frame.right) / 2, frame.right][k];
+      const key = makeSvg("text", { x, y: 12, "text-anchor": ["start", "middle", "end"][k] });
       key.style.fill = colour;
       return key;
     });

@@ -24,7 +24,7 @@ export type MarkName = (typeof markNames)[number];
 const contactColour = 0xb3001b;
 const normalColour = 0x111827;
 const manifoldColour = 0xb3001b;
-const forceColour = 0x7a1fa2;
+const forceColour = 0xff2fa0; // neither on the ramp nor of a kind
 const boxColour = 0x4b5a6a;
 
 export class Marks {

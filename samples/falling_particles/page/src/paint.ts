@@ -41,7 +41,7 @@ export class Painter {
       case "kind":
         return of((body) => run.kindOf(body).colour);
       case "speed":
-        return of((body) => rampAt(run.speed(body, frame) / this.fastest));
+        return of((body) => rampAt(1 + Math.log10(run.speed(body, frame) / this.fastest) / decades));
       case "size":
         return of((body) => rampAt((this.sizes[body] - this.smallest) / (this.largest - this.smallest || 1)));
       case "contacts": {
@@ -67,7 +67,7 @@ export class Painter {
           return make("div", { class: "swatch" }, colour, make("span", {}, kind.name), make("b", {}, String(count)));
         });
       case "speed":
-        return ramp("0", `${withUnit(this.fastest, "m/s")} and more`);
+        return ramp(`${withUnit(this.fastest / 10 ** decades, "m/s")} and less`, `${withUnit(this.fastest, "m/s")} and more`);
       case "size":
         return ramp(withUnit(this.smallest, "m"), withUnit(this.largest, "m"));
       case "contacts":
@@ -78,6 +78,7 @@ export class Painter {
   }
 }
 
+const decades = 4; // of speeds: a bed after a fall has them, too
 const mostTouches = 12; // what equal spheres have room for
 
 /** The largest mean of the bodies' speeds in any frame, doubled, so that most of the colours are in use. */

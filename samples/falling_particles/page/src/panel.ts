@@ -21,8 +21,8 @@ export class Panel {
 
   private showEffects(sections: Section[]): void {
     const effects = effectsOf(sections);
-    if (effects.size === 0) return;
     const columns = ["seconds", "rows", "bodies"].filter((column) => [...effects.values()].some((row) => row.has(column)));
+    if (columns.length === 0) return;
     const rows = [...effects].map(([name, row]) => [
       name.replaceAll("_", " "),
       ...columns.map((column) => (row.has(column) ? compact(Number(row.get(column)), column) : "")),
@@ -37,7 +37,7 @@ export class Panel {
       const rows = shown.map(({ key, value, comment }) => {
         const label = make("span", comment ? { title: comment } : {}, key.replaceAll("_", " ").replaceAll(".", ": "));
         const unit = /^(m|s|J|kg|kg\/s|m\/s|kg\/m\^3|degrees)(,|$)/.exec(comment)?.[1] ?? "";
-        return [label, `${value.replaceAll('"', "")} ${unit}`.trim()];
+        return [label, quantity(value.replaceAll('"', ""), unit)];
       });
       const table = makeTable(rows);
       table.prepend(make("caption", {}, name));
@@ -87,6 +87,12 @@ export class Panel {
     const note = make("p", { class: "note" }, `${own.length} ${own.length === 1 ? "contact" : "contacts"} ${at}:`);
     return make("div", { class: "contacts" }, note, makeTable(rows, heading));
   }
+}
+
+/** A small quantity with a prefix, as the rest of the page has it; others as the summary has them. */
+function quantity(value: string, unit: string): string {
+  const isSmall = Math.abs(Number(value)) < 1; // false for what is no number
+  return isSmall && ["m", "s", "J", "m/s"].includes(unit) ? withUnit(Number(value), unit) : `${value} ${unit}`.trim();
 }
 
 function compact(number: number, column: string): string {
