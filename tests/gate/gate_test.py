@@ -150,22 +150,26 @@ class Parts(unittest.TestCase):
 
 
 class Summary(unittest.TestCase):
-    """.ci/ctest on a build of shell commands."""
+    """.ci/ctest on a build of commands."""
 
     def run_tests(self, *tests):
         with tempfile.TemporaryDirectory() as folder:
-            text = ''.join(f'add_test({name} "/bin/sh" "-c" "{command}")\nset_tests_properties({name} PROPERTIES SKIP_RETURN_CODE 77)\n' for name, command in tests)
+            text = ''.join(f'add_test({name} {command})\nset_tests_properties({name} PROPERTIES SKIP_RETURN_CODE 77)\n' for name, command in tests)
             (pathlib.Path(folder) / 'CTestTestfile.cmake').write_text(text, encoding='utf-8')
             result = subprocess.run([ROOT / '.ci/ctest', folder, '.'], check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
             return result.returncode, result.stdout.splitlines()
 
     def test_skipped_tests_are_named_with_their_reason(self):
-        code, lines = self.run_tests(('good', 'true'), ('left', 'echo skipped: no browser; exit 77'))
+        code, lines = self.run_tests(('good', '/bin/true'), ('left', '/bin/sh -c "echo skipped: no browser; exit 77"'))
         self.assertEqual((code, lines[-2:]), (0, ['skipped: left: no browser', '1 passed, 0 failed, 1 skipped']))
 
     def test_a_failure_is_named_and_fails(self):
-        code, lines = self.run_tests(('good', 'true'), ('bad', 'false'))
+        code, lines = self.run_tests(('good', '/bin/true'), ('bad', '/bin/false'))
         self.assertEqual((code, lines[-2:]), (1, ['FAILED: bad', '1 passed, 1 failed, 0 skipped']))
+
+    def test_a_test_that_cannot_run_fails(self):
+        code, lines = self.run_tests(('good', '/bin/true'), ('unbuilt', '/nowhere/program'))
+        self.assertEqual((code, lines[-2:]), (1, ['FAILED: unbuilt', '1 passed, 1 failed, 0 skipped']))
 
     def test_nothing_that_ran_fails(self):
         self.assertEqual(self.run_tests()[0], 1)
