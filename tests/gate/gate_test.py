@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
-"""What .ci/affected, .ci/part and .ci/ctest decide: gate_test.py ROOT. Small trees of files stand for the repository."""
+"""What .ci/affected, .ci/part, .ci/ctest and tests/run decide: gate_test.py ROOT. Small trees of files stand for the repository."""
+import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -147,6 +149,48 @@ class Parts(unittest.TestCase):
 
     def test_no_part_has_a_wrong_name(self):
         self.assertEqual(subprocess.run([ROOT / '.ci/part', 'lint_'], stderr=subprocess.DEVNULL, check=False).returncode, 2)
+
+
+class Names(unittest.TestCase):
+    """What tests/run builds and runs, in a tree where nothing is installed, built or run."""
+
+    def run_names(self, *arguments, products=('falling_particles', 'fit')):
+        """Exit code, the targets of ninja, and the groups of tests."""
+        with tempfile.TemporaryDirectory() as folder:
+            tree = pathlib.Path(folder)
+            said = {'cmake': 'targets', '.ci/install-packages': 'packages', '.ci/ctest': 'groups'}
+            for program, file in said.items():
+                path = tree / (program if '/' in program else f'bin/{program}')
+                path.parent.mkdir(exist_ok=True)
+                path.write_text(f'#!/bin/sh\nfor word; do echo "$word"; done >>"{tree}/{file}"\n', encoding='utf-8')
+                path.chmod(0o755)
+            for name in ('tests/run', '.ci/usage.bash'):
+                (tree / name).parent.mkdir(exist_ok=True)
+                shutil.copy(ROOT / name, tree / name)
+            for product in products:
+                (tree / 'samples' / product).mkdir(parents=True)
+                (tree / 'samples' / product / 'CMakeLists.txt').touch()
+            environment = {**os.environ, 'PATH': f'{tree}/bin:{os.environ["PATH"]}'}
+            code = subprocess.run([tree / 'tests/run', *arguments], env=environment, stderr=subprocess.DEVNULL, check=False).returncode
+            return code, *((tree / file).read_text(encoding='utf-8').splitlines() if code == 0 else [] for file in ('targets', 'groups'))
+
+    def test_without_a_name_the_library_what_is_shared_and_falling_particles(self):
+        code, targets, groups = self.run_names()
+        self.assertEqual(code, 0)
+        self.assertLessEqual({'lib/all', 'tests/all', 'tests/common/all', 'falling_particles'}, set(targets))
+        self.assertLess({'build/release', 'tests/common'}, set(groups))
+        self.assertEqual({group.split()[0] for group in groups}, {'build/release', 'tests', 'tests/common', 'samples/falling_particles'})
+
+    def test_without_falling_particles_the_library(self):
+        code, _, groups = self.run_names(products=())
+        self.assertEqual((code, {group.split()[0] for group in groups}), (0, {'build/release', 'tests', 'tests/common'}))
+
+    def test_the_package_of_python_has_the_scenes(self):
+        self.assertIn('samples/falling_particles -R ^python', self.run_names('python')[2])
+
+    def test_what_is_no_name_is_refused_before_anything_starts(self):
+        for arguments in ([''], ['common'], ['fit/'], ['../tests'], ['--what'], ['--sanitize', 'fit'], ['--sanitize', 'packaging']):
+            self.assertEqual(self.run_names(*arguments)[0], 2, arguments)
 
 
 class Summary(unittest.TestCase):
