@@ -317,6 +317,24 @@ class Names(unittest.TestCase):
             self.assertEqual(self.run_names(*arguments)[0], 2, arguments)
 
 
+class Alone(unittest.TestCase):
+    def test_files_that_are_not_compiled_here_are_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            tree = pathlib.Path(folder).resolve()
+            for name in ('.ci', 'bin', 'build/debug'):
+                (tree / name).mkdir(parents=True)
+            shutil.copy(ROOT / '.ci/compile-alone', tree / '.ci')
+            (tree / 'bin/cmake').symlink_to('/bin/true')
+            shutil.copy('/bin/true', tree / 'build/debug/here.o')
+            commands = f'  "command": "/usr/bin/c++ -o here.o -c {tree}/lib/here.cpp",\n'
+            (tree / 'build/debug/compile_commands.json').write_text(commands, encoding='utf-8')
+            (tree / 'files').write_text('lib/here.cpp\nlib/elsewhere.cpp\n', encoding='utf-8')
+            environment = {**os.environ, 'PATH': f'{tree}/bin:{os.environ["PATH"]}'}
+            result = subprocess.run([tree / '.ci/compile-alone', 'files'], env=environment, check=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.assertIn('not compiled on this machine: lib/elsewhere.cpp\n', result.stderr)
+            self.assertEqual(result.stdout, '1 of 2 files compile by themselves\n')
+
+
 class Stages(unittest.TestCase):
     """.ci/run in a tree where each stage writes its words into a file, and fails or stops where a test says so."""
 
