@@ -346,7 +346,7 @@ words="${{0#{tree}/}} $*"
 echo "$words" >>{tree}/said
 [[ -z "{fails}" || "$words" != {fails or '-'}* ]]
 """
-            programs = ['bin/cmake', 'bin/clang-format', 'tests/run', 'samples/run']
+            programs = ['bin/cmake', 'bin/clang-format', 'tests/run', 'samples/run', 'build/release/tests/pairs']
             programs += [f'.ci/{name}' for name in ('install-packages', 'affected', 'ctest', 'lint', 'compile-alone', 'sanitized', 'part')]
             texts = {program: script for program in programs}
             texts['.ci/part'] = f'#!/bin/bash\ncase "$*" in\n"") printf "%s\\n" "first: x" "second: x" ;;\n--turn) echo first ;;\n*)\n{script};;\nesac\n'
