@@ -212,10 +212,18 @@ TEST_CASE("a body ends with the data of a bent object") {
 
 TEST_CASE("half of a body of the families is not kept from extending beyond the data") {
   const Body truth = oblong();
-  const FittedBody fitted =
-      fit_body(scatter(truth, {.points = 1000, .noise = 0.01, .is_half_missing = true}), {.family = truth.family});
+  const Cloud half = scatter(truth, {.points = 1000, .noise = 0.01, .is_half_missing = true});
+  const FittedBody fitted = fit_body(half, {.family = truth.family});
   CHECK_FALSE(fitted.is_bounded_by_data);
   CHECK(fitted.body.half_axes.x() == doctest::Approx(1.5).epsilon(0.02));
+  // The error of the volume says that the other half follows; unless it is large.
+  FitError error = find_error(std::vector{fitted.body}, {half, {}, ""});
+  CHECK(doubts_about(std::vector{fitted}, error).at(0).find("scan more sides") != std::string::npos);
+  add_uncertainty(error, std::vector{fitted});
+  CHECK(error.reach > 0.2 * error.radius);
+  CHECK(doubts_about(std::vector{fitted}, error).empty());
+  error.volume_error = 0.2 * error.body.volume;
+  CHECK(doubts_about(std::vector{fitted}, error).size() == 1);
 }
 
 TEST_CASE("the volume of a closed mesh counts, and its error includes what is missed") {

@@ -120,11 +120,17 @@ std::vector<std::string> doubts_about(std::span<const FittedBody> fitted, const 
   constexpr const char* kMoreBodies = "try more --bodies";
   add("the root mean square distance of the data from the surface is", error.rms / error.radius, kMostDistance, "their radius",
       kMoreBodies);
-  add("the surface extends beyond the data by", error.reach / error.radius, kMostReach, "their radius", kMoreBodies);
+  const bool is_bounded = std::ranges::any_of(fitted, &FittedBody::is_bounded_by_data);
+  // Where a body of the families fits, its other sides follow, and the error of the volume says how well. It is not known (0) of a
+  // quick fit.
+  const bool is_free = error.is_hull && !is_bounded;
+  const bool follows = is_free && error.volume_error > 0 && error.volume_error < kMostVolume * error.body.volume;
+  if (!follows)
+    add("the surface extends beyond the data by", error.reach / error.radius, kMostReach, "their radius",
+        is_free ? "scan more sides" : kMoreBodies);
   if (!error.is_hull)
     add("the volume differs by", std::abs(error.body.volume / error.data.volume - 1), kMostVolume, "the closed mesh's",
         kMoreBodies);
-  const bool is_bounded = std::ranges::any_of(fitted, &FittedBody::is_bounded_by_data);
   if (error.is_hull && is_bounded)
     add("no body of the families fits, and the data hide", error.openness, kMostOpenness, "the surface", "scan more sides");
   std::size_t outliers = 0, points = 0;
