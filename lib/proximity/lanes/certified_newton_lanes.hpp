@@ -49,6 +49,10 @@ struct LaneSearch {
   using V = Vec<R>;
   using S = Sym<R>;
   using M = Mask<W>;
+  using P = typename SideBySide<W>::Type;  // of both bodies
+
+  SUPERNORMAL_INLINE static P both(R x, R y) { return SideBySide<W>::of(x, y); }
+  SUPERNORMAL_INLINE static Vec<P> both(V x, V y) { return {both(x.x, y.x), both(x.y, y.y), both(x.z, y.z)}; }
 
   /// A table: one row of numbers for each field, one column for each pair.
   template <int kRows>
@@ -70,9 +74,22 @@ struct LaneSearch {
       put(field + 3, V{value.xy, value.xz, value.yz});
     }
     /// Puts the numbers of some lanes.
-    SUPERNORMAL_INLINE void put_in(M lanes, int field, R value) { put(field, select(lanes, value, at(field))); }
-    SUPERNORMAL_INLINE void put_in(M lanes, int field, V value) { put(field, select(lanes, value, vec(field))); }
-    SUPERNORMAL_INLINE void put_in(M lanes, int field, const S& value) { put(field, select(lanes, value, sym(field))); }
+    SUPERNORMAL_INLINE void put_in(M lanes, int field, R value) {
+      if constexpr (W == 1) {
+        if (lanes.v) put(field, value);
+      } else {
+        put(field, select(lanes, value, at(field)));
+      }
+    }
+    SUPERNORMAL_INLINE void put_in(M lanes, int field, V value) {
+      put_in(lanes, field, value.x);
+      put_in(lanes, field + 1, value.y);
+      put_in(lanes, field + 2, value.z);
+    }
+    SUPERNORMAL_INLINE void put_in(M lanes, int field, const S& value) {
+      put_in(lanes, field, V{value.xx, value.yy, value.zz});
+      put_in(lanes, field + 3, V{value.xy, value.xz, value.yz});
+    }
   };
   using Pairs = Table<kFields>;
   using Found = Table<kFoundFields>;
@@ -278,38 +295,35 @@ struct LaneSearch {
   /// Of two superellipsoids, evaluated side by side.
   struct Superellipsoids {
     static constexpr bool kOfEllipsoids = false;
-    using P = Two<R>;
     const Pairs& state;
     Mat<R> rotation;
     PowerBody<P> bodies;
     PointJet<P> jets;
     S H1, H2, rotated2;
     SUPERNORMAL_INLINE Superellipsoids(const Pairs& pairs, const Mat<R>& of_2) : state(pairs), rotation(of_2) {
-      bodies = {{both(kHalf1, kHalf2), both(kHalf1 + 1, kHalf2 + 1), both(kHalf1 + 2, kHalf2 + 2)},
-                {both(kNorms1, kNorms2), both(kNorms1 + 1, kNorms2 + 1)},
-                {both(kNorms1 + 2, kNorms2 + 2), both(kNorms1 + 3, kNorms2 + 3)}};
+      bodies = {both(state.vec(kHalf1), state.vec(kHalf2)),
+                {both_at(kNorms1, kNorms2), both_at(kNorms1 + 1, kNorms2 + 1)},
+                {both_at(kNorms1 + 2, kNorms2 + 2), both_at(kNorms1 + 3, kNorms2 + 3)}};
     }
     SUPERNORMAL_INLINE Evaluation evaluate(V n, V m, V offset) {
-      jets = point_jet(bodies, Vec<P>{{n.x, m.x}, {n.y, m.y}, {n.z, m.z}});
-      const V r1 = {jets.r.x.a, jets.r.y.a, jets.r.z.a};
-      const V r2 = rotation * V{jets.r.x.b, jets.r.y.b, jets.r.z.b};
-      return {dot(n, offset) - jets.h.a - jets.h.b, jets.h.a, r2 + (offset - r1), r1};
+      jets = point_jet(bodies, both(n, m));
+      const V r1 = first(jets.r), r2 = rotation * second(jets.r);
+      return {dot(n, offset) - first(jets.h) - second(jets.h), first(jets.h), r2 + (offset - r1), r1};
     }
     SUPERNORMAL_INLINE void hessians(V, S& of_1, S& of_both) {
-      const Sym<P> H =
-          hessian(bodies, jets, P(state.at(kFlats1), state.at(kFlats2)), P(state.at(kFlats1 + 1), state.at(kFlats2 + 1)));
-      H1 = {H.xx.a, H.yy.a, H.zz.a, H.xy.a, H.xz.a, H.yz.a};
-      H2 = {H.xx.b, H.yy.b, H.zz.b, H.xy.b, H.xz.b, H.yz.b};
+      const Sym<P> H = hessian(bodies, jets, both_at(kFlats1, kFlats2), both_at(kFlats1 + 1, kFlats2 + 1));
+      H1 = first(H);
+      H2 = second(H);
       rotated2 = rotated(rotation, H2);
       of_1 = H1;
       of_both = H1 + rotated2;
     }
     SUPERNORMAL_INLINE void put_body2(M lanes, Found& found) const {
-      found.put_in(lanes, kFoundH2, jets.h.b);
-      found.put_in(lanes, kFoundR2, V{jets.r.x.b, jets.r.y.b, jets.r.z.b});
+      found.put_in(lanes, kFoundH2, second(jets.h));
+      found.put_in(lanes, kFoundR2, second(jets.r));
       found.put_in(lanes, kFoundHessian2, H2);
     }
-    SUPERNORMAL_INLINE P both(int field1, int field2) const { return P(state.at(field1), state.at(field2)); }
+    SUPERNORMAL_INLINE P both_at(int field1, int field2) const { return both(state.at(field1), state.at(field2)); }
     SUPERNORMAL_INLINE M has_flat_faces() const {
       const auto of = [this](int gauges) { return (R(1.0) < state.at(gauges)) | (R(1.0) < state.at(gauges + 2)); };
       return of(kGauges1) | of(kGauges2);
@@ -327,8 +341,8 @@ struct LaneSearch {
 
     SUPERNORMAL_INLINE Meeting meet(const Vec<P>& normal, const Vec<P>& point) const {
       const Vec<P> inverse = {P(1.0) / bodies.half.x, P(1.0) / bodies.half.y, P(1.0) / bodies.half.z};
-      const NormExponents<P> inner = {both(kGauges1, kGauges2), both(kGauges1 + 1, kGauges2 + 1)};
-      const LevelJet<P> level = level_jet(inverse, inner, both(kGauges1 + 2, kGauges2 + 2), point);
+      const NormExponents<P> inner = {both_at(kGauges1, kGauges2), both_at(kGauges1 + 1, kGauges2 + 1)};
+      const LevelJet<P> level = level_jet(inverse, inner, both_at(kGauges1 + 2, kGauges2 + 2), point);
       const P height = dot(level.gradient, normal);
       Meeting out;
       out.is_ahead = length(level.gradient) * limits::kGrazing < height;
@@ -374,15 +388,11 @@ struct LaneSearch {
       const V share1 = across * (flatness1 / select(R(0.0) < flatness, flatness, R(1.0)));
       const V move1 = select(has_step, H1 * normal_step, share1);
       const V move2 = transposed_times(rotation, select(has_step, -(rotated2 * normal_step), share1 - across));
-      const Vec<P> normals = {{n.x, m.x}, {n.y, m.y}, {n.z, m.z}},
-                   moves = {{move1.x, move2.x}, {move1.y, move2.y}, {move1.z, move2.z}};
-      const Meeting meeting = meet(normals, jets.r + moves);
-      const V v1 = {meeting.normal.x.a, meeting.normal.y.a, meeting.normal.z.a};
-      const V v2 = -(rotation * V{meeting.normal.x.b, meeting.normal.y.b, meeting.normal.z.b});
-      const M is_ahead1 = meeting.is_ahead.a, is_ahead2 = meeting.is_ahead.b;
+      const Meeting meeting = meet(both(n, m), jets.r + both(move1, move2));
+      const V v1 = first(meeting.normal), v2 = -(rotation * second(meeting.normal));
+      const M is_ahead1 = first(meeting.is_ahead), is_ahead2 = second(meeting.is_ahead);
 
-      const auto& K = meeting.curvature;
-      const S K1 = {K.xx.a, K.yy.a, K.zz.a, K.xy.a, K.xz.a, K.yz.a}, K2 = {K.xx.b, K.yy.b, K.zz.b, K.xy.b, K.xz.b, K.yz.b};
+      const S K1 = first(meeting.curvature), K2 = second(meeting.curvature);
       const Regular curvatures(K1 + rotated(rotation, K2), R(0.0), n, R(1.0) / state.at(kUnit), limits::kLargestCurvature);
       const M meets = is_ahead1 & is_ahead2 & curvatures.is_regular;
       const V further = curvatures.solve(select(meets, v2 - v1, none));
@@ -576,12 +586,11 @@ struct LaneSearch {
     const V x1 = {point.x / half1.x, point.y / half1.y, point.z / half1.z},
             x2 = {from2.x / half2.x, from2.y / half2.y, from2.z / half2.z};
     if (of_ellipsoids) return (dot(x1, x1) <= R(1.0)) & (dot(x2, x2) <= R(1.0));
-    using P = Two<R>;
-    const auto both = [&](int field) { return P(pairs.at(kGauges1 + field), pairs.at(kGauges2 + field)); };
-    const NormExponents<P> inner = {both(0), both(1)}, outer = {both(2), both(3)};
-    const P across = norm_value(abs(P(x1.x, x2.x)), abs(P(x1.y, x2.y)), inner);
-    const P gauge = norm_value(across, abs(P(x1.z, x2.z)), outer);
-    return (gauge.a <= R(1.0)) & (gauge.b <= R(1.0));
+    const auto of_both = [&](int field) { return both(pairs.at(kGauges1 + field), pairs.at(kGauges2 + field)); };
+    const NormExponents<P> inner = {of_both(0), of_both(1)}, outer = {of_both(2), of_both(3)};
+    const Vec<P> x = both(x1, x2);
+    const P gauge = norm_value(norm_value(abs(x.x), abs(x.y), inner), abs(x.z), outer);
+    return (first(gauge) <= R(1.0)) & (second(gauge) <= R(1.0));
   }
 
   /// m; sizes of the bodies of W pairs.

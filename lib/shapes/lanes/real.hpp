@@ -241,5 +241,26 @@ SUPERNORMAL_TWO Two<R> sqrt(Two<R> x) { return {sqrt(x.a), sqrt(x.b)}; }
 SUPERNORMAL_TWO Two<R> abs(Two<R> x) { return {abs(x.a), abs(x.b)}; }
 SUPERNORMAL_TWO Two<R> with_sign(Two<R> x, Two<R> y) { return {with_sign(x.a, y.a), with_sign(x.b, y.b)}; }
 
+/// The two of W lanes. In one lane they fill one register.
+template <int W>
+struct SideBySide {
+  using Type = Two<Real<W>>;
+  SUPERNORMAL_INLINE static Type of(Real<W> x, Real<W> y) { return {x, y}; }
+};
+template <>
+struct SideBySide<1> {
+  using Type = Real<2>;
+  SUPERNORMAL_INLINE static Type of(Real<1> x, Real<1> y) { return Type::Raw{x.v, y.v}; }
+};
+
+SUPERNORMAL_TWO R first(Two<R> x) { return x.a; }
+SUPERNORMAL_TWO R second(Two<R> x) { return x.b; }
+SUPERNORMAL_TWO R first(TwoMasks<R> x) { return x.a; }
+SUPERNORMAL_TWO R second(TwoMasks<R> x) { return x.b; }
+SUPERNORMAL_INLINE Real<1> first(Real<2> x) { return x.v[0]; }
+SUPERNORMAL_INLINE Real<1> second(Real<2> x) { return x.v[1]; }
+SUPERNORMAL_INLINE Mask<1> first(Mask<2> x) { return {x.v[0] != 0}; }
+SUPERNORMAL_INLINE Mask<1> second(Mask<2> x) { return {x.v[1] != 0}; }
+
 }  // namespace
 }  // namespace supernormal

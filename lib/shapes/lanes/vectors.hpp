@@ -37,6 +37,9 @@ SUPERNORMAL_VEC T length(Vec<T> a) { return sqrt(dot(a, a)); }
 SUPERNORMAL_VEC Vec<T> part_across(Vec<T> v, Vec<T> n) { return v - n * dot(v, n); }
 SUPERNORMAL_VEC Vec<T> unit(Vec<T> a) { return a * (T(1.0) / length(a)); }
 SUPERNORMAL_VEC Vec<T> times(Vec<T> a, Vec<T> b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+// Of two side by side (SideBySide).
+SUPERNORMAL_VEC auto first(const Vec<T>& a) -> Vec<decltype(first(a.x))> { return {first(a.x), first(a.y), first(a.z)}; }
+SUPERNORMAL_VEC auto second(const Vec<T>& a) -> Vec<decltype(second(a.x))> { return {second(a.x), second(a.y), second(a.z)}; }
 SUPERNORMAL_VEC T smallest(Vec<T> a) { return min(min(a.x, a.y), a.z); }
 template <typename T, typename M>
 SUPERNORMAL_INLINE Vec<T> select(M mask, Vec<T> a, Vec<T> b) {
@@ -55,6 +58,12 @@ template <typename T, typename M>
 SUPERNORMAL_INLINE Sym<T> select(M mask, const Sym<T>& a, const Sym<T>& b) {
   return {select(mask, a.xx, b.xx), select(mask, a.yy, b.yy), select(mask, a.zz, b.zz),
           select(mask, a.xy, b.xy), select(mask, a.xz, b.xz), select(mask, a.yz, b.yz)};
+}
+SUPERNORMAL_VEC auto first(const Sym<T>& a) -> Sym<decltype(first(a.xx))> {
+  return {first(a.xx), first(a.yy), first(a.zz), first(a.xy), first(a.xz), first(a.yz)};
+}
+SUPERNORMAL_VEC auto second(const Sym<T>& a) -> Sym<decltype(second(a.xx))> {
+  return {second(a.xx), second(a.yy), second(a.zz), second(a.xy), second(a.xz), second(a.yz)};
 }
 /// The matrix of the cofactors: the inverse times the determinant.
 SUPERNORMAL_VEC Sym<T> cofactors(const Sym<T>& a) {
