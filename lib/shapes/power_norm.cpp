@@ -63,7 +63,6 @@ void PowerNorm::evaluate_requests(std::array<PowerNormRequest, kCount>& requests
 
 template void PowerNorm::evaluate_requests(std::array<PowerNormRequest, 1>& requests, Order order);
 template void PowerNorm::evaluate_requests(std::array<PowerNormRequest, 2>& requests, Order order);
-template void PowerNorm::evaluate_requests(std::array<PowerNormRequest, 4>& requests, Order order);
 
 bool PowerNorm::is_plain(double x, double y, double z) { return std::min({x, y, z}) > kPlainRatio * std::max({x, y, z}); }
 
@@ -102,7 +101,6 @@ void PowerNorm::evaluate_requests(std::array<PowerNorm3Request, kCount>& request
 
 template void PowerNorm::evaluate_requests(std::array<PowerNorm3Request, 1>& requests, Order order);
 template void PowerNorm::evaluate_requests(std::array<PowerNorm3Request, 2>& requests, Order order);
-template void PowerNorm::evaluate_requests(std::array<PowerNorm3Request, 4>& requests, Order order);
 
 double PowerNorm::value(double x, double y) const {
   std::array<PowerNormRequest, 1> request = {{{this, x, y, {}}}};

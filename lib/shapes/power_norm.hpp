@@ -62,7 +62,7 @@ class PowerNorm {
   /// Value, first and second derivatives: all members of PowerNormJet.
   void curvature(double x, double y, PowerNormJet& jet) const;
 
-  /// Answers one, two or four requests up to `order`. Two requests together take two thirds of the time of two in sequence: the
+  /// Answers one or two requests up to `order`. Two requests together take two thirds of the time of two in sequence: the
   /// logarithms and exponentials of one norm wait for each other, but not for the other norm.
   template <std::size_t kCount>
   static void evaluate_requests(std::array<PowerNormRequest, kCount>& requests, Order order);

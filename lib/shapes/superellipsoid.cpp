@@ -195,7 +195,6 @@ void SuperellipsoidBatch::evaluate(const std::array<Request, kCount>& requests, 
 }
 
 template void SuperellipsoidBatch::evaluate(const std::array<Request, 2>& requests, Order order);
-template void SuperellipsoidBatch::evaluate(const std::array<Request, 4>& requests, Order order);
 
 void Superellipsoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
   SuperellipsoidBatch::evaluate(std::array<SuperellipsoidBatch::Request, 1>{{{this, &n, &jet}}}, order);

@@ -17,7 +17,7 @@ inline const Superellipsoid* as_superellipsoid(const Shape& shape) {
 }
 
 /// Evaluates several superellipsoids, with the digits of Superellipsoid::evaluate(). No body waits for the powers and roots of
-/// another: two take two thirds of the time of two calls, four normals of a body half of the time of four.
+/// another: two take two thirds of the time of two calls.
 class SuperellipsoidBatch {
  public:
   struct Request {
@@ -26,7 +26,7 @@ class SuperellipsoidBatch {
     Jet* jet;          ///< the result
   };
 
-  /// For one, two or four requests.
+  /// For one or two requests.
   template <std::size_t kCount>
   static void evaluate(const std::array<Request, kCount>& requests, Order order);
 

@@ -64,12 +64,13 @@ CornerList corners_of(const ConvexPolygon& region, const Side& side1, const Side
   for (int k = 0; k < region.size(); ++k) squared_reach = std::max(squared_reach, region[k].squaredNorm());
   const double reach = std::sqrt(squared_reach);
   const auto [u, v] = common_axes(side1, side2);
-  const std::array<Vector2, 4> diagonals = {u + v, v - u, -u - v, u - v};
+  const Vector2 far_u = kLookFrom * reach * u, far_v = kLookFrom * reach * v;
+  const std::array<Vector2, 4> nearest =
+      region.nearest_to(std::array<Vector2, 4>{far_u + far_v, far_v - far_u, -far_u - far_v, far_u - far_v});
   CornerList corners;
-  for (std::size_t k = 0; k < diagonals.size(); ++k) {
-    const Vector2 corner = region.nearest_to(kLookFrom * reach * diagonals[k]);
-    corners.points[k] = frame.lift(corner);
-    corners.separations[k] = slope.dot(corner);
+  for (std::size_t k = 0; k < nearest.size(); ++k) {
+    corners.points[k] = frame.lift(nearest[k]);
+    corners.separations[k] = slope.dot(nearest[k]);
   }
   return corners;
 }

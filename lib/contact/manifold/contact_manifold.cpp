@@ -1,9 +1,9 @@
 #include "supernormal/contact/contact_manifold.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "contact/manifold/common_corners.hpp"
 #include "contact/manifold/corner_depth.hpp"
@@ -22,6 +22,9 @@ constexpr double kMoved = 0.01;
 // Two manifold points are equally deep if their depths differ by less than this fraction of the distance above the deepest at which
 // a point is shallow.
 constexpr double kSameDepth = 1e-9;
+
+// Adding this rounds to an integer, and keeps the order of larger numbers.
+constexpr double kToWhole = 0x1.8p52;
 
 // The weight of a shallow point (ContactManifold::shallow) when two points are merged, as a fraction of its height above the
 // deepest.
@@ -55,11 +58,11 @@ void put_shallowest_pair_first(std::array<ManifoldCorner, ContactManifold::kMaxC
   std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(shallowest), corners.end());
 }
 
-/// Whether two of the points are nearer to each other than `distance`.
+/// Whether two of the points are within `distance` of each other.
 bool are_near(std::span<const ManifoldCorner> corners, double distance) {
   for (std::size_t k = 1; k < corners.size(); ++k) {
     for (std::size_t other = 0; other < k; ++other) {
-      if ((corners[k].point - corners[other].point).squaredNorm() < distance * distance) return true;
+      if ((corners[k].point - corners[other].point).squaredNorm() <= distance * distance) return true;
     }
   }
   return false;
@@ -68,7 +71,6 @@ bool are_near(std::span<const ManifoldCorner> corners, double distance) {
 /// Moves manifold points that are near each other to their mean, as deep as the deepest. Points at `distance` coincide, points at
 /// twice the distance do not move.
 void move_together(std::span<ManifoldCorner> corners, double distance) {
-  if (!are_near(corners, 2 * distance)) return;
   std::array<ManifoldCorner, ContactManifold::kMaxCorners> drawn;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     Vector3 sum = Vector3::Zero();
@@ -100,10 +102,16 @@ void remove_repeated(ContactManifold& manifold) {
   manifold.corner_count = static_cast<int>(end - kept);
 }
 
-/// Whether the manifold points are at more places than the two ends of an edge.
-bool is_face(ContactManifold manifold) {
+/// Joins manifold points that are near each other.
+void join_near(ContactManifold& manifold) {
+  if (!are_near(manifold.corners, 2 * manifold.same_place)) return;
   move_together(manifold.corners, manifold.same_place);
   remove_repeated(manifold);
+}
+
+/// Whether the manifold points are at more places than the two ends of an edge.
+bool is_face(ContactManifold manifold) {
+  join_near(manifold);
   return manifold.corner_count > 2;
 }
 
@@ -113,13 +121,14 @@ void put_deepest_first(std::span<ManifoldCorner> corners, double shallow) {
   double depth = corners.front().depth;
   for (const ManifoldCorner& corner : corners) depth = std::max(depth, corner.depth);
   const double unit = kSameDepth * shallow;
-  const auto units_above = [&](const ManifoldCorner& corner) { return std::round((depth - corner.depth) / unit); };
+  std::array<double, ContactManifold::kMaxCorners> units_above;
+  for (std::size_t k = 0; k < corners.size(); ++k) units_above[k] = (depth - corners[k].depth) / unit + kToWhole;
   // By insertion: std::stable_sort would allocate memory.
-  for (auto next = corners.begin(); next != corners.end(); ++next) {
-    const auto place = std::upper_bound(
-        corners.begin(), next, *next,
-        [&](const ManifoldCorner& corner, const ManifoldCorner& other) { return units_above(corner) < units_above(other); });
-    std::rotate(place, next, next + 1);
+  for (std::size_t next = 1; next < corners.size(); ++next) {
+    for (std::size_t k = next; k > 0 && units_above[k] < units_above[k - 1]; --k) {
+      std::swap(units_above[k], units_above[k - 1]);
+      std::swap(corners[k], corners[k - 1]);
+    }
   }
 }
 
@@ -149,14 +158,21 @@ ContactManifold find_plane_manifold(const Shape& shape, const Pose& pose, const 
                                     Write* write) {
   ContactManifold manifold(proximity);
   if (proximity.status == Status::InvalidInput || !may_have_corners(shape)) return manifold;
-  // At the border of a sheet the contact may be beside the point on which the body would stand if the sheet continued.
-  const Vector3 support_point = pose.rotation * shape.point(pose.rotation.transpose() * proximity.normal) + pose.position;
-  const double below = std::max(0.0, proximity.normal.dot(support_point - proximity.point1));
-  const bool is_beside = below > kBelow * shape.half_extents().minCoeff();
-  const Vector3& stands_on = is_beside ? support_point : proximity.point1;
-  const double gap = is_beside ? proximity.gap - below : proximity.gap;
+  Vector3 stands_on = proximity.point1;
+  double gap = proximity.gap;
+  // Only the closed form of a plane has no error, and its point is the support point. At the border of a sheet the contact may be
+  // beside the point on which the body would stand if the sheet continued.
+  if (proximity.global_error > 0) {
+    const Vector3 support_point = pose.rotation * shape.point(pose.rotation.transpose() * proximity.normal) + pose.position;
+    ++manifold.evaluations;
+    const double below = proximity.normal.dot(support_point - proximity.point1);
+    if (below > kBelow * shape.half_extents().minCoeff()) {
+      stands_on = support_point;
+      gap -= below;
+    }
+  }
   const SupportPolygon polygon(shape, pose, proximity.normal, stands_on, std::max({0.0, -gap, approach}));
-  manifold.evaluations = 1 + polygon.evaluations();
+  manifold.evaluations += polygon.evaluations();
   if (!polygon.has_width()) return manifold;
   write(corners_over_plane(polygon, proximity.normal), allowed_separation(polygon), gap, manifold);
   manifold.same_place = kSamePlace * polygon.size();
@@ -213,8 +229,7 @@ ContactManifold reduced_to(ContactManifold manifold, int max_contacts) {
   if (max_contacts == 3) put_shallowest_pair_first(corners, shallow);
   if (max_contacts < 4) merge(corners[0], corners[1], depth - shallow, least_weight);
   if (max_contacts < 3) merge(corners[2], corners[3], depth - shallow, least_weight);
-  move_together(corners, manifold.same_place);
-  remove_repeated(manifold);
+  join_near(manifold);
   put_deepest_first({corners.begin(), static_cast<std::size_t>(manifold.corner_count)}, shallow);
   corners[0].depth = depth;  // equal up to rounding
   return manifold;

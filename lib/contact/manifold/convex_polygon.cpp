@@ -48,21 +48,29 @@ ConvexPolygon ConvexPolygon::intersected(const ConvexPolygon& other) const {
   return rest;
 }
 
-Vector2 ConvexPolygon::nearest_to(const Vector2& point) const {
-  Vector2 nearest = vertices_[0];
-  double least = HUGE_VAL;
+template <std::size_t kCount>
+std::array<Vector2, kCount> ConvexPolygon::nearest_to(const std::array<Vector2, kCount>& points) const {
+  std::array<Vector2, kCount> nearest;
+  nearest.fill(vertices_[0]);
+  std::array<double, kCount> least;
+  least.fill(HUGE_VAL);
   for (int k = 0; k < size_; ++k) {
     const Vector2 here = (*this)[k];
     const Vector2 edge = (*this)[k + 1 < size_ ? k + 1 : 0] - here;
     const double length = edge.squaredNorm();
-    const double share = std::clamp(edge.dot(point - here) / (length > 0 ? length : 1), 0.0, 1.0);
-    const Vector2 candidate = here + share * edge;
-    const double distance = (point - candidate).squaredNorm();
-    if (distance >= least) continue;
-    least = distance;
-    nearest = candidate;
+    const double divisor = length > 0 ? length : 1;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const Vector2 candidate = here + std::clamp(edge.dot(points[i] - here) / divisor, 0.0, 1.0) * edge;
+      const double distance = (points[i] - candidate).squaredNorm();
+      if (distance >= least[i]) continue;
+      least[i] = distance;
+      nearest[i] = candidate;
+    }
   }
   return nearest;
 }
+
+template std::array<Vector2, 1> ConvexPolygon::nearest_to(const std::array<Vector2, 1>& points) const;
+template std::array<Vector2, 4> ConvexPolygon::nearest_to(const std::array<Vector2, 4>& points) const;
 
 }  // namespace supernormal

@@ -5,7 +5,8 @@
 
 #include "contact/manifold/unit_root.hpp"
 #include "proximity/tangent_plane.hpp"
-#include "shapes/superellipsoid_batch.hpp"
+#include "shapes/lanes/four_normals.hpp"
+#include "shapes/lanes/lane_body_of.hpp"
 
 namespace supernormal {
 namespace {
@@ -45,11 +46,13 @@ constexpr double kLong = 2;
 
 using Tilt = std::array<double, 2>;  // of the normal, n + tilt[0] axes[0] + tilt[1] axes[1]
 
-// The four tilts along the axes and the four along the diagonals, in units of the largest tilt along either axis. The diagonals are
-// counter-clockwise. Vertex k lies between the tilts kSideTilts[k][0] and kSideTilts[k][1] along the axes.
-constexpr std::array<Tilt, 4> kAxes = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-constexpr std::array<Tilt, 4> kDiagonals = {{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
-constexpr std::array<std::array<std::size_t, 2>, 4> kSideTilts = {{{0, 2}, {1, 2}, {1, 3}, {0, 3}}};
+/// A number of each of four tilts.
+using Four = Eigen::Array4d;
+using FourTilts = std::array<Four, 2>;
+
+// The four tilts along the axes, and the four along the diagonals, counter-clockwise.
+FourTilts along_axes(const Tilt& largest) { return {largest[0] * Four(1, -1, 0, 0), largest[1] * Four(0, 0, 1, -1)}; }
+FourTilts along_diagonals(const Tilt& largest) { return {largest[0] * Four(1, -1, -1, 1), largest[1] * Four(1, 1, -1, -1)}; }
 
 /// The ramp is 0 up to `zero` and 1 from `one` on. Either may be the larger one. Callers pass constants, so the compiler computes
 /// the quotient.
@@ -83,6 +86,7 @@ double tangent_of_tilt(double reach, double height) {
 struct SupportPolygon::View {
   const Shape& shape;
   const Pose& pose;
+  Vector3 half_extents;  // m
   Matrix3 to_body;
   Vector3 normal;
   Vector3 support_point;        // m
@@ -92,6 +96,7 @@ struct SupportPolygon::View {
   View(const Shape& body, const Pose& pose_of_body, const Vector3& n, const Vector3& point)
       : shape(body),
         pose(pose_of_body),
+        half_extents(body.half_extents()),
         to_body(pose.rotation.transpose()),
         normal(to_body * n),
         support_point(to_body * (point - pose.position)),
@@ -102,37 +107,40 @@ struct SupportPolygon::View {
 /// The points of a body whose normals are tilted against n by the same angle, in units of the half-extents.
 class SupportPolygon::Tilts {
  public:
-  /// A point of the body, relative to the support point.
-  struct SupportPoint {
-    Tilt along{};           ///< m; along the axes
-    double separation = 0;  ///< m; from the tangent plane
+  /// Points of the body, relative to the support point.
+  template <typename Number>
+  struct Points {
+    std::array<Number, 2> along;  ///< m; along the axes
+    Number separation;            ///< m; from the tangent plane
   };
-  using SupportPoints = std::array<SupportPoint, 4>;
+  using SupportPoint = Points<double>;
+  using SupportPoints = Points<Four>;
 
   Tilts(const View& view, double height, const std::array<double, 2>& extents, const std::array<double, 2>& tangents)
-      : shape_(&view.shape),
-        n_(view.normal),
-        axes_(view.axes),
-        support_point_(view.support_point),
+      : view_(view),
         rolling_radius_(view.shape.rolling_radius()),
         extents_(extents),
         largest_({tangents[0] * height / extents[0], tangents[1] * height / extents[1]}),
-        half_extents_(view.shape.half_extents()),
-        ends_of_body_(points_of(kAxes)),
-        ends_(without_ball(ends_of_body_, kAxes)) {}
+        ends_of_body_(points_of(along_axes(largest_))),
+        ends_(without_ball(ends_of_body_, along_axes(largest_))),
+        lengths_({ends_.along[0][0] - ends_.along[0][1], ends_.along[1][2] - ends_.along[1][3]}) {}
 
   /// The points of the four tilts along the axes.
   const SupportPoints& ends() const { return ends_; }
 
   /// The points of the four diagonals.
-  SupportPoints diagonals() const { return without_ball(points_of(kDiagonals), kDiagonals); }
+  SupportPoints diagonals() const {
+    const FourTilts tilts = along_diagonals(largest_);
+    return without_ball(points_of(tilts), tilts);
+  }
 
   /// The slope of the line through both ends of each axis; 0 if they coincide.
   Tilt slope() const {
+    const Four& above = ends_.separation;
+    const std::array<double, 2> rise = {above[0] - above[1], above[2] - above[3]};
     Tilt slope{};
     for (std::size_t a = 0; a < 2; ++a) {
-      const double rise = ends_[2 * a].separation - ends_[2 * a + 1].separation;
-      if (has_length(a)) slope[a] = std::clamp(rise / length(a), -largest_[a], largest_[a]);
+      if (has_length(a)) slope[a] = std::clamp(rise[a] / lengths_[a], -largest_[a], largest_[a]);
     }
     return slope;
   }
@@ -141,94 +149,85 @@ class SupportPolygon::Tilts {
   /// the separations from this plane and from the tilted planes. The fraction is 1 along an axis along which the body ends in a
   /// point.
   std::array<double, 2> fractions(const Tilt& slope, const SupportPoint& from) const {
+    const FourTilts tilts = along_axes(largest_);
+    Four above = ends_of_body_.separation - from.separation, sum = Four::Zero();
+    for (std::size_t a = 0; a < 2; ++a) {
+      const Four along = ends_of_body_.along[a] - from.along[a];
+      above -= slope[a] * along;
+      sum += (tilts[a] - slope[a]) * along;
+    }
+    above = above.min(sum).max(0);
+    const Four of_tilted = (sum - above) * tilted(slope).cwiseProduct(view_.half_extents).norm() / sizes_of(tilts);
+    const std::array<double, 2> separation = {above[0] + above[1], above[2] + above[3]};
+    const std::array<double, 2> of_both = {separation[0] + (of_tilted[0] + of_tilted[1]),
+                                           separation[1] + (of_tilted[2] + of_tilted[3])};
     std::array<double, 2> fractions = {1, 1};
     for (std::size_t a = 0; a < 2; ++a) {
-      if (!has_length(a)) continue;
-      double separation = 0;
-      double of_tilted = 0;
-      for (std::size_t end = 2 * a; end < 2 * a + 2; ++end) {
-        const SupportPoint& point = ends_of_body_[end];
-        Tilt tilt{};
-        double above = point.separation - from.separation;
-        double sum = 0;
-        for (std::size_t b = 0; b < 2; ++b) {
-          tilt[b] = kAxes[end][b] * largest_[b];
-          const double along = point.along[b] - from.along[b];
-          above -= slope[b] * along;
-          sum += (tilt[b] - slope[b]) * along;
-        }
-        above = std::clamp(above, 0.0, std::max(0.0, sum));
-        separation += above;
-        of_tilted += (sum - above) * size_of(slope) / size_of(tilt);
-      }
-      fractions[a] = separation + of_tilted > 0 ? separation / (separation + of_tilted) : 0;
+      if (has_length(a)) fractions[a] = of_both[a] > 0 ? separation[a] / of_both[a] : 0;
     }
     return fractions;
   }
 
   SupportPoint point_of(const Tilt& tilt) const {
-    Jet jet;
-    const Vector3 normal = tilted(tilt).normalized();
-    shape_->evaluate(normal, Order::Point, jet);
-    return relative(jet.r);
+    const Vector3 offset = view_.shape.point(tilted(tilt).normalized()) - view_.support_point;
+    return {{view_.axes[0].dot(offset), view_.axes[1].dot(offset)}, std::max(0.0, -view_.normal.dot(offset))};
   }
 
  private:
-  double length(std::size_t axis) const { return ends_[2 * axis].along[axis] - ends_[2 * axis + 1].along[axis]; }
-  bool has_length(std::size_t axis) const { return length(axis) > kLeastLength * extents_[axis]; }
+  using FourVectors = Eigen::Array<double, 4, 3>;
+
+  bool has_length(std::size_t axis) const { return lengths_[axis] > kLeastLength * extents_[axis]; }
+
+  /// Normals of any length.
+  Vector3 tilted(const Tilt& tilt) const { return view_.normal + tilt[0] * view_.axes[0] + tilt[1] * view_.axes[1]; }
+  FourVectors tilted(const FourTilts& tilts) const {
+    FourVectors normals;
+    for (int i = 0; i < 3; ++i) normals.col(i) = view_.normal[i] + tilts[0] * view_.axes[0][i] + tilts[1] * view_.axes[1][i];
+    return normals;
+  }
 
   /// The support function of the ellipsoid with the body's half-extents. In these units its fraction is 1/2 at every tilt.
-  double size_of(const Tilt& tilt) const { return tilted(tilt).cwiseProduct(half_extents_).norm(); }
-
-  Vector3 tilted(const Tilt& tilt) const { return n_ + tilt[0] * axes_[0] + tilt[1] * axes_[1]; }
-
-  SupportPoint relative(const Vector3& point) const {
-    const Vector3 offset = point - support_point_;
-    return {{axes_[0].dot(offset), axes_[1].dot(offset)}, std::max(0.0, -n_.dot(offset))};
+  Four sizes_of(const FourTilts& tilts) const {
+    const FourVectors scaled = tilted(tilts).rowwise() * view_.half_extents.transpose().array();
+    return (scaled.col(0).square() + scaled.col(1).square() + scaled.col(2).square()).sqrt();
   }
 
   /// A body in which a ball can roll is the sum of the ball and another body. The faces and edges of the sum end where the faces
   /// and edges of the other body end. So the body stands on the points of the other body, moved by the ball's point of the normal
   /// n.
-  SupportPoints without_ball(SupportPoints points, const std::array<Tilt, 4>& tilts) const {
+  SupportPoints without_ball(SupportPoints points, const FourTilts& tilts) const {
     if (rolling_radius_ == 0) return points;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Tilt tilt = {tilts[k][0] * largest_[0], tilts[k][1] * largest_[1]};
-      const double of_ball = rolling_radius_ / std::sqrt(1 + tilt[0] * tilt[0] + tilt[1] * tilt[1]);
-      for (std::size_t a = 0; a < 2; ++a) points[k].along[a] -= of_ball * tilt[a];
-      points[k].separation = std::max(0.0, points[k].separation - (rolling_radius_ - of_ball));
-    }
+    const Four of_ball = rolling_radius_ / (1 + tilts[0].square() + tilts[1].square()).sqrt();
+    for (std::size_t a = 0; a < 2; ++a) points.along[a] -= of_ball * tilts[a];
+    points.separation = (points.separation - (rolling_radius_ - of_ball)).max(0);
     return points;
   }
 
-  SupportPoints points_of(const std::array<Tilt, 4>& tilts) const {
-    std::array<Vector3, 4> normals;
-    for (std::size_t k = 0; k < 4; ++k) {
-      normals[k] = tilted({tilts[k][0] * largest_[0], tilts[k][1] * largest_[1]}).normalized();
-    }
-    std::array<Jet, 4> jets;
-    if (const Superellipsoid* const body = as_superellipsoid(*shape_)) {
-      std::array<SuperellipsoidBatch::Request, 4> requests;
-      for (std::size_t k = 0; k < 4; ++k) requests[k] = {body, &normals[k], &jets[k]};
-      SuperellipsoidBatch::evaluate(requests, Order::Point);
+  SupportPoints points_of(const FourTilts& tilts) const {
+    const FourVectors normals = tilted(tilts);
+    FourVectors offsets;
+    if (const LaneBody* const body = LaneBodies::of(view_.shape)) {
+      Four h;
+      four_at_once()(*body, normals.data(), h.data(), offsets.data());
     } else {
-      for (std::size_t k = 0; k < 4; ++k) shape_->evaluate(normals[k], Order::Point, jets[k]);
+      for (int k = 0; k < 4; ++k) {
+        offsets.row(k) = view_.shape.point(normals.row(k).transpose().matrix().normalized()).transpose().array();
+      }
     }
-    SupportPoints points;
-    for (std::size_t k = 0; k < 4; ++k) points[k] = relative(jets[k].r);
-    return points;
+    offsets.rowwise() -= view_.support_point.transpose().array();
+    const auto along = [&offsets](const Vector3& u) -> Four {
+      return u[0] * offsets.col(0) + u[1] * offsets.col(1) + u[2] * offsets.col(2);
+    };
+    return {{along(view_.axes[0]), along(view_.axes[1])}, (-along(view_.normal)).max(0)};
   }
 
-  const Shape* shape_;
-  Vector3 n_;
-  std::array<Vector3, 2> axes_;
-  Vector3 support_point_;
+  const View& view_;
   double rolling_radius_;
   std::array<double, 2> extents_;
   Tilt largest_;
-  Vector3 half_extents_;
   SupportPoints ends_of_body_;
   SupportPoints ends_;  // without the ball
+  std::array<double, 2> lengths_;
 };
 
 SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth,
@@ -237,9 +236,8 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
 
 SupportPolygon::SupportPolygon(const View& view, double depth, double thickness)
     : support_point_(view.support_point_there), axes_({view.pose.rotation * view.axes[0], view.pose.rotation * view.axes[1]}) {
-  const Vector3 half_extents = view.shape.half_extents();
   // The extents of the ellipsoid with the body's half-extents.
-  const auto extent = [&](const Vector3& u) { return u.cwiseProduct(half_extents).norm(); };
+  const auto extent = [&](const Vector3& u) { return u.cwiseProduct(view.half_extents).norm(); };
   extents_ = {extent(view.axes[0]), extent(view.axes[1])};
   height_ = extent(view.normal);
   // The height of a tall body does not limit how far it may tilt.
@@ -273,7 +271,7 @@ void SupportPolygon::find(const View& view, const std::array<double, 2>& tangent
 // The fraction is small where the body is flat and the plane is parallel to the face. Otherwise the tangent plane parallel to the
 // face decides.
 std::array<double, 2> SupportPolygon::widths_by(const Tilts& tilts) {
-  std::array<double, 2> fractions = tilts.fractions({}, {});
+  std::array<double, 2> fractions = tilts.fractions({}, {{}, 0});
   if (std::max(fractions[0], fractions[1]) > 1 / kFlatExponent) {
     const Tilt slope = tilts.slope();
     const std::array<double, 2> from_face = tilts.fractions(slope, tilts.point_of(slope));
@@ -285,28 +283,28 @@ std::array<double, 2> SupportPolygon::widths_by(const Tilts& tilts) {
 }
 
 void SupportPolygon::place_vertices(const Tilts& tilts) {
-  Tilts::SupportPoints diagonals{};
+  Tilts::SupportPoints points{{Four::Zero(), Four::Zero()}, Four::Zero()};
   if (widths_[0] > 0 && widths_[1] > 0) {
-    diagonals = tilts.diagonals();
+    points = tilts.diagonals();
     evaluations_ += 4;
   }
   const double weight0 = widths_[0] * (1 - widths_[1]);
   const double weight1 = widths_[1] * (1 - widths_[0]);
   const double weight_of_diagonal = widths_[0] * widths_[1];
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Tilts::SupportPoint& end0 = tilts.ends()[kSideTilts[k][0]];
-    const Tilts::SupportPoint& end1 = tilts.ends()[kSideTilts[k][1]];
-    const auto mixed = [&](double of_end0, double of_end1, double of_diagonal) {
-      return weight0 * of_end0 + weight1 * of_end1 + weight_of_diagonal * of_diagonal;
-    };
-    const Vector3 vertex = mixed(end0.along[0], end1.along[0], diagonals[k].along[0]) * axes_[0] +
-                           mixed(end0.along[1], end1.along[1], diagonals[k].along[1]) * axes_[1];
-    const double separation = mixed(end0.separation, end1.separation, diagonals[k].separation);
+  // Each diagonal lies between two ends.
+  const auto mix = [&](const Four& ends, Four& diagonals) {
+    diagonals = weight0 * Four(ends[0], ends[1], ends[1], ends[0]) + weight1 * Four(ends[2], ends[2], ends[3], ends[3]) +
+                weight_of_diagonal * diagonals;
+  };
+  for (std::size_t a = 0; a < 2; ++a) mix(tilts.ends().along[a], points.along[a]);
+  mix(tilts.ends().separation, points.separation);
+  for (int k = 0; k < 4; ++k) {
+    const Vector3 vertex = points.along[0][k] * axes_[0] + points.along[1][k] * axes_[1];
     // A point farther away than the sloped face plus the reach is no part of the face. It moves in along a chord of the body.
-    const double beside_face = separation - std::max(0.0, slope_.dot(vertex));
+    const double beside_face = points.separation[k] - std::max(0.0, slope_.dot(vertex));
     const double share = beside_face > reach_ ? reach_ / beside_face : 1;
-    vertices_[k] = share * vertex;
-    largest_separation_ = std::max(largest_separation_, share * separation);
+    vertices_[static_cast<std::size_t>(k)] = share * vertex;
+    largest_separation_ = std::max(largest_separation_, share * points.separation[k]);
   }
 }
 

@@ -11,41 +11,40 @@ namespace supernormal::ode {
 namespace {
 
 // ODE asserts that the normal is finite and a unit vector. Check every contact here.
-bool is_contact(const Proximity& proximity, double reach) {
+bool has_contacts(const Proximity& proximity) {
   if (proximity.status == Status::Apart || proximity.status == Status::InvalidInput) return false;
-  const bool is_within_reach = proximity.gap <= reach && std::isfinite(proximity.gap);
-  const bool unit_normal = std::abs(proximity.normal.squaredNorm() - 1) < 1e-6;
-  return is_within_reach && unit_normal && proximity.contact.allFinite();
+  return std::abs(proximity.normal.squaredNorm() - 1) < 1e-6;
 }
 
-/// Writes one contact, which must satisfy is_contact(), after the first `count`, if the array is not full. Returns the new count.
-int append_contact(const Proximity& proximity, const ContactArray& out, int count, int side2) {
-  if (count >= out.max_contacts()) return count;
-  auto* const place = reinterpret_cast<char*>(out.first) + std::ptrdiff_t{count} * out.skip;
-  dContactGeom& contact = *reinterpret_cast<dContactGeom*>(place);
-  from_vector(proximity.contact, contact.pos);
-  from_vector(-proximity.normal.normalized(), contact.normal);
-  contact.depth = to_real(-proximity.gap);
-  if (contact.depth == 0) contact.depth = 0;  // not -0
-  contact.g1 = out.o1;
-  contact.g2 = out.o2;
-  contact.side1 = -1;
-  contact.side2 = side2;
-  count_contact(proximity.status);
-  return count + 1;
-}
+bool is_contact(double gap, const Vector3& point, double reach) { return gap <= reach && std::isfinite(gap) && point.allFinite(); }
 
-/// Writes the points of a reduced manifold from number `first` on. A manifold without points has its deepest point as number 0.
+/// Writes the points of a reduced manifold from number `first` on, while the array has room after the first `count`. Returns the
+/// new count. A manifold without points has its deepest point as number 0.
 int append_from(int first, const ContactManifold& manifold, const ContactArray& out, int count, int side2) {
-  Proximity contact = manifold.deepest;
-  if (!is_contact(contact, manifold.reach)) return count;
-  if (manifold.corner_count == 0) return first == 0 ? append_contact(contact, out, count, side2) : count;
+  const Proximity& deepest = manifold.deepest;
+  if (!has_contacts(deepest) || !is_contact(deepest.gap, deepest.contact, manifold.reach)) return count;
+  const Vector3 normal = -deepest.normal.normalized();
+  const int before = count;
+  const auto append = [&](const Vector3& point, double depth) {
+    if (count >= out.max_contacts() || !is_contact(-depth, point, manifold.reach)) return;
+    auto* const place = reinterpret_cast<char*>(out.first) + std::ptrdiff_t{count} * out.skip;
+    dContactGeom& contact = *reinterpret_cast<dContactGeom*>(place);
+    from_vector(point, contact.pos);
+    from_vector(normal, contact.normal);
+    contact.depth = to_real(depth);
+    if (contact.depth == 0) contact.depth = 0;  // not -0
+    contact.g1 = out.o1;
+    contact.g2 = out.o2;
+    contact.side1 = -1;
+    contact.side2 = side2;
+    ++count;
+  };
+  if (manifold.corner_count == 0 && first == 0) append(deepest.contact, -deepest.gap);
   for (int k = first; k < manifold.corner_count; ++k) {
     const ManifoldCorner& corner = manifold.corners[static_cast<std::size_t>(k)];
-    contact.gap = -corner.depth;
-    contact.contact = corner.point;
-    if (is_contact(contact, manifold.reach)) count = append_contact(contact, out, count, side2);
+    append(corner.point, corner.depth);
   }
+  count_contacts(count - before, deepest.status);
   return count;
 }
 

@@ -22,9 +22,9 @@ void count_query(const Proximity& result, bool warm) noexcept {
 
 void count_closed_form() noexcept { ++statistics.closed_forms; }
 
-void count_contact(Status status) noexcept {
-  ++statistics.contacts;
-  if (!is_settled(status)) ++statistics.contacts_not_converged;
+void count_contacts(int count, Status status) noexcept {
+  statistics.contacts += static_cast<unsigned long long>(count);
+  if (!is_settled(status)) statistics.contacts_not_converged += static_cast<unsigned long long>(count);
 }
 
 snStatistics thread_statistics() noexcept { return statistics; }

@@ -12,8 +12,8 @@ void count_query(const Proximity& result, bool warm) noexcept;
 /// Counts a pair with a closed form: no iteration.
 void count_closed_form() noexcept;
 
-/// Counts a contact that was written. `status`: how its query ended.
-void count_contact(Status status) noexcept;
+/// Counts contacts that were written. `status`: how their query ended.
+void count_contacts(int count, Status status) noexcept;
 
 /// The counters of this thread.
 snStatistics thread_statistics() noexcept;

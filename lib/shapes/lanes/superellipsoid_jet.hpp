@@ -3,6 +3,7 @@
 
 #include "shapes/lanes/powers.hpp"
 #include "shapes/lanes/vectors.hpp"
+#include "supernormal/shapes/lane_body.hpp"
 
 namespace supernormal {
 namespace {  // NOLINT(google-build-namespaces): real.hpp
@@ -156,6 +157,14 @@ struct PowerBody {
   Vec<T> half;  ///< m
   NormExponents<T> inner, outer;
 };
+
+/// The same body in all lanes.
+template <typename T>
+SUPERNORMAL_INLINE PowerBody<T> power_body(const LaneBody& body) {
+  return {{T(body.half[0]), T(body.half[1]), T(body.half[2])},
+          {T(body.p_minus_1), T(body.inverse_p)},
+          {T(body.q_minus_1), T(body.inverse_q)}};
+}
 
 /// A jet up to the boundary point, with what the Hessian needs.
 template <typename T>

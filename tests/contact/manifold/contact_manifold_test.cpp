@@ -129,6 +129,13 @@ TEST_CASE("a flat body on a floor has four manifold points, close to the body") 
   }
 }
 
+TEST_CASE("the manifold of a level brick on a plane takes eight boundary points") {
+  for (const double exponent : {8.0, 20.0, 60.0, 200.0}) {
+    const Superellipsoid brick({0.1, 0.07, 0.05}, exponent, exponent);
+    CHECK(manifold_on_floor(brick, tilt(1e-6, 0.3), 1e-5).evaluations == 8);
+  }
+}
+
 TEST_CASE("the deepest contact is as deep as the overlap at every max_contacts") {
   test::Draw random(6);
   for (int repetition = 0; repetition < 500; ++repetition) {
