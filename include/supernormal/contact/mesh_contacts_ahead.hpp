@@ -54,6 +54,8 @@ class SUPERNORMAL_API MeshContactsAhead {
   SUPERNORMAL_LOCAL void leave_free_motion(const Search& search);
   SUPERNORMAL_LOCAL std::optional<MeshManifold> find_after(const Search& search, const FreeMotion& motion,
                                                            std::span<const MeshTriangle> triangles);
+  SUPERNORMAL_LOCAL MeshContact find_nearest_of_surface(const Search& search, const Pose& there,
+                                                        std::span<const MeshTriangle> triangles);
   SUPERNORMAL_LOCAL bool falls_through(const Search& search, const Pose& end, const ContactManifold& floor);
   SUPERNORMAL_LOCAL std::span<const MeshTriangle> leave_in_front(const Search& search, std::span<const MeshTriangle> triangles,
                                                                  const ContactManifold& floor);

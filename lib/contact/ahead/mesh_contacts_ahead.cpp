@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "contact/ahead/free_motion.hpp"
 #include "contact/ahead/meeting.hpp"
@@ -281,8 +283,7 @@ std::optional<MeshManifold> MeshContactsAhead::find_after(const Search& search, 
   const Shape& shape = search.body.shape;
   const SurfaceFrame frame(search, motion);
   const Pose there = frame.pose_at_end(motion);
-  MeshContact nearest = find_nearest_triangle(shape, there, triangles, search.settings);
-  evaluations_ += nearest.proximity.evaluations;
+  MeshContact nearest = find_nearest_of_surface(search, there, triangles);
   if (nearest.proximity.status == Status::InvalidInput || !(nearest.proximity.gap > 0)) return std::nullopt;
   const Impact impact =
       find_mesh_time_of_impact(shape, motion.motion1(), triangles, frame.motion, search.time, search.settings).impact;
@@ -298,6 +299,20 @@ std::optional<MeshManifold> MeshContactsAhead::find_after(const Search& search, 
   motion.take_back(search.share, manifold);
   manifold.reach = search.reach_along(manifold.deepest.normal, Vector3::Zero());
   return MeshManifold{manifold, nearest.triangle};
+}
+
+/// The nearest triangle, with a normal of the surface. Where triangles behind a floor are left out, those beside them have edges
+/// that are none of the surface.
+MeshContact MeshContactsAhead::find_nearest_of_surface(const Search& search, const Pose& there,
+                                                       std::span<const MeshTriangle> triangles) {
+  const bool is_complete = triangles.data() != in_front_.data();
+  for (std::size_t count = triangles.size();;) {
+    const MeshContact nearest = find_nearest_triangle(search.body.shape, there, triangles.first(count), search.settings);
+    const Proximity& found = nearest.proximity;
+    evaluations_ += found.evaluations;
+    if (is_complete || found.status == Status::InvalidInput || !(found.gap > 0) || is_of_surface(found, contacts_)) return nearest;
+    std::swap(*std::ranges::find(in_front_, nearest.triangle, &MeshTriangle::index), in_front_[--count]);
+  }
 }
 
 /// Whether a triangle behind the contact is between the highest point of the body now and its deepest point at `end`.

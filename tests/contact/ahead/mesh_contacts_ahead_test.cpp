@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -34,6 +36,28 @@ BodyAhead flying(const Shape& shape, const Vector3& position, const Vector3& vel
   motion.mobility = 1;
   motion.turning = Matrix3::Identity() / 1e-3;
   return {shape, {position, Matrix3::Identity()}, motion};
+}
+
+/// Whether a face, a convex edge or a vertex of the surface has this outward normal: nothing at it rises above its plane. `inside`
+/// (m): farther out there are borders, which have many normals.
+bool has_normal(const TriangleMesh& mesh, double inside, const Vector3& normal) {
+  const auto height = [&](int vertex) { return normal.dot(mesh.vertices[static_cast<std::size_t>(vertex)]); };
+  for (const std::array<int, 3>& face : mesh.triangles) {
+    for (std::size_t side = 0; side < 3; ++side) {
+      const int a = face[side], b = face[(side + 1) % 3];
+      if (mesh.vertices[static_cast<std::size_t>(a)].head<2>().lpNorm<Eigen::Infinity>() > inside) continue;
+      const double top = height(a);
+      const bool is_edge = std::abs(height(b) - top) < 1e-7;
+      if (is_edge && std::abs(height(face[(side + 2) % 3]) - top) < 1e-7) return true;
+      const bool is_top = std::ranges::all_of(mesh.triangles, [&](const std::array<int, 3>& other) {
+        const auto has = [&](int vertex) { return std::ranges::find(other, vertex) != other.end(); };
+        if (!has(a) || (is_edge && !has(b))) return true;
+        return std::ranges::all_of(other, [&](int vertex) { return height(vertex) < top + 1e-7; });
+      });
+      if (is_top) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -178,6 +202,31 @@ TEST_CASE("a ball over waves has contacts on its surface, at rest, sliding and r
     for (const MeshManifold& found : ahead.find(moving, {}, 0.02, triangles)) {
       const Proximity& contact = found.manifold.deepest;
       CHECK((contact.contact - (centre + radius * contact.normal)).norm() < 1e-6 * radius);
+    }
+  }
+}
+
+TEST_CASE("a body that rolls over rough ground has normals of its faces, edges and vertices alone") {
+  TriangleMesh ground = floor_mesh(12, 0.13);
+  Draw draw(57);
+  for (Vector3& vertex : ground.vertices) vertex.z() = draw.uniform(0, 0.06);
+  const std::vector<MeshTriangle> triangles = ground.placed();
+  const Superellipsoid brick({0.1, 0.08, 0.05}, 20, 20);
+  MeshContactsAhead ahead;
+  for (int i = 0; i < draws(800); ++i) {
+    CAPTURE(i);
+    Vector3 centre = draw.in_box({0.3, 0.3, 0}) + Vector3(0, 0, 0.3);
+    const Matrix3 rotation = draw.rotation();
+    for (int step = 0; step < 6; ++step) centre.z() -= find_nearest_triangle(brick, {centre, rotation}, triangles).proximity.gap;
+    const double heading = draw.uniform(0, 6.28);
+    BodyAhead rolling = flying(brick, centre, 2 * Vector3(std::cos(heading), std::sin(heading), 0));
+    rolling.pose.rotation = rotation;
+    rolling.motion.arm = brick.bounding_radius();
+    rolling.motion.angular_velocity = Vector3::UnitZ().cross(rolling.motion.velocity) / 0.1;
+    rolling.motion.acceleration = Vector3(0, 0, -9.81);
+    for (const MeshManifold& found : ahead.find(rolling, {}, 0.02, triangles)) {
+      const ContactManifold& manifold = found.manifold;
+      CHECK((manifold.deepest.gap > manifold.reach || has_normal(ground, 0.7, -manifold.deepest.normal)));
     }
   }
 }
