@@ -249,6 +249,11 @@ struct Description {
 /// The descriptions of all effects.
 SUPERNORMAL_ODE_API std::span<const Description> descriptions();
 
+/// Who solves the contacts. A stepper (supernormal/stepper.hpp) knows gaps, impacts and the circle of friction by itself. So
+/// contacts ahead stay, with their negative depths, and the added bodies look ahead by the step. Pass all contacts to
+/// Stepper::add_contact. Effects that act on contacts once a step are refused: Compliance, Hertz, Adhesion and SpeculativeContacts.
+enum class Solver { QuickStep, Stepper };
+
 /// One of the two sides of a contact.
 struct Side {
   Material material = 0;   ///< of the body or the wall
@@ -274,6 +279,8 @@ class SUPERNORMAL_ODE_API Effects {
   /// Compiles the list for steps of `step` seconds. Throws BadEffect (a std::invalid_argument) with the effect, the parameter, its
   /// value and the range, or with the two effects that exclude each other.
   Effects(const std::vector<Effect>& list, double step);
+  /// The same for contacts that `solver` solves.
+  Effects(const std::vector<Effect>& list, double step, Solver solver);
   ~Effects();                   ///< Destroy it before the world. Otherwise ODE may print a message about joints, and all is well.
   Effects(Effects&&) noexcept;  ///< takes over the list, the bodies and the costs
   Effects& operator=(Effects&&) noexcept;  ///< takes over the list, the bodies and the costs

@@ -55,8 +55,19 @@ class WorldWriter {
   double step_;
 };
 
-std::vector<Effect> validated(const std::vector<Effect>& list) {
+std::vector<Effect> validated(const std::vector<Effect>& list, Solver solver) {
   require_valid(list);
+  for (const Effect& effect : list) {
+    const bool is_of_step = std::holds_alternative<Compliance>(effect) || std::holds_alternative<Hertz>(effect) ||
+                            std::holds_alternative<Adhesion>(effect) || std::holds_alternative<SpeculativeContacts>(effect);
+    if (solver != Solver::Stepper || !is_of_step) continue;
+    const char* const name = descriptions()[effect.index()].name;
+    throw BadEffect(
+        name, "",
+        std::string(name) + (std::holds_alternative<SpeculativeContacts>(effect)
+                                 ? " is listed for a stepper, whose bodies look ahead by themselves; allowed: no such effect"
+                                 : " is listed for a stepper, in whose sub-steps it does not act; allowed: quickstep"));
+  }
   return list;
 }
 
@@ -91,12 +102,13 @@ void look_ahead(dBodyID body, double time) {
 }  // namespace
 
 struct Effects::State {
-  State(const std::vector<Effect>& effects, double duration)
-      : list(validated(effects)),
+  State(const std::vector<Effect>& effects, double duration, Solver solver)
+      : list(validated(effects, solver)),
         step(ode::require_positive("step", duration, "s")),
-        pair_materials(list),
+        pair_materials(list, solver),
         forces(list, step),
         is_speculative(has<SpeculativeContacts>(list)),
+        looks_ahead(is_speculative || solver == Solver::Stepper),
         speculative(step, has<Restitution>(list)) {}
 
   /// Runs `work` and, if times are measured, adds its time to the effect's total.
@@ -116,6 +128,7 @@ struct Effects::State {
   PairMaterials pair_materials;
   BodyForces forces;
   bool is_speculative;
+  bool looks_ahead;
   SpeculativeSetup speculative;
   bool is_measuring = false;
   std::array<double, std::variant_size_v<Effect>> seconds{};
@@ -146,7 +159,9 @@ void Effects::State::set_up_ahead(PairMaterial& pair, std::span<dContact> ahead,
   pair.ahead += ahead.size();
 }
 
-Effects::Effects(const std::vector<Effect>& list, double step) : state_(std::make_unique<State>(list, step)) {}
+Effects::Effects(const std::vector<Effect>& list, double step) : Effects(list, step, Solver::QuickStep) {}
+Effects::Effects(const std::vector<Effect>& list, double step, Solver solver)
+    : state_(std::make_unique<State>(list, step, solver)) {}
 Effects::~Effects() = default;
 Effects::Effects(Effects&&) noexcept = default;
 Effects& Effects::operator=(Effects&&) noexcept = default;
@@ -173,7 +188,7 @@ int Effects::set_up_contacts(std::span<dContact> contacts, const Side& side1, co
   const std::span<dContact> touching = contacts.first(put_ahead_last(contacts));
   const std::span<dContact> ahead = contacts.subspan(touching.size());
   int kept = pair.passes.empty() ? static_cast<int>(touching.size()) : state_->run_passes(pair, touching, side1.body, side2.body);
-  if (pair.is_speculative && !ahead.empty()) {
+  if (pair.takes_ahead && !ahead.empty()) {
     state_->set_up_ahead(pair, ahead, side1.body, side2.body);
     // No pass has left out a touching contact: only the pass of a spring does, and contacts with a spring are not speculative.
     kept += static_cast<int>(ahead.size());
@@ -191,7 +206,7 @@ bool Effects::visits_bodies() const {
 }
 
 void Effects::add_body(dBodyID body) {
-  if (state_->is_speculative) look_ahead(body, state_->step);
+  if (state_->looks_ahead) look_ahead(body, state_->step);
   if (!state_->forces.is_empty()) state_->forces.add(body);
 }
 

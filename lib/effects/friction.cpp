@@ -43,7 +43,7 @@ void set_ellipse(const FrictionAxes& axes, const Vector3& direction, const Slip&
   first.normalize();
   const Vector3 u = slip.at(contact);
   InscribedRectangle half_sides = InscribedRectangle::towards(axes.along * first.dot(u), axes.across * n.cross(first).dot(u));
-  if (axes.along == 0 || axes.across == 0) half_sides = {1, 1};  // the ellipse degenerates to a line
+  if (axes.is_ellipse || axes.along == 0 || axes.across == 0) half_sides = {1, 1};  // without an axis it is a line
   ode::from_vector(first, contact.fdir1);
   contact.surface.mu = ode::to_real(axes.along * half_sides.first);
   contact.surface.mu2 = ode::to_real(axes.across * half_sides.second);

@@ -86,8 +86,8 @@ std::optional<E> find_common(const std::vector<Effect>& list, Material a, Materi
 /// Writes the parameters of one ordered pair of materials.
 class PairMaterialWriter {
  public:
-  PairMaterialWriter(const std::vector<Effect>& list, Material a, Material b, PairMaterial& pair)
-      : list_(list), a_(a), b_(b), pair_(pair) {}
+  PairMaterialWriter(const std::vector<Effect>& list, Solver solver, Material a, Material b, PairMaterial& pair)
+      : list_(list), is_of_stepper_(solver == Solver::Stepper), a_(a), b_(b), pair_(pair) {}
 
   // Adhesion comes first, because it adds to the forces that friction anticipates. Springs come last, because they reorder the
   // contacts.
@@ -125,9 +125,9 @@ class PairMaterialWriter {
     if (!found) return;
     // With Approx1 mu is a coefficient; without it ODE takes mu for a force in newtons. sqrt(0.5) makes the square of forces
     // inscribed in the circle.
-    pair_.surface.mode |= dContactApprox1 | dContactFDir1;
-    pair_.surface.mu = pair_.surface.mu2 = ode::to_real(found->coefficient * std::sqrt(0.5));
-    add<Friction>(2, align_friction, Acts::AlsoAhead);
+    pair_.surface.mode |= dContactApprox1 | (is_of_stepper_ ? 0 : dContactFDir1);
+    pair_.surface.mu = pair_.surface.mu2 = ode::to_real(found->coefficient * (is_of_stepper_ ? 1 : std::sqrt(0.5)));
+    add<Friction>(2, is_of_stepper_ ? nullptr : align_friction, Acts::AlsoAhead);
   }
 
   bool write_anisotropic_friction() {
@@ -136,7 +136,7 @@ class PairMaterialWriter {
     const bool is_pair = first != nullptr && first->on.is_pair();
     const bool on_second = is_pair ? first->on.first() != a_ : first == nullptr || (second != nullptr && b_ < a_);
     const AnisotropicFriction& found = on_second ? *second : *first;
-    pair_.axes = {found.along, found.across, found.direction, on_second};
+    pair_.axes = {found.along, found.across, found.direction, on_second, is_of_stepper_};
     pair_.surface.mode |= dContactApprox1 | dContactFDir1 | dContactMu2;
     add<AnisotropicFriction>((found.along > 0 ? 1 : 0) + (found.across > 0 ? 1 : 0), align_anisotropic_friction, Acts::AlsoAhead);
     return true;
@@ -199,6 +199,7 @@ class PairMaterialWriter {
   void write_speculative_contacts() {
     const auto [first, second] = find_sides<SpeculativeContacts>(list_, a_, b_);
     pair_.is_speculative = first != nullptr && second != nullptr && pair_.spring == std::variant_npos;
+    pair_.takes_ahead = pair_.is_speculative || is_of_stepper_;
   }
 
   // motionN is the target velocity itself: with a soft ERP of 0, ODE adds nothing for the depth.
@@ -217,6 +218,7 @@ class PairMaterialWriter {
   }
 
   const std::vector<Effect>& list_;
+  bool is_of_stepper_;
   Material a_, b_;
   PairMaterial& pair_;
 };
@@ -235,12 +237,12 @@ Material last_listed(const std::vector<Effect>& list) {
 
 }  // namespace
 
-PairMaterials::PairMaterials(const std::vector<Effect>& list)
+PairMaterials::PairMaterials(const std::vector<Effect>& list, Solver solver)
     : size_(static_cast<std::size_t>(last_listed(list) + 2)), pairs_(size_ * size_) {
   const auto material = [&](std::size_t slot) { return slot + 1 == size_ ? kOther : static_cast<Material>(slot); };
   for (std::size_t row = 0; row < size_; ++row) {
     for (std::size_t column = 0; column < size_; ++column) {
-      PairMaterialWriter(list, material(row), material(column), pairs_[row * size_ + column]).write();
+      PairMaterialWriter(list, solver, material(row), material(column), pairs_[row * size_ + column]).write();
     }
   }
 }

@@ -42,6 +42,7 @@ struct FrictionAxes {
   double across = 0;
   Vector3 direction = Vector3::UnitX();
   bool is_on_second = false;  ///< whether the direction is fixed to the body of geom.g2, not geom.g1
+  bool is_ellipse = false;    ///< whether the solver keeps the ellipse, and needs no rectangle in it
 };
 
 struct PairMaterial {
@@ -57,7 +58,8 @@ struct PairMaterial {
   double pull_off = 0;                     ///< N
   double restitution = 0;
   double threshold = 0;         ///< m/s; there is restitution above this approach velocity
-  bool is_speculative = false;  ///< whether contacts ahead of touch are attached
+  bool is_speculative = false;  ///< whether contacts ahead of touch become constraints on the step
+  bool takes_ahead = false;     ///< whether contacts ahead of touch are attached
 
   std::vector<Pass> passes;                             ///< the passes that contacts also need
   std::vector<EffectIndex> listed;                      ///< the effects that apply to these contacts
@@ -72,7 +74,7 @@ struct PairMaterial {
 class PairMaterials {
  public:
   /// Throws std::invalid_argument when two effects of a pair exclude each other.
-  explicit PairMaterials(const std::vector<Effect>& list);
+  PairMaterials(const std::vector<Effect>& list, Solver solver);
 
   PairMaterial& of(Material material1, Material material2) { return pairs_[slot(material1) * size_ + slot(material2)]; }
   const std::vector<PairMaterial>& all() const { return pairs_; }

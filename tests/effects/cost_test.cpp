@@ -100,6 +100,27 @@ TEST_CASE("without rolling resistance no contact requests rolling rows, and the 
   CHECK(rows_of(smooth) == 1 + 3);
 }
 
+TEST_CASE("contacts for a stepper keep their gaps and the whole circle of friction") {
+  OdeSession session;
+  Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
+  Geom ball(snCreateEllipsoid(nullptr, 1, 1, 1));
+  std::array<dContact, 1> contact{};
+  const auto set_up = [&](const fx::Effect& friction) {
+    contact[0].geom = {{}, {0, 0, 1}, dReal(-0.01), ball, plane, -1, -1};
+    fx::Effects effects({friction}, kLongStep, fx::Solver::Stepper);
+    CHECK(effects.set_up_contacts(contact) == 1);
+    CHECK(contact[0].geom.depth == dReal(-0.01));
+    CHECK((contact[0].surface.mode & dContactMotionN) == 0);
+    CHECK(rows_of(effects) == 1 + 2);
+    return contact[0].surface.mu;
+  };
+  CHECK(set_up(fx::Friction{0.25, {}}) == dReal(0.25));
+  CHECK((contact[0].surface.mode & dContactFDir1) == 0);
+  CHECK(set_up(fx::AnisotropicFriction{0.5, 0.2, {0, 1, 0}, {}}) == dReal(0.5));
+  CHECK(contact[0].surface.mu2 == dReal(0.2));
+  CHECK(contact[0].fdir1[1] == 1);
+}
+
 TEST_CASE("a list without forces visits no body and stores none") {
   OdeSession session;
   EffectsWorld scene({earth(), fx::Friction{0.5, {}}, fx::Damping{1, 1}, fx::SurfaceLayer{1e-4}}, kLongStep);

@@ -10,9 +10,9 @@ using namespace supernormal::effects;
 
 namespace {
 
-std::string refusal(const std::vector<Effect>& list, double step = 1e-3) {
+std::string refusal(const std::vector<Effect>& list, double step = 1e-3, Solver solver = Solver::QuickStep) {
   try {
-    const Effects effects(list, step);
+    const Effects effects(list, step, solver);
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -78,6 +78,18 @@ TEST_CASE("effects that exclude one another, or lack a required one, are refused
   CHECK(refusal({Compliance{1e9, 0, MaterialSelector::of(1)}, Hertz{1e9, 0.3, 1, MaterialSelector::of(2)}})
             .find("hertz and compliance are both listed for contacts of materials 1 and 2") == 0);
   CHECK(refusal({Compliance{1e9, 0, MaterialSelector::between(1, 1)}, Restitution{0.5, 0, MaterialSelector::of(2)}}).empty());
+}
+
+TEST_CASE("effects that act on contacts once a step are refused for a stepper") {
+  const auto refused = [](const Effect& effect) { return refusal({effect}, 1e-3, Solver::Stepper); };
+  CHECK(refused(Compliance{1e9, 0, {}}) ==
+        "compliance is listed for a stepper, in whose sub-steps it does not act; allowed: quickstep");
+  CHECK(refused(Hertz{1e9, 0.3, 1, {}}).find("hertz is listed for a stepper") == 0);
+  CHECK(refused(Adhesion{1, {}}).find("adhesion is listed for a stepper") == 0);
+  CHECK(refused(SpeculativeContacts{}).find("speculative_contacts is listed for a stepper, whose bodies look ahead") == 0);
+  CHECK(refusal({Friction{0.5, {}}, RollingResistance{1e-3, 0, {}}, Restitution{1, 0, {}}, MaxCorrectingVelocity{1}}, 1e-3,
+                Solver::Stepper)
+            .empty());
 }
 
 TEST_CASE("a refusal has its reason without the contacts that it is about") {
