@@ -109,11 +109,14 @@ struct System {
     return row.direction.dot(body1(contact).angular_velocity - body2(contact).angular_velocity);
   }
 
-  /// After the bodies have moved: the gap of the places that touched or were nearest when the step began.
+  /// After the bodies have moved: the gap of the places that touched or were nearest when the step began. A kinematic body turns
+  /// below the place of the other body: what rides on it takes the velocity that it has there.
   void update_gap(Contact& contact) const {
     if (contact.moving >= 0) return;
     const Body& one = body1(contact);
     const Body& two = body2(contact);
+    if (!two.is_dynamic()) contact.arm2 = one.centre() + contact.arm1 - two.centre();
+    if (!one.is_dynamic()) contact.arm1 = two.centre() + contact.arm2 - one.centre();
     const Vector3 moved = one.moved - two.moved + one.rotated.cross(contact.arm1) - two.rotated.cross(contact.arm2);
     contact.gap = contact.first_gap + contact.normal().direction.dot(moved);
   }

@@ -120,8 +120,8 @@ bool MovingContacts::Moving::read_sides(const System& system, const Contact& at)
     if (dGeomGetClass(geom) == dPlaneClass) {
       dVector4 plane;
       dGeomPlaneGetParams(geom, plane);
-      plane_normal = ode::to_vector(plane);
-      plane_offset = plane[3];
+      plane_normal = body.rotation.transpose() * ode::to_vector(plane);
+      plane_point = body.rotation.transpose() * (plane[3] * ode::to_vector(plane) - body.start);
       return true;
     }
     const ode::Body* const ours = ode::find_body(geom);
@@ -152,9 +152,11 @@ void MovingContacts::Moving::follow(System& system) const {
     const bool is_first = side1.shape != nullptr;
     const Pose pose = is_first ? pose_of(one, side1.in_body) : pose_of(two, side2.in_body);
     const Shape& shape = is_first ? *side1.shape : *side2.shape;
-    const Vector3 place = pose.position + pose.rotation * shape.point(pose.rotation.transpose() * -plane_normal);
+    const Pose plane = pose_of(is_first ? two : one, {plane_point, Matrix3::Identity()});
+    const Vector3 normal = plane.rotation * plane_normal;
+    const Vector3 place = pose.position + pose.rotation * shape.point(pose.rotation.transpose() * -normal);
     if (!place.allFinite()) return;
-    place_at(system, at, place, is_first ? plane_normal : Vector3(-plane_normal), plane_normal.dot(place) - plane_offset);
+    place_at(system, at, place, is_first ? normal : Vector3(-normal), normal.dot(place - plane.position));
     return;
   }
   const Pose pose1 = pose_of(one, side1.in_body);

@@ -38,10 +38,10 @@ class MovingContacts {
 
     int contact = 0;  // in System::contacts
     Side side1, side2;
-    Vector3 plane_normal = Vector3::Zero();
-    double plane_offset = 0;
-    bool is_fixed = false;   // to both bodies
-    Vector3 place1, place2;  // m; in the frames of the bodies, if fixed
+    Vector3 plane_normal = Vector3::Zero();  // in the frame of the plane's body, to which a program may give a kinematic one
+    Vector3 plane_point = Vector3::Zero();   // m; in the same frame
+    bool is_fixed = false;                   // to both bodies
+    Vector3 place1, place2;                  // m; in the frames of the bodies, if fixed
     Vector3 before = Vector3::Zero();
   };
   void choose_of(System& system, const Pair& pair, double step);

@@ -267,6 +267,28 @@ TEST_CASE("kinematic bodies move as told, and push what they meet") {
   CHECK(velocity_of(brick)[0] == doctest::Approx(0.1));
 }
 
+TEST_CASE("a brick rides on a kinematic plate that turns") {
+  OdeSession session;
+  for (const double step : {0.002, 0.01}) {
+    StepperWorld scene(step);
+    scene.surface.mu = dReal(0.5);
+    const dBodyID plate = dBodyCreate(scene.world.id());
+    dGeomSetBody(dCreateBox(scene.world.space(), 2, 2, dReal(0.1)), plate);
+    dBodySetPosition(plate, 0, 0, dReal(-0.05));
+    dBodySetKinematic(plate);
+    REQUIRE(snStepperAddBody(scene.stepper, plate) == 1);
+    set_spin(plate, {0, 0, 3});
+    const dBodyID brick = scene.add_brick(20, 1000, {0.3, 0, 0.05});
+    set_velocity(brick, {0, 0.9, 0});
+    set_spin(brick, {0, 0, 3});
+    scene.run(2);
+    const double tangents = 3 * 3 * step / 8 / 2 * 2;  // of eight sub-steps a step lead outwards
+    CHECK(std::hypot(place_of(brick)[0], place_of(brick)[1]) / 0.3 < 1 + tangents);
+    CHECK(std::hypot(place_of(brick)[0], place_of(brick)[1]) / 0.3 > 1 - 1e-3);
+    CHECK(spin_of(brick)[2] == doctest::Approx(3).epsilon(1e-4));
+  }
+}
+
 TEST_CASE("gravity modes, damping and the largest angular speed are those of the bodies") {
   OdeSession session;
   StepperWorld scene(0.01);
