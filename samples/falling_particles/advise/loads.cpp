@@ -169,7 +169,7 @@ void add_pressure(const Wall& part, const Pressing& pressing, const Extremes& gr
 
 void add_doubts_about_loads(const Scene& scene, std::vector<std::string>& doubts) {
   const Extremes grains = extremes_of(scene);
-  if (grains.heavy == nullptr || grains.light == nullptr || has_springs(scene) || scene.compression) return;
+  if (grains.heavy == nullptr || grains.light == nullptr || has_springs(scene) || scene.compression || scene.solver.stepper) return;
   if (scene.solver.erp == 0) {
     doubts.emplace_back("solver.erp is 0: overlaps are never corrected, and grains sink; 0.2 would do");
     return;

@@ -11,9 +11,12 @@ std::string list_sections() {
   step             s, above 0, up to duration
   frame            s, from step to duration; between two lines of the tables
 [solver]
+  kind             "quickstep", ODE's, or "stepper", which remembers contact forces and takes sub-steps; "quickstep" without it
   iterations       a whole number from 1 to 100000; of quickstep
-  erp              in [0, 1]; the part of an overlap that a step corrects
-  cfm              s/kg, in [0, 1]; the softness of a contact
+  erp              in [0, 1]; of quickstep: the part of an overlap that a step corrects
+  cfm              s/kg, in [0, 1]; of quickstep: the softness of a contact
+  sag              in [1e-12, 1]; of the stepper: largest overlap at rest, relative to the least radius of gyration; 0.002 without it
+  sub_steps        two whole numbers from 1 to 1000000; of the stepper: the least and the most of a step; [8, 64] without it
 [drop]
   height           m, in [0, 1000]; of the lowest grains above the floor at the start
   gap              in [0, 10]; between grains at the start, relative to their size

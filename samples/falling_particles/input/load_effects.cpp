@@ -159,10 +159,10 @@ std::vector<std::string> effect_sections() {
   return names;
 }
 
-std::vector<fx::Effect> load_effects(const TomlTable& root, double smallest_half_axis, double step) {
+std::vector<fx::Effect> load_effects(const TomlTable& root, double smallest_half_axis, double step, fx::Solver solver) {
   const List list = Reader(root, smallest_half_axis).read();
   try {
-    const fx::Effects compiled(list, step);
+    const fx::Effects compiled(list, step, solver);
   } catch (const fx::BadEffect& error) {
     if (!root.has(error.effect())) root.fail("", error.what());
     const TomlTable section = root.table(error.effect());
@@ -174,7 +174,7 @@ std::vector<fx::Effect> load_effects(const TomlTable& root, double smallest_half
 void load_wall_effects(const TomlTable& root, Scene& scene) {
   add_wall_effects(scene.walls, scene.effects);
   try {
-    const fx::Effects compiled(scene.effects, scene.time.step);
+    const fx::Effects compiled(scene.effects, scene.time.step, scene.solver.solves_contacts());
   } catch (const fx::BadEffect& error) {
     for (const auto& [table, index] : tables_of_walls(root, scene)) {
       if (!table.has("restitution")) continue;

@@ -17,8 +17,9 @@ std::vector<std::string> effect_sections();
 std::string scene_parameters(const supernormal::effects::Description& effect);
 
 /// Loads the effects whose sections the file has. Throws InputError. `smallest_half_axis` (m) is the unit of the depth of
-/// [surface_layer]; `step` (s) is the scene's.
-std::vector<supernormal::effects::Effect> load_effects(const TomlTable& root, double smallest_half_axis, double step);
+/// [surface_layer]; `step` (s) and `solver` are the scene's.
+std::vector<supernormal::effects::Effect> load_effects(const TomlTable& root, double smallest_half_axis, double step,
+                                                       supernormal::effects::Solver solver);
 
 /// Adds the effects of parts with coefficients of their own to the effects of the scene. Throws InputError if a coefficient
 /// excludes one of these.

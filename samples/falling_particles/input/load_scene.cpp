@@ -180,11 +180,6 @@ Time read_time(const TomlTable& table) {
   return time;
 }
 
-Solver read_solver(const TomlTable& table) {
-  return {static_cast<int>(table.integer("iterations", 1, Solver::kMostIterations)),
-          table.number("erp", Interval::closed(0, 1, "")), table.number("cfm", Interval::closed(0, 1, "s/kg"))};
-}
-
 /// Reads [drop] into the scene and returns the table that may have `total`. Grains in a periodic container do not drop. A scene
 /// with feeders or a state may lack the section.
 TomlTable read_drop(const TomlTable& root, Scene& scene) {
@@ -292,8 +287,9 @@ Scene load(const TomlFile& file, const std::string& path, const std::string& cal
   load_periodic(root, scene);
   load_servos(root, scene);
   load_bonds(root, path, scene);
-  scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
-  scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
+  scene.solver = load_solver(root);
+  refuse_for_stepper(root, scene);
+  scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step, scene.solver.solves_contacts());
   load_wall_effects(root, scene);
   scene.compression = read_compression(root, scene);
   scene.sinks = load_sinks(root, scene);

@@ -25,6 +25,13 @@ std::vector<Wall> load_walls(const TomlTable& root, const Scene& scene, const st
 /// The tables of all walls that have one, with indices into Scene::walls.
 std::vector<std::pair<TomlTable, std::size_t>> tables_of_walls(const TomlTable& root, const Scene& scene);
 
+/// Reads the section [solver]. Throws InputError.
+Solver load_solver(const TomlTable& root);
+
+/// Throws InputError if the scene has the stepper, and something besides effects that only quickstep moves. The scene's container,
+/// walls, bonds and periodic axes must have been read.
+void refuse_for_stepper(const TomlTable& root, const Scene& scene);
+
 /// Reads `size` of a [[grain]], if it has one. Throws InputError. The result is the distribution of the factor on all lengths of
 /// the grain. `sieve_size` (m) is its sieve size in the catalogue.
 std::optional<SizeDistribution> load_sizes(const TomlTable& entry, double sieve_size);

@@ -21,9 +21,9 @@ const supernormal::effects::Gravity* Scene::gravity() const {
 }
 
 bool Scene::looks_ahead() const {
-  return std::ranges::any_of(effects, [](const supernormal::effects::Effect& effect) {
-    return std::holds_alternative<supernormal::effects::SpeculativeContacts>(effect);
-  });
+  return solver.stepper || std::ranges::any_of(effects, [](const supernormal::effects::Effect& effect) {
+           return std::holds_alternative<supernormal::effects::SpeculativeContacts>(effect);
+         });
 }
 
 std::span<const Wall> Scene::parts() const { return {std::ranges::find_if(walls, &Wall::is_part), walls.end()}; }

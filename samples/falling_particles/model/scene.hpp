@@ -49,11 +49,23 @@ struct Time {
   int steps_per_frame() const;
 };
 
+/// A step that remembers its contact forces, in place of quickstep (snStepperSetAccuracy).
+struct Accuracy {
+  double sag = 2e-3;  ///< largest overlap of a contact at rest, relative to the least radius of gyration of its bodies
+  int least = 8;      ///< sub-steps of a step
+  int most = 64;
+};
+
 struct Solver {
   static constexpr int kMostIterations = 100000;
-  int iterations;  ///< iterations of quickstep
-  double erp;      ///< fraction of an overlap that a step removes
-  double cfm;      ///< s/kg: softness of all constraints
+  int iterations = 0;                    ///< iterations of quickstep
+  double erp = 0;                        ///< fraction of an overlap that a step of quickstep removes
+  double cfm = 0;                        ///< s/kg: softness of all constraints of quickstep
+  std::optional<Accuracy> stepper = {};  ///< empty for quickstep
+
+  supernormal::effects::Solver solves_contacts() const {
+    return stepper ? supernormal::effects::Solver::Stepper : supernormal::effects::Solver::QuickStep;
+  }
 };
 
 /// The settings of all queries of two smooth bodies (snSetDefaultSolver, snSetWarmStart). Without a section [query] the library's
@@ -103,7 +115,7 @@ struct Scene {
   /// Null when the scene names none.
   const supernormal::effects::Gravity* gravity() const;
 
-  /// Whether the scene names speculative contacts, for which grains look ahead.
+  /// Whether grains look ahead: for speculative contacts, or for the stepper.
   bool looks_ahead() const;
 
   /// The walls of Scene::walls that messages call parts: all but the sides of a box, a hopper or a terrain, which come first.

@@ -64,6 +64,7 @@ void add_run(Lines& lines, const Summary& s) {
     lines.add(("bodies_of." + entry.kind.name).c_str(), static_cast<unsigned long long>(entry.count));
   }
   lines.add("steps", static_cast<unsigned long long>(s.steps));
+  if (s.scene.solver.stepper) lines.add("parts", s.costs.parts, "of steps: after an impact the stepper ends a step early");
   lines.add("simulated", s.simulated_seconds, "s");
   lines.add("interrupted", s.interrupted, "whether the run ended before time.duration");
 }
@@ -114,7 +115,8 @@ void add_queries(Lines& lines, const Summary& s) {
               "of these queries; they separate the bodies, along an estimated normal");
   }
   lines.add("contacts", s.costs.contacts, "in all steps");
-  if (s.scene.looks_ahead()) lines.add("contacts_ahead", contacts_ahead(s), "of these, ahead of touch: the bodies were apart");
+  const unsigned long long ahead = s.scene.solver.stepper ? s.costs.contacts_ahead : contacts_ahead(s);
+  if (s.scene.looks_ahead()) lines.add("contacts_ahead", ahead, "of these, ahead of touch: the bodies were apart");
   lines.add("contacts_per_step", ratio(s.costs.contacts, steps), "mean");
   lines.add("contacts_at_end", static_cast<unsigned long long>(s.contacts_at_end), "in the last step");
   lines.add("deepest_contact", s.deepest_contact, "m, of all steps: grains hit one another in flight");
@@ -246,7 +248,7 @@ void add_costs(Lines& lines, const Summary& s) {
   lines.add_time("share_broad_phase", c.broad_phase.seconds() / total, "bounding boxes, the sweep along them, and walls");
   lines.add_time("share_narrow_phase", narrow / total, "contacts of the pairs, on all threads");
   lines.add_time("share_contact_setup", c.contact_setup.seconds() / total, "contact joints made and removed");
-  lines.add_time("share_solver", solver / total, "dWorldQuickStep");
+  lines.add_time("share_solver", solver / total, s.scene.solver.stepper ? "snStepperStep" : "dWorldQuickStep");
   if (s.bonds != nullptr) lines.add_time("share_bonds", c.bonds.seconds() / total, "forces and breaks of bonds");
   const double known = c.collision.seconds() + c.contact_setup.seconds() + solver + c.bonds.seconds();
   lines.add_time("share_output", (total - known) / total, "the rest");

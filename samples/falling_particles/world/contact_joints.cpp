@@ -61,9 +61,21 @@ ContactJoints::~ContactJoints() { dJointGroupDestroy(joints_); }
 void ContactJoints::replace(std::span<const dContactGeom> contacts, bool measures) {
   dJointGroupEmpty(joints_);
   measured_.clear();
+  read_ = 0;
+  add(contacts, measures);
+}
+
+void ContactJoints::add(std::span<const dContactGeom> contacts, bool measures) {
   for (std::size_t first = 0, end = 0; first < contacts.size(); first = end) {
     while (end < contacts.size() && is_same_pair(contacts[first], contacts[end])) ++end;
     attach(contacts.subspan(first, end - first), measures);
+  }
+}
+
+void ContactJoints::read_forces(double part) {
+  for (int number = 0; read_ < measured_.size(); ++read_, ++number) {
+    const Vector3 force = part * world_.stepper()->contact_force(number);
+    std::copy_n(force.data(), 3, measured_[read_].feedback.f1);
   }
 }
 
@@ -82,8 +94,13 @@ void ContactJoints::attach(std::span<const dContactGeom> pair, bool measures) {
   }
   const int count = world_.effects().set_up_contacts(contacts, side1, side2);
   const auto kept = contacts.first(static_cast<std::size_t>(count));
-  follow_chords(kept, side1, side2);
+  if (world_.stepper() == nullptr) follow_chords(kept, side1, side2);  // the stepper's contacts follow a wall that turns
   for (const dContact& contact : kept) {
+    if (world_.stepper() != nullptr) {
+      world_.stepper()->add_contact(contact, side1.body, side2.body);
+      if (measures) measured_.push_back({contact.geom, {}});
+      continue;
+    }
     const dJointID joint = dJointCreateContact(world_.id(), joints_, &contact);
     dJointAttach(joint, side1.body, side2.body);
     if (measures) measure(joint, contact, side1.body == nullptr);

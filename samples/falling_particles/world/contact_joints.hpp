@@ -13,17 +13,17 @@ namespace falling_particles {
 /// max_contacts of a pair: four points support a face on a face, and the deepest point is the fifth.
 inline constexpr int kContactsPerPair = 5;
 
-/// A contact whose joint reports the contact force.
+/// A contact with its force.
 struct MeasuredContact {
   dContactGeom geom;
-  dJointFeedback feedback;
+  dJointFeedback feedback;   ///< by the stepper, only f1
   bool is_reversed = false;  ///< whether the joint's first body is the body of geom.g2
 
   /// N, in the world's frame, on the body of geom.g1; valid after the step.
   Point force() const;
 };
 
-/// The contact joints of a step in a world, which must outlive them.
+/// The contact joints of a step in a world, which must outlive them; or the contacts that its stepper takes in their place.
 class ContactJoints {
  public:
   explicit ContactJoints(const World& world);
@@ -37,8 +37,14 @@ class ContactJoints {
   /// pair, at most kContactsPerPair, must be consecutive. Of two walls the first is free; it has the friction and restitution of
   /// grains on the second. If `measures`, measured() has their forces after the next step.
   void replace(std::span<const dContactGeom> contacts, bool measures = false);
+  /// Adds further contacts, of the rest of a step that ended early.
+  void add(std::span<const dContactGeom> contacts, bool measures = false);
+  /// After the stepper has made the fraction `part` of a step: the measured forces are means over the step. The contacts must be
+  /// the first ones that the stepper was given.
+  void read_forces(double part);
 
-  /// The contacts that the effects have kept, in the order of their pairs. Empty if `measures` was false.
+  /// The contacts that the effects have kept, in the order of their pairs; of a step that ended early, part by part. Empty if
+  /// `measures` was false.
   const std::deque<MeasuredContact>& measured() const { return measured_; }
 
  private:
@@ -52,6 +58,7 @@ class ContactJoints {
   const World& world_;
   dJointGroupID joints_;
   std::deque<MeasuredContact> measured_;  // the joints point to its elements, which a deque does not move
+  std::size_t read_ = 0;                  // how many of them have their force, by the stepper
 };
 
 }  // namespace falling_particles

@@ -18,9 +18,13 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& inertia, const Eigen::Quaterniond&
 
 }  // namespace
 
-FlyingBody::FlyingBody(dWorldID world, const Wall& wall, double step)
-    : flight_(*wall.flight), step_(step), inverse_inertia_(flight_.inertia.inverse()), body_(create_wall_body(world)) {
-  dBodySetGyroscopicMode(body_, 0);  // read() keeps the angular momentum
+FlyingBody::FlyingBody(dWorldID world, const Wall& wall, double step, bool is_of_stepper)
+    : flight_(*wall.flight),
+      step_(step),
+      is_of_stepper_(is_of_stepper),
+      inverse_inertia_(flight_.inertia.inverse()),
+      body_(create_wall_body(world)) {
+  if (!is_of_stepper) dBodySetGyroscopicMode(body_, 0);  // read() keeps the angular momentum
   dMass mass;
   const Eigen::Matrix3d& I = flight_.inertia;
   dMassSetParameters(&mass, flight_.mass, 0, 0, 0, I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2));
@@ -39,8 +43,11 @@ void FlyingBody::before_step(double now) {
 }
 
 WallPose FlyingBody::read(const WallPose& pose) {
-  state_ = {to_vector(dBodyGetLinearVel(body_)), turned(flight_.inertia, pose.rotation) * to_vector(dBodyGetAngularVel(body_))};
-  return next(pose);
+  const dReal* const q = dBodyGetQuaternion(body_);
+  const Eigen::Quaterniond rotation = is_of_stepper_ ? Eigen::Quaterniond(q[0], q[1], q[2], q[3]) : pose.rotation;
+  state_ = {to_vector(dBodyGetLinearVel(body_)), turned(flight_.inertia, rotation) * to_vector(dBodyGetAngularVel(body_))};
+  if (!is_of_stepper_) return next(pose, step_);
+  return {to_vector(dBodyGetPosition(body_)) - rotation * flight_.centre, rotation};
 }
 
 void FlyingBody::put(const WallPose& pose) {
@@ -54,11 +61,11 @@ Vector3 FlyingBody::spin(const Eigen::Quaterniond& rotation) const { return turn
 
 // The implicit midpoint rule with a constant angular momentum. It is symmetric in time, so the energy of a free turn does not
 // drift.
-WallPose FlyingBody::next(const WallPose& pose) const {
-  Vector3 turn = step_ * spin(pose.rotation);
-  for (int i = 0; i < kMidpointIterations; ++i) turn = step_ * spin(rotation_by(turn / 2) * pose.rotation);
+WallPose FlyingBody::next(const WallPose& pose, double time) const {
+  Vector3 turn = time * spin(pose.rotation);
+  for (int i = 0; i < kMidpointIterations; ++i) turn = time * spin(rotation_by(turn / 2) * pose.rotation);
   const Eigen::Quaterniond rotation = (rotation_by(turn) * pose.rotation).normalized();
-  return {pose(flight_.centre) + step_ * state_.velocity - rotation * flight_.centre, rotation};
+  return {pose(flight_.centre) + time * state_.velocity - rotation * flight_.centre, rotation};
 }
 
 }  // namespace falling_particles

@@ -18,12 +18,13 @@ struct FlightState {
   }
 };
 
-/// A body with the inertia of its wall, at the wall's centre of mass. ODE finds its momenta; this class finds its poses. ODE would
-/// let the angular momentum of a body drift that turns freely about no principal axis.
+/// A body with the inertia of its wall, at the wall's centre of mass. Quickstep finds its momenta; this class finds its poses.
+/// Quickstep would let the angular momentum of a body drift that turns freely about no principal axis. The stepper does not, and
+/// finds the poses too.
 class FlyingBody {
  public:
   /// The wall must outlive this object. `step`: s.
-  FlyingBody(dWorldID world, const Wall& wall, double step);
+  FlyingBody(dWorldID world, const Wall& wall, double step, bool is_of_stepper = false);
   ~FlyingBody();
   FlyingBody(const FlyingBody&) = delete;
   FlyingBody& operator=(const FlyingBody&) = delete;
@@ -38,7 +39,7 @@ class FlyingBody {
   dBodyID id() const { return body_; }
   bool is_held() const { return is_held_; }
   WallPose centred(const WallPose& pose) const;            ///< of the centre of mass of a wall in `pose`
-  WallPose next(const WallPose& pose) const;               ///< of the wall after a step without forces
+  WallPose next(const WallPose& pose, double time) const;  ///< of the wall after `time` (s) without forces
   Vector3 spin(const Eigen::Quaterniond& rotation) const;  ///< rad/s, of a wall with this rotation and the present momentum
 
   const FlightState& state() const { return state_; }
@@ -47,6 +48,7 @@ class FlyingBody {
  private:
   const Flight& flight_;
   double step_;
+  bool is_of_stepper_;
   Eigen::Matrix3d inverse_inertia_;
   dBodyID body_;
   FlightState state_;

@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "common/motion.hpp"
 #include "model/scene.hpp"
 #include "placement.hpp"
 
@@ -21,7 +22,8 @@ struct Grain {
   dGeomID geom;  ///< of a compound the first one; geoms() returns all
   const GrainKind* kind;
   dMass mass;
-  double scale = 1;  ///< factor on the lengths of the kind
+  double scale = 1;                ///< factor on the lengths of the kind
+  common::WallVelocity move = {};  ///< mean of the last step, if the stepper makes it; dBodyGetData points to it
 
   bool is_present() const { return body != nullptr; }
   std::vector<dGeomID> geoms() const;

@@ -40,6 +40,11 @@ bool is_awake(dGeomID geom) {
   return body != nullptr && dBodyIsEnabled(body) != 0;
 }
 
+WallPose pose_of(dBodyID body) {
+  const dReal* const q = dBodyGetQuaternion(body);
+  return {to_vector(dBodyGetPosition(body)), Eigen::Quaterniond(q[0], q[1], q[2], q[3])};
+}
+
 bool may_sleep(const Scene& scene) {
   return std::ranges::any_of(scene.effects,
                              [](const auto& effect) { return std::holds_alternative<supernormal::effects::AutoDisable>(effect); });
@@ -61,8 +66,21 @@ Stepper::Stepper(const World& world, const Scene& scene, int threads)
 Stepper::~Stepper() { snBatchDestroy(batch_); }
 
 void Stepper::step(bool measures) {
+  starts_.clear();
+  if (world_.stepper() != nullptr) {
+    for (const Grain& grain : world_.present()) starts_.push_back(pose_of(grain.body));
+  }
+  for (double done = 0; done < step_;) done = make_part(done, measures);
+  auto start = starts_.begin();
+  if (world_.stepper() == nullptr) return;
+  for (const Grain& grain : world_.present()) *move_by_stepper(grain.body) = mean_velocity(*start++, pose_of(grain.body), step_);
+}
+
+/// Makes the step from `done` (s) on, and returns when it ended: at the step, or before.
+double Stepper::make_part(double done, bool measures) {
+  const bool is_first = done == 0;
   contacts_.clear();
-  world_.walls().before_step();
+  world_.walls().before_step(done);
   if (PeriodicCell* cell = world_.cell()) cell->place_images();
   world_.sweep().before_step();
   {
@@ -75,29 +93,47 @@ void Stepper::step(bool measures) {
   }
   {
     const Stopwatch::Lap lap(costs_.contact_setup);
-    joints_.replace(contacts_, measures);
+    is_first ? joints_.replace(contacts_, measures) : joints_.add(contacts_, measures);
     joints_of_walls_.replace(contacts_of_walls_);
-    world_.effects().apply_forces();
+    if (is_first) world_.effects().apply_forces();  // they act for the whole step
     if (PeriodicCell* cell = world_.cell(); cell != nullptr && world_.scene().looks_ahead()) cell->share_ways();
   }
   if (Bonds* bonds = world_.bonds()) {
     const Stopwatch::Lap lap(costs_.bonds);
     bonds->before_step();
   }
+  ++costs_.parts;
   costs_.contacts += contacts_.size();
   costs_.contacts_of_walls += contacts_of_walls_.size();
   costs_.rows_of_walls += static_cast<unsigned long long>(world_.walls().rows());
-  for (const dContactGeom& contact : contacts_) deepest_contact_ = std::max<double>(deepest_contact_, contact.depth);
+  for (const dContactGeom& contact : contacts_) {
+    deepest_contact_ = std::max<double>(deepest_contact_, contact.depth);
+    if (contact.depth < 0) ++costs_.contacts_ahead;
+  }
   {
     const Stopwatch::Lap lap(costs_.solver);
-    dWorldQuickStep(world_.id(), step_);
+    const double left = step_ - done;
+    const double made = solve(left);
+    done = made < left ? done + made : step_;
     if (PeriodicCell* cell = world_.cell()) cell->gather();
-    world_.walls().after_step();
+    world_.walls().after_step(done);
   }
   if (Bonds* bonds = world_.bonds()) {
     const Stopwatch::Lap lap(costs_.bonds);
     bonds->after_step();
   }
+  return done;
+}
+
+/// Returns the time done, s.
+double Stepper::solve(double time) {
+  if (world_.stepper() == nullptr) {
+    dWorldQuickStep(world_.id(), time);
+    return time;
+  }
+  const double done = world_.stepper()->step(time);
+  joints_.read_forces(done / step_);
+  return done;
 }
 
 void Stepper::collide_grains() {

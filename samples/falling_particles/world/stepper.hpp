@@ -20,20 +20,24 @@ struct StepCosts {
   Stopwatch collision;      ///< broad and narrow phase
   Stopwatch broad_phase;    ///< bounding boxes and pairs; part of collision
   Stopwatch contact_setup;  ///< passes of the effects, creation and removal of contact joints
-  Stopwatch solver;         ///< dWorldQuickStep
+  Stopwatch solver;         ///< dWorldQuickStep, or the stepper
   Stopwatch bonds;          ///< forces and breaks of bonds, without their rows in the solver
   unsigned long long pairs_tested = 0;
+  unsigned long long parts = 0;  ///< of steps: more than steps where the stepper ended some early
   unsigned long long contacts = 0;
+  unsigned long long contacts_ahead = 0;     ///< of these, ahead of touch
   unsigned long long contacts_of_walls = 0;  ///< between two walls
   unsigned long long rows_of_walls = 0;      ///< of the joints of driven walls
   double narrow_phase_seconds() const { return collision.seconds() - broad_phase.seconds(); }
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(collision, broad_phase, contact_setup, solver, bonds, pairs_tested, contacts, contacts_of_walls, rows_of_walls);
+    archive(collision, broad_phase, contact_setup, solver, bonds, pairs_tested, parts, contacts, contacts_ahead, contacts_of_walls,
+            rows_of_walls);
   }
 };
 
-/// Advances a world by steps. A step finds contacts, makes them constraints, and integrates.
+/// Advances a world by steps. A step finds contacts, makes them constraints, and integrates. A step of the scene's stepper may end
+/// early: then the same is done for the rest of it.
 class Stepper {
  public:
   /// `threads`, in [1, 256], find contacts; 0: as many as the machine has. The motion does not depend on their number.
@@ -46,7 +50,7 @@ class Stepper {
   void step(bool measures = false);
 
   std::size_t contacts() const { return contacts_.size(); }                     ///< number of contacts in the last step
-  const std::vector<dContactGeom>& contact_geoms() const { return contacts_; }  ///< contacts of the last step
+  const std::vector<dContactGeom>& contact_geoms() const { return contacts_; }  ///< contacts of the last step, or of its last part
   /// The contacts of the last step with their forces, if it measured them.
   const std::deque<MeasuredContact>& measured_contacts() const { return joints_.measured(); }
   double deepest_contact() const { return deepest_contact_; }  ///< m, over all steps
@@ -59,6 +63,8 @@ class Stepper {
   }
 
  private:
+  double make_part(double done, bool measures);
+  double solve(double time);
   void collide_grains();
   void collide_with_walls();
   void collide_free_walls();
@@ -75,6 +81,7 @@ class Stepper {
   std::vector<std::pair<dGeomID, dGeomID>> wall_pairs_;
   std::vector<dContactGeom> contacts_;
   std::vector<dContactGeom> contacts_of_walls_;
+  std::vector<WallPose> starts_;  // of the present grains, if the stepper moves them
   double deepest_contact_ = 0;
   StepCosts costs_;
 };

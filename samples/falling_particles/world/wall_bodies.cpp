@@ -50,7 +50,7 @@ WallPose WallBodies::Entry::wall_pose() const { return driven == nullptr ? pose 
 WallVelocity WallBodies::Entry::wall_velocity() const { return driven == nullptr ? velocity : driven->velocity_on(pose, velocity); }
 
 WallBodies::WallBodies(dWorldID world, const std::vector<Wall>& walls, double step, unsigned long category_bits,
-                       unsigned long collide_bits)
+                       unsigned long collide_bits, supernormal::ode::Stepper* stepper)
     : world_(world), step_(step) {
   entries_.reserve(walls.size());
   for (std::size_t i = 0; i < walls.size(); ++i) {
@@ -70,10 +70,12 @@ WallBodies::WallBodies(dWorldID world, const std::vector<Wall>& walls, double st
     dBodySetKinematic(entry.carrier);
     set_pose(entry.carrier, entry.pose);
     dBodyDisable(entry.carrier);
+    if (stepper != nullptr) stepper->add_body(entry.carrier);
     if (wall.drive) entry.driven = std::make_unique<DrivenBody>(world, entry.carrier, wall, step);
     if (!wall.flight) continue;
-    entry.flying = std::make_unique<FlyingBody>(world, wall, step);
-    if (wall.flight->from == 0) entry.velocity = mean_velocity(entry.pose, entry.flying->next(entry.pose), step);
+    entry.flying = std::make_unique<FlyingBody>(world, wall, step, stepper != nullptr);
+    if (stepper != nullptr) stepper->add_body(entry.flying->id());
+    if (wall.flight->from == 0) entry.velocity = mean_velocity(entry.pose, entry.flying->next(entry.pose, step), step);
   }
 }
 
@@ -173,8 +175,9 @@ double WallBodies::area_of(const Entry& entry) const {
   return area;
 }
 
-void WallBodies::before_step() {
-  const double now = static_cast<double>(steps_) * step_;
+void WallBodies::before_step(double done) {
+  done_ = done;
+  const double now = static_cast<double>(steps_) * step_ + done;
   const double then = static_cast<double>(steps_ + 1) * step_;
   for (Entry& entry : entries_) {
     if (entry.carrier == nullptr) continue;
@@ -184,7 +187,7 @@ void WallBodies::before_step() {
     }
     const std::span<const WallMotion> motions = entry.wall->motions;
     entry.next = pose_at(entry.wall->start, motions, then);
-    entry.velocity = mean_velocity(entry.pose, entry.next, step_);
+    entry.velocity = mean_velocity(entry.pose, entry.next, step_ - done);
     find_excess(entry, now, then);
     WallVelocity surface = conveyor_velocity(entry.wall->start, entry.pose, motions, now, then);
     surface.linear += entry.velocity.linear;
@@ -201,19 +204,20 @@ void WallBodies::before_step() {
 }
 
 // The end of the step is unknown, as that of a driven turn below.
-void WallBodies::prepare_flight(Entry& entry, double now, double then) {
+void WallBodies::prepare_flight(Entry& entry, double now, double then) const {
   FlyingBody& body = *entry.flying;
   body.before_step(now);
   entry.is_moving = !body.is_held();
   if (!entry.is_moving) return;
   const WallPose from = body.centred(entry.pose);
   entry.lever_base = from.position;
-  entry.excess = falling_particles::chord_excess(entry.wall->start, from, body.centred(body.next(entry.pose)), {}, now, then);
+  entry.excess =
+      falling_particles::chord_excess(entry.wall->start, from, body.centred(body.next(entry.pose, step_ - done_)), {}, now, then);
 }
 
-void WallBodies::fly(Entry& entry) const {
+void WallBodies::fly(Entry& entry, double time) {
   const WallPose next = entry.flying->read(entry.pose);
-  entry.velocity = mean_velocity(entry.pose, next, step_);
+  entry.velocity = mean_velocity(entry.pose, next, time);
   set_velocity(entry.carrier, entry.velocity);
   entry.pose = next;
 }
@@ -227,15 +231,17 @@ void WallBodies::find_excess(Entry& entry, double now, double then) const {
   entry.excess = falling_particles::chord_excess(entry.wall->start, from, to, entry.wall->motions, now, then);
 }
 
-void WallBodies::after_step() {
-  ++steps_;
+void WallBodies::after_step(double done) {
+  const bool is_over = done == step_;
+  const double now = static_cast<double>(steps_) * step_ + done;
+  if (is_over) ++steps_;
   for (Entry& entry : entries_) {
     if (entry.carrier == nullptr || !(entry.is_moving || entry.driven != nullptr)) continue;
     if (entry.flying != nullptr) {
-      fly(entry);
+      fly(entry, done - done_);
     } else {
       if (entry.driven != nullptr) entry.driven->read(entry.pose, entry.velocity);
-      entry.pose = entry.next;
+      entry.pose = is_over ? entry.next : pose_at(entry.wall->start, entry.wall->motions, now);
     }
     put(entry);
   }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <supernormal/effects.hpp>
+#include <supernormal/stepper.hpp>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -21,7 +22,7 @@ namespace falling_particles {
 /// The pose and velocity of a wall.
 struct WallState {
   WallPose pose;
-  WallVelocity velocity;  ///< mean of the last step, without the motion of a conveyor's surface
+  WallVelocity velocity;  ///< mean of the last step, or of its last part, without the motion of a conveyor's surface
 };
 
 /// The state of the moving walls between two steps, as far as it is no function of time.
@@ -53,8 +54,10 @@ struct WallsState {
 class WallBodies {
  public:
   /// The walls and the world must outlive this object. The geoms have `category_bits` and collide with geoms that have a bit of
-  /// `collide_bits`. `step`: s. Throws std::runtime_error when the library refuses a shape.
-  WallBodies(dWorldID world, const std::vector<Wall>& walls, double step, unsigned long category_bits, unsigned long collide_bits);
+  /// `collide_bits`. `step`: s. `stepper` gets the bodies; null for quickstep. Throws std::runtime_error when the library refuses a
+  /// shape.
+  WallBodies(dWorldID world, const std::vector<Wall>& walls, double step, unsigned long category_bits, unsigned long collide_bits,
+             supernormal::ode::Stepper* stepper = nullptr);
   ~WallBodies();
   WallBodies(const WallBodies&) = delete;
   WallBodies& operator=(const WallBodies&) = delete;
@@ -68,10 +71,11 @@ class WallBodies {
   /// Removes the lid of a hopper's outlet, if there is one. Its geom stays valid for the contacts of the last step.
   void remove_lid();
 
-  /// Sets the velocities of the bodies. Call it before the collision of a step.
-  void before_step();
-  /// Moves the walls to their poses at the end of the step. Call it after the step.
-  void after_step();
+  /// Sets the velocities of the bodies. Call it before the collision of a step, or of the rest of a step of which `done` (s) are
+  /// over.
+  void before_step(double done = 0);
+  /// Moves the walls to their poses when `done` (s) of the step are over. Call it after the step, or after a part of it.
+  void after_step(double done);
 
   /// Whether the geom belongs to a wall that moves, or whose surface moves, in this step.
   bool is_moving(dGeomID geom) const;
@@ -136,13 +140,14 @@ class WallBodies {
   const Entry& named(const std::string& name) const;
   double area_of(const Entry& entry) const;
   void find_excess(Entry& entry, double now, double then) const;
-  static void prepare_flight(Entry& entry, double now, double then);
-  void fly(Entry& entry) const;
+  void prepare_flight(Entry& entry, double now, double then) const;
+  static void fly(Entry& entry, double time);
   static void put(const Entry& entry);
   static void place(const Entry& entry);
 
   dWorldID world_;
   double step_;
+  double done_ = 0;  // s, of a step that has ended early
   long steps_ = 0;
   std::vector<Entry> entries_;
   std::vector<dGeomID> geoms_;

@@ -47,12 +47,16 @@ World::World(const Scene& scene) : scene_(scene), query_defaults_(scene.query) {
   dAllocateODEDataForThread(dAllocateFlagBasicData | dAllocateFlagCollisionData);
   world_ = dWorldCreate();
   sweep_ = std::make_unique<SweepSpace>(scene.sweep_axis);
+  if (const auto& accuracy = scene.solver.stepper) {
+    stepper_ = std::make_unique<supernormal::ode::Stepper>(world_);
+    stepper_->set_accuracy(accuracy->sag, accuracy->least, accuracy->most);
+  }
   // Quickstep shuffles its constraints with ODE's global random generator.
   dRandSetSeed(static_cast<unsigned long>(scene.seed & 0xffffffffU));
   set_parameters(scene);
   // The walls are in no space, since ODE pairs geoms of infinite height with all others. Each wall is tested against the bounding
   // boxes of the grains.
-  walls_ = std::make_unique<WallBodies>(world_, scene.walls, scene.time.step, kWallBit, kGrainBit);
+  walls_ = std::make_unique<WallBodies>(world_, scene.walls, scene.time.step, kWallBit, kGrainBit, stepper_.get());
 }
 
 World::World(const Scene& scene, const std::vector<Placement>& placements) : World(scene) {
@@ -80,6 +84,7 @@ void World::add_cell() {
 }
 
 World::~World() {
+  stepper_.reset();
   bonds_.reset();
   cell_.reset();
   walls_.reset();
@@ -102,11 +107,13 @@ void World::name_pairs(void* data, dNearCallback* callback) const {
 }
 
 void World::set_parameters(const Scene& scene) {
-  dWorldSetQuickStepNumIterations(world_, scene.solver.iterations);
-  dWorldSetERP(world_, scene.solver.erp);
-  dWorldSetCFM(world_, scene.solver.cfm);
+  if (!scene.solver.stepper) {
+    dWorldSetQuickStepNumIterations(world_, scene.solver.iterations);
+    dWorldSetERP(world_, scene.solver.erp);
+    dWorldSetCFM(world_, scene.solver.cfm);
+  }
   // The effects must precede the bodies, which inherit some settings from the world.
-  effects_ = std::make_unique<supernormal::effects::Effects>(scene.effects, scene.time.step);
+  effects_ = std::make_unique<supernormal::effects::Effects>(scene.effects, scene.time.step, scene.solver.solves_contacts());
   effects_->set_up(world_);
 }
 
@@ -122,6 +129,7 @@ void World::remove(std::size_t index) {
   if (cell_ != nullptr) cell_->remove(index);
   if (bonds_ != nullptr) bonds_->release(index);
   effects_->remove_body(entry.body);
+  if (stepper_ != nullptr) stepper_->remove_body(entry.body);
   std::ranges::for_each(entry.geoms(), dGeomDestroy);
   dBodyDestroy(entry.body);
   entry.geom = nullptr;
@@ -139,6 +147,9 @@ void World::add_grain(const Placement& placement) {
   dBodySetMass(entry.body, &entry.mass);
   put(entry.body, placement);
   effects_->add_body(entry.body);
+  if (stepper_ == nullptr) return;
+  stepper_->add_body(entry.body);
+  dBodySetData(entry.body, &entry.move);
 }
 
 WorldState World::save() const {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <supernormal/effects.hpp>
+#include <supernormal/stepper.hpp>
 #include <vector>
 
 #include "bonds.hpp"
@@ -100,6 +101,8 @@ class World {
   std::size_t index_of(const Grain& grain) const { return static_cast<std::size_t>(&grain - grains_.data()); }
   /// The effects that the scene names, compiled.
   supernormal::effects::Effects& effects() const { return *effects_; }
+  /// Moves the bodies in place of dWorldQuickStep; null for a scene that takes quickstep.
+  supernormal::ode::Stepper* stepper() const { return stepper_.get(); }
   /// Calls back for every pair of a grain and a wall whose bounding boxes meet.
   void name_wall_pairs(void* data, dNearCallback* callback) const;
   /// Calls back for every pair of grains, or of a grain and a wall, whose bounding boxes meet.
@@ -132,6 +135,7 @@ class World {
   dWorldID world_;
   std::unique_ptr<SweepSpace> sweep_;
   std::unique_ptr<supernormal::effects::Effects> effects_;
+  std::unique_ptr<supernormal::ode::Stepper> stepper_;
   std::vector<Grain> grains_;
   std::vector<std::size_t> present_;  // indices of the present grains, in order
   std::unique_ptr<PeriodicCell> cell_;

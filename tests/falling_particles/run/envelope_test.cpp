@@ -83,7 +83,7 @@ TEST_CASE("checkpoint: a byte that has changed is noticed, wherever it is") {
   std::string of_later_format = whole;
   of_later_format[8] = 10;
   CHECK(complaint_about(of_later_format) ==
-        std::string("checkpoint \"out/box/checkpoint\" has format 10; allowed: 9, that of this program") + kStartAnew);
+        std::string("checkpoint \"out/box/checkpoint\" has format 11; allowed: 10, that of this program") + kStartAnew);
 }
 
 TEST_CASE("checkpoint: one of another run is refused, and it is told why") {
