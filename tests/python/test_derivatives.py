@@ -59,13 +59,37 @@ def test_they_are_the_differences_of_find_proximities():
     assert second == pytest.approx(difference, abs=1e-3 * np.abs(second).max())
 
 
-def test_the_gradient_alone_is_the_gradient():
+def test_the_gradient_alone_has_the_digits_of_all_derivatives():
     answers = asked(np.zeros(12))
-    gradient = sn.find_gap_gradient(POSES1, POSES2, answers)
-    assert gradient.shape == (COUNT, 12) and (gradient[:, 6:9] == answers.normal).all()
+    alone = sn.find_gap_gradient(EGG, POSES1, BODIES, POSES2, answers)
+    assert len(alone) == COUNT and alone.gradient.shape == (COUNT, 12)
     exact = sn.find_proximity_derivatives(EGG, POSES1, BODIES, POSES2, answers, hessian=False, parameters=False)
-    assert gradient == pytest.approx(exact.gap_gradient, abs=1e-5)
+    assert (alone.gradient == exact.gap_gradient).all() and (alone.status == exact.status).all()
+    assert alone.has_gap.all() and (alone.evaluations == exact.evaluations).all()
     assert exact.gap_hessian is None and exact.parameters1 is None and exact.parameters2 is None
+    box = sn.Box((1, 1, 1))
+    there = sn.Pose((0, 0, 3))
+    flat = sn.find_gap_gradient(box, sn.Pose(), box, there, sn.find_proximity(box, sn.Pose(), box, there))
+    assert flat.status[0] == sn.DerivativeStatus.FREE_ON_FACE and not flat.has_gap[0]
+
+
+def test_the_gradient_by_rotations_of_boxy_bodies_is_that_of_differences():
+    # A gap that is exact to 1e-9 leaves the points of flat sides uncertain by up to their size.
+    random = np.random.default_rng(3)
+    count, step = 300, 1e-5
+    brick = lambda: sn.Shapes.superellipsoids(random.uniform(0.2, 1, (count, 3)), random.uniform(1.2, 50, count), random.uniform(1.2, 50, count))
+    one, two = brick(), brick()
+    turn = lambda: rotation(random.normal(size=(count, 3)))
+    here = sn.Poses(np.zeros((count, 3)), rotation=turn())
+    away = random.normal(size=(count, 3))
+    there = sn.Poses(2 * away / np.linalg.norm(away, axis=1)[:, None], rotation=turn())
+    found = sn.find_gap_gradient(one, here, two, there, sn.find_proximities(one, here, two, there))
+    checked = found.status <= sn.DerivativeStatus.ACTIVE_SET
+    assert checked.sum() > 250
+    for k in range(3):
+        w = step * np.eye(3)[k]
+        gap = [sn.find_proximities(one, sn.Poses(here.position, rotation=rotation(s * w) @ here.rotation), two, there, settings=EXACT).gap for s in (1, -1)]
+        assert np.abs((gap[0] - gap[1]) / (2 * step) - found.gradient[:, 3 + k])[checked].max() < 1e-3
 
 
 def test_parameters_have_names():
@@ -132,7 +156,7 @@ def test_what_is_refused():
     with pytest.raises(ValueError, match="proximities has 40 entries and poses2 has 2"):
         sn.find_proximity_derivatives(EGG, sn.Pose(), EGG, sn.Poses([[1, 2, 3], [4, 5, 6]]), answers)
     with pytest.raises(TypeError, match="proximities is 7, but must be a Proximity or Proximities"):
-        sn.find_gap_gradient(POSES1, POSES2, 7)
+        sn.find_gap_gradient(*arguments, 7)
     with pytest.raises(ValueError, match="distance = nan m is not finite"):
         sn.are_farther_than(*arguments, np.nan)
     with pytest.raises(ValueError, match="enough = nan m, but must be a number"):

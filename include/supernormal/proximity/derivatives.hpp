@@ -35,20 +35,28 @@ enum class DerivativeStatus {
   /// H1 + H2 + gap is singular across the normal (vertex to vertex), or below 1e-6 half-extents: the normal may not be unique
   SingularCurvature,
   SeveralMaxima,  ///< the opposite normal has the same gap: the gap is not differentiable
-  NoHessian,      ///< a shape has no Hessian: only the gradient of the gap is known
-  NotConverged,   ///< the answer's normal is not a common normal
-  InvalidInput,   ///< a pose is not usable, or a number is not finite
+  /// A shape has no Hessian: only the gradient of the gap is known, as exactly as the normal and the points of the answer.
+  NoHessian,
+  NotConverged,  ///< the answer's normal is not a common normal
+  InvalidInput,  ///< a pose is not usable, or a number is not finite
 };
 
 /// The gradient of the gap with respect to the twists: (-n, -P1 x n, n, P2 x n) with the witness points P1 and P2 relative to the
 /// origins of their bodies' frames. So the derivative with respect to the position of body 2 is the normal. By the envelope theorem
 /// the change of the normal has no effect to first order (Danskin 1966; lib/proximity/README.md).
+struct GapGradient {
+  DerivativeStatus status = DerivativeStatus::InvalidInput;  ///< says why has_gap is false
+  bool has_gap = false;                        ///< whether it is the gradient; otherwise one of the subgradients, or zero
+  TwistVector gradient = TwistVector::Zero();  ///< per m and per rad: m/m and m/rad
+  int evaluations = 0;                         ///< of the gap function
+};
+
+/// The status, the gradient and the evaluations of find_proximity_derivatives(), digit by digit, without the Jacobians.
 ///
-/// This takes the points of the answer and evaluates nothing. By positions the gradient is as exact as the normal of the answer,
-/// whose error is of the order of sqrt(2 error/R), with R the smallest radius of curvature of the Minkowski difference plus the
-/// gap. By rotations it is as exact as the points, whose error is that of the normal times the radius of curvature there.
-/// find_proximity_derivatives() is exact to rounding. Zero if the answer has the status InvalidInput.
-SUPERNORMAL_API TwistVector find_gap_gradient(const Pose& pose1, const Pose& pose2, const Proximity& proximity);
+/// The points of an answer are not enough: a gap that is exact to 1e-9 leaves the normal of a flat side uncertain by so much that
+/// its point may be anywhere on the side. So Newton's method brings the normal to rounding first.
+SUPERNORMAL_API GapGradient find_gap_gradient(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
+                                              const Proximity& proximity);
 
 /// What find_proximity_derivatives() computes besides the first derivatives with respect to the twists.
 struct DerivativeSettings {

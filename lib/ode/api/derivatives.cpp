@@ -14,6 +14,7 @@
 #include "ode/geom/geom_class.hpp"
 #include "ode/support/last_error.hpp"
 #include "ode/support/require.hpp"
+#include "proximity/derivatives/gradient_of_answer.hpp"
 #include "supernormal/proximity/clearance.hpp"
 #include "supernormal/supernormal.h"
 
@@ -44,11 +45,9 @@ Proximity answer_of(const snProximity& at) {
   return answer;
 }
 
-/// The point about which the twists of a geom rotate.
+/// The point about which the twists of a geom rotate, a body or a mesh.
 Vector3 origin_of(dGeomID geom) {
-  const int number = dGeomGetClass(geom);
-  if (number == dPlaneClass) return Vector3::Zero();
-  if (number != dHeightfieldClass) return to_vector(dGeomGetPosition(geom));
+  if (dGeomGetClass(geom) != dHeightfieldClass) return to_vector(dGeomGetPosition(geom));
   dVector3 origin;
   dGeomGetRelPointPos(geom, 0, 0, 0, origin);  // it may have no position
   return to_vector(origin);
@@ -101,11 +100,12 @@ ProximityDerivatives swapped(const ProximityDerivatives& found) {
   return out;
 }
 
-ProximityDerivatives plane_derivatives(const TwoGeoms& geoms) {
+ProximityDerivatives plane_derivatives(const TwoGeoms& geoms, const DerivativeSettings& settings = {}) {
   dVector4 plane;
   dGeomPlaneGetParams(geoms.collider, plane);
   const Pose pose = pose_of(geoms.ours);
-  const ProximityDerivatives found = find_plane_derivatives(require_body(geoms.ours).shape(), pose, to_vector(plane), plane[3]);
+  const ProximityDerivatives found =
+      find_plane_derivatives(require_body(geoms.ours).shape(), pose, to_vector(plane), plane[3], settings);
   return geoms.is_swapped ? swapped(found) : found;
 }
 
@@ -151,18 +151,34 @@ Clearance clearance_of(const TwoGeoms& geoms, dGeomID g1, dGeomID g2, Ask ask) {
   return found;
 }
 
-int answer_gradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal* gradient) {
+/// The gradient of snGeomDerivatives. A mesh has none but that of the answer's points.
+GapGradient gap_gradient_of(const TwoGeoms& geoms, dGeomID g1, dGeomID g2, const snProximity& at) {
+  require_supported(geoms);  // ODE ends the program at the position of a space
+  const Proximity answer = answer_of(at);
+  if (dGeomGetClass(geoms.collider) == dPlaneClass) {
+    const ProximityDerivatives found = plane_derivatives(geoms, {.hessian = false, .parameters = false});
+    return {found.status, found.has_gap, found.gap_gradient, found.evaluations};
+  }
+  if (has_shape(geoms.collider)) {
+    const PosedPair pair(g1, g2);
+    return find_gap_gradient(pair.one.shape(), pair.one.pose(), pair.two.shape(), pair.two.pose(), answer);
+  }
+  Pose pose1, pose2;
+  pose1.position = origin_of(g1);
+  pose2.position = origin_of(g2);
+  if (!is_usable(pose1) || !is_usable(pose2)) return {};
+  return {DerivativeStatus::NoHessian, true, gradient_of_answer(pose1, pose2, answer), 0};
+}
+
+int answer_gradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal* gradient, snDerivativeStatus* status) {
   return guarded("snGeomGapGradient", 0, [&] {
     require_not_null("at", at);
     require_not_null("gradient", gradient);
     const TwoGeoms geoms(g1, g2, gradient);
-    require_supported(geoms);  // ODE ends the program at the position of a space
-    Pose pose1, pose2;
-    pose1.position = origin_of(g1);
-    pose2.position = origin_of(g2);
-    const TwistVector found = find_gap_gradient(pose1, pose2, answer_of(*at));
-    if (!is_usable(pose1) || !is_usable(pose2) || !found.allFinite()) geoms.refuse();
-    for (int j = 0; j < kTwist; ++j) gradient[j] = to_real(found[j]);
+    const GapGradient found = gap_gradient_of(geoms, g1, g2, *at);
+    if (found.status == DerivativeStatus::InvalidInput) geoms.refuse();
+    for (int j = 0; j < kTwist; ++j) gradient[j] = to_real(found.gradient[j]);
+    if (status != nullptr) *status = static_cast<snDerivativeStatus>(found.status);
     return 1;
   });
 }
@@ -217,8 +233,8 @@ int answer_is_farther(dGeomID g1, dGeomID g2, double distance, dReal* normal) {
 
 using namespace supernormal::ode;
 
-extern "C" int snGeomGapGradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal gradient[12]) {
-  return answer_gradient(g1, g2, at, gradient);
+extern "C" int snGeomGapGradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal gradient[12], snDerivativeStatus* status) {
+  return answer_gradient(g1, g2, at, gradient, status);
 }
 
 extern "C" int snGeomDerivatives(dGeomID g1, dGeomID g2, const snProximity* at, snDerivatives* out) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "proximity/derivatives/common_normal.hpp"
+#include "proximity/derivatives/gradient_of_answer.hpp"
 #include "proximity/limits.hpp"
 #include "proximity/usable_pose.hpp"
 #include "supernormal/proximity/plane.hpp"
@@ -39,12 +40,6 @@ struct WorldNormal {
   Vector3 p1, p2;            // m; the witness points
   double s;                  // m
 };
-
-TwistVector gradient_of(const Vector3& n, const Vector3& p1, const Vector3& p2) {
-  TwistVector gradient;
-  gradient << -n, n.cross(p1), n, p2.cross(n);
-  return gradient;
-}
 
 /// [p] M, where [p] w = p x w.
 TwistJacobian cross_times(const Vector3& p, const TwistJacobian& M) { return -M.colwise().cross(p); }
@@ -239,24 +234,11 @@ Departure look_nearby(const Shape& shape, const TangentPlane& tangent, const Vec
   return worst;
 }
 
-}  // namespace
+/// All derivatives, or no Jacobians.
+enum class Extent { Gradient, All };
 
-// The answer's witness points are any points of flat faces. On the line between them, the point beside the contact is opposite the
-// other body's point.
-TwistVector find_gap_gradient(const Pose& pose1, const Pose& pose2, const Proximity& proximity) {
-  if (proximity.status == Status::InvalidInput) return TwistVector::Zero();
-  const Vector3& n = proximity.normal;
-  Vector3 point = proximity.point1;
-  const Vector3 between = proximity.point2 - proximity.point1;
-  const Vector3 across = between - between.dot(n) * n;
-  const double squared = across.squaredNorm();
-  const double along = across.dot(proximity.contact - proximity.point1);
-  if (along > 0) point += (along < squared ? along / squared : 1) * across;
-  return gradient_of(n, point - pose1.position, point - pose2.position);
-}
-
-ProximityDerivatives find_proximity_derivatives(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
-                                                const Proximity& proximity, const DerivativeSettings& settings) {
+ProximityDerivatives derivatives_of(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
+                                    const Proximity& proximity, const DerivativeSettings& settings, Extent extent) {
   ProximityDerivatives out;
   if (!is_usable(pose1) || !is_usable(pose2) || !all_finite(proximity.normal) || proximity.status == Status::InvalidInput)
     return out;
@@ -268,7 +250,7 @@ ProximityDerivatives find_proximity_derivatives(const Shape& shape1, const Pose&
   const Vector3 start = (pose1.rotation.transpose() * proximity.normal).normalized();
   if (!gap.has_hessian()) {
     out.status = DerivativeStatus::NoHessian;
-    out.gap_gradient = find_gap_gradient(pose1, pose2, proximity);
+    out.gap_gradient = gradient_of_answer(pose1, pose2, proximity);
     set_flags(out);
     if (settings.parameters)
       add_parameters(gap, start, shape1.point(start), gap.rotation() * shape2.point(-(gap.rotation().transpose() * start)), out);
@@ -286,8 +268,22 @@ ProximityDerivatives find_proximity_derivatives(const Shape& shape1, const Pose&
   out.common_normal = at.n;
   out.gap_gradient = gradient_of(at.n, at.p1, at.p2);
   if (settings.parameters) add_parameters(gap, common.normal(), common.point1(), common.lever2(), out);
-  if (out.has_normal) write_jacobians(common.response(), at, settings, out);
+  if (out.has_normal && extent == Extent::All) write_jacobians(common.response(), at, settings, out);
   return out;
+}
+
+}  // namespace
+
+GapGradient find_gap_gradient(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
+                              const Proximity& proximity) {
+  constexpr DerivativeSettings kNoMore{.hessian = false, .parameters = false};
+  const ProximityDerivatives found = derivatives_of(shape1, pose1, shape2, pose2, proximity, kNoMore, Extent::Gradient);
+  return {found.status, found.has_gap, found.gap_gradient, found.evaluations};
+}
+
+ProximityDerivatives find_proximity_derivatives(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
+                                                const Proximity& proximity, const DerivativeSettings& settings) {
+  return derivatives_of(shape1, pose1, shape2, pose2, proximity, settings, Extent::All);
 }
 
 // The plane is a face of body 2 that has no border: the normal rotates with it, and its radii of curvature are infinite.
@@ -297,7 +293,7 @@ ProximityDerivatives find_plane_derivatives(const Shape& shape, const Pose& pose
   const Proximity answer = find_plane_proximity(shape, pose, plane_normal, plane_offset);
   if (answer.status == Status::InvalidInput) return out;
   out.common_normal = answer.normal;
-  out.gap_gradient = find_gap_gradient(pose, {}, answer);
+  out.gap_gradient = gradient_of_answer(pose, {}, answer);
   const Vector3 own = pose.rotation.transpose() * answer.normal;
   Jet jet;
   shape.evaluate(own, shape.traits().has_hessian ? Order::Hessian : Order::Point, jet);

@@ -55,10 +55,14 @@ class ProximitiesArgument {
 
 /// What find_proximity_derivatives() returns. A column that was not asked for has no entries.
 struct Derivatives {
-  explicit Derivatives(std::ptrdiff_t pairs, bool hessian = true, bool parameters = true)
-      : count(pairs), gap_hessian(hessian ? pairs : 0), parameters1(parameters ? pairs : 0), parameters2(parameters ? pairs : 0) {}
+  explicit Derivatives(std::ptrdiff_t pairs, const DerivativeSettings& asked = {})
+      : settings(asked),
+        count(pairs),
+        gap_hessian(settings.hessian ? pairs : 0),
+        parameters1(settings.parameters ? pairs : 0),
+        parameters2(settings.parameters ? pairs : 0) {}
 
-  void set(std::ptrdiff_t i, const ProximityDerivatives& found, const DerivativeSettings& settings) {
+  void set(std::ptrdiff_t i, const ProximityDerivatives& found) {
     status.set(i, static_cast<std::uint8_t>(found.status));
     has_gap.set(i, found.has_gap);
     has_normal.set(i, found.has_normal);
@@ -75,6 +79,7 @@ struct Derivatives {
     parameters2.set(i, values_of(found.parameters2));
   }
 
+  DerivativeSettings settings;
   std::ptrdiff_t count;
   Column<std::uint8_t> status{count};
   Column<bool> has_gap{count}, has_normal{count}, has_points{count};
@@ -93,34 +98,72 @@ struct Derivatives {
   }
 };
 
+/// Answers of N queries, with their bodies and poses.
+class AnsweredPairs {
+ public:
+  AnsweredPairs(const py::object& shapes1, const py::object& poses1, const py::object& shapes2, const py::object& poses2,
+                const py::object& proximities)
+      : bodies1_("shapes1", shapes1, count_),
+        places1_("poses1", poses1, count_),
+        bodies2_("shapes2", shapes2, count_),
+        places2_("poses2", poses2, count_),
+        answers_("proximities", proximities, count_) {}
+
+  std::ptrdiff_t count() const { return count_.value(); }
+
+  /// Calls find(shape1, pose1, shape2, pose2, proximity) for all pairs, and out.set(i, result).
+  template <typename Find, typename Out>
+  void find_all(int threads, Out& out, Find find) const {
+    parallel_for(count(), threads, [&](std::ptrdiff_t i) {
+      const auto found = find(bodies1_[i], places1_[i], bodies2_[i], places2_[i], answers_[i]);
+      if (found.status == DerivativeStatus::InvalidInput) throw std::invalid_argument(kNotFinite);
+      out.set(i, found);
+    });
+  }
+
+ private:
+  PairCount count_;
+  ShapesArgument bodies1_;
+  PosesArgument places1_;
+  ShapesArgument bodies2_;
+  PosesArgument places2_;
+  ProximitiesArgument answers_;
+};
+
 std::unique_ptr<Derivatives> proximity_derivatives(const py::object& shapes1, const py::object& poses1, const py::object& shapes2,
                                                    const py::object& poses2, const py::object& proximities, bool hessian,
                                                    bool parameters, int threads) {
-  PairCount count;
-  const ShapesArgument bodies1("shapes1", shapes1, count);
-  const PosesArgument places1("poses1", poses1, count);
-  const ShapesArgument bodies2("shapes2", shapes2, count);
-  const PosesArgument places2("poses2", poses2, count);
-  const ProximitiesArgument answers("proximities", proximities, count);
+  const AnsweredPairs pairs(shapes1, poses1, shapes2, poses2, proximities);
   const DerivativeSettings settings{hessian, parameters};
-  auto out = std::make_unique<Derivatives>(count.value(), hessian, parameters);
-  parallel_for(count.value(), threads, [&](std::ptrdiff_t i) {
-    const ProximityDerivatives found =
-        find_proximity_derivatives(bodies1[i], places1[i], bodies2[i], places2[i], answers[i], settings);
-    if (found.status == DerivativeStatus::InvalidInput) throw std::invalid_argument(kNotFinite);
-    out->set(i, found, settings);
-  });
+  auto out = std::make_unique<Derivatives>(pairs.count(), settings);
+  pairs.find_all(threads, *out, [&](const auto&... pair) { return find_proximity_derivatives(pair..., settings); });
   return out;
 }
 
-py::array_t<double> gap_gradient(const py::object& poses1, const py::object& poses2, const py::object& proximities) {
-  PairCount count;
-  const PosesArgument places1("poses1", poses1, count);
-  const PosesArgument places2("poses2", poses2, count);
-  const ProximitiesArgument answers("proximities", proximities, count);
-  Column<double, 12> out(count.value());
-  for (std::ptrdiff_t i = 0; i < count.value(); ++i) out.set(i, find_gap_gradient(places1[i], places2[i], answers[i]));
-  return out.array();
+/// What find_gap_gradient() returns.
+struct GapGradients {
+  explicit GapGradients(std::ptrdiff_t pairs) : count(pairs) {}
+
+  void set(std::ptrdiff_t i, const GapGradient& found) {
+    status.set(i, static_cast<std::uint8_t>(found.status));
+    has_gap.set(i, found.has_gap);
+    gradient.set(i, found.gradient);
+    evaluations.set(i, found.evaluations);
+  }
+
+  std::ptrdiff_t count;
+  Column<std::uint8_t> status{count};
+  Column<bool> has_gap{count};
+  Column<double, 12> gradient{count};
+  Column<int> evaluations{count};
+};
+
+std::unique_ptr<GapGradients> gap_gradient(const py::object& shapes1, const py::object& poses1, const py::object& shapes2,
+                                           const py::object& poses2, const py::object& proximities, int threads) {
+  const AnsweredPairs pairs(shapes1, poses1, shapes2, poses2, proximities);
+  auto out = std::make_unique<GapGradients>(pairs.count());
+  pairs.find_all(threads, *out, [](const auto&... pair) { return find_gap_gradient(pair...); });
+  return out;
 }
 
 struct Clearances {
@@ -200,6 +243,9 @@ py::array_t<bool> farther(const py::object& shapes1, const py::object& poses1, c
   return out.array();
 }
 
+constexpr const char* kStatusDoc = "(N,) of uint8; compare with members of DerivativeStatus";
+constexpr const char* kEvaluationsDoc = "(N,) of int32; evaluations of the gap function";
+
 constexpr const char* kDerivativesDoc =
     R"(Derivatives of the gaps, normals and witness points of N pairs: the results of find_proximity_derivatives(). Frame: world.
 
@@ -219,14 +265,18 @@ threads: in [0, 256]; 0: up to one for each core, each with at least 256 of the 
 Newton's method brings each normal to rounding first. Raises ValueError when a shape returns a number that is not finite, with the index of
 the pair, and when the arguments differ in length.)";
 
-constexpr const char* kGradientDoc = R"(The gradients of the gap, (N, 12), as in ProximityDerivatives.gap_gradient.
+constexpr const char* kGradientsDoc = "Gradients of the gaps of N pairs: the results of find_gap_gradient().";
 
-It takes the points of the answers and evaluates nothing. So it is as exact as their normals.
+constexpr const char* kGradientDoc =
+    R"(The gradients of the gap of N answers, on all cores: ProximityDerivatives.gap_gradient, digit by digit.
 
+shapes1, shapes2: one Shape for all pairs, or Shapes, or a sequence of N Shape.
 poses1, poses2: one Pose for all pairs, or Poses.
-proximities: the answer for these poses: Proximity or Proximities.
+proximities: the answer for the same shapes and poses: Proximity or Proximities.
+threads: in [0, 256]; 0: up to one for each core, each with at least 256 of the N.
 
-Raises ValueError when the arguments differ in length.)";
+Newton's method brings each normal to rounding first, with about two evaluations. Raises ValueError when a shape returns a number that is
+not finite, with the index of the pair, and when the arguments differ in length.)";
 
 constexpr const char* kClearancesDoc = "Proved lower bounds of the gaps of N pairs: the results of find_clearances().";
 
@@ -270,6 +320,16 @@ void bind_optional(py::class_<Derivatives>& type, const char* name, ColumnType D
       doc);
 }
 
+void bind_gradients_class(py::module_& m) {
+  py::class_<GapGradients> type(m, "GapGradients", kGradientsDoc);
+  type.def("__len__", [](const GapGradients& self) { return self.count; });
+  bind_columns(type, "pairs", &GapGradients::status, &GapGradients::has_gap, &GapGradients::gradient, &GapGradients::evaluations);
+  bind_column(type, "status", &GapGradients::status, kStatusDoc);
+  bind_column(type, "has_gap", &GapGradients::has_gap, "(N,) of bool; whether it is the gradient, or a subgradient");
+  bind_column(type, "gradient", &GapGradients::gradient, "(N, 12), m/m and m/rad, by (v1, w1, v2, w2)");
+  bind_column(type, "evaluations", &GapGradients::evaluations, kEvaluationsDoc);
+}
+
 void bind_derivatives_class(py::module_& m) {
   py::class_<Derivatives> type(m, "ProximityDerivatives", kDerivativesDoc);
   type.def("__len__", [](const Derivatives& self) { return self.count; });
@@ -277,7 +337,7 @@ void bind_derivatives_class(py::module_& m) {
                &Derivatives::gap_gradient, &Derivatives::normal, &Derivatives::point1, &Derivatives::point2,
                &Derivatives::common_normal, &Derivatives::evaluations, &Derivatives::gap_hessian, &Derivatives::parameters1,
                &Derivatives::parameters2);
-  bind_column(type, "status", &Derivatives::status, "(N,) of uint8; compare with members of DerivativeStatus");
+  bind_column(type, "status", &Derivatives::status, kStatusDoc);
   bind_column(type, "has_gap", &Derivatives::has_gap, "(N,) of bool; whether gap_gradient is the gradient, or a subgradient");
   bind_column(type, "has_normal", &Derivatives::has_normal, "(N,) of bool; whether normal and gap_hessian are defined");
   bind_column(type, "has_points", &Derivatives::has_points, "(N,) of bool; whether point1 and point2 are defined");
@@ -286,7 +346,7 @@ void bind_derivatives_class(py::module_& m) {
   bind_column(type, "point1", &Derivatives::point1, "(N, 3, 12), m/m and m/rad; the point of space, not of the material");
   bind_column(type, "point2", &Derivatives::point2, "(N, 3, 12), m/m and m/rad");
   bind_column(type, "common_normal", &Derivatives::common_normal, "(N, 3), unit; the normal of the answer, exact to rounding");
-  bind_column(type, "evaluations", &Derivatives::evaluations, "(N,) of int32; evaluations of the gap function");
+  bind_column(type, "evaluations", &Derivatives::evaluations, kEvaluationsDoc);
   bind_optional(type, "gap_hessian", &Derivatives::gap_hessian, "(N, 12, 12), m/(m m), m/(m rad), m/(rad rad); or None");
   bind_optional(
       type, "parameters1", &Derivatives::parameters1,
@@ -298,18 +358,20 @@ void bind_derivatives_class(py::module_& m) {
 }  // namespace
 
 void bind_derivatives(py::module_& m) {
+  bind_gradients_class(m);
   bind_derivatives_class(m);
   m.def("find_proximity_derivatives", &proximity_derivatives, kFindDerivativesDoc, py::arg("shapes1"), py::arg("poses1"),
         py::arg("shapes2"), py::arg("poses2"), py::arg("proximities"), py::arg("hessian") = true, py::arg("parameters") = true,
         py::arg("threads") = 0);
-  m.def("find_gap_gradient", &gap_gradient, kGradientDoc, py::arg("poses1"), py::arg("poses2"), py::arg("proximities"));
+  m.def("find_gap_gradient", &gap_gradient, kGradientDoc, py::arg("shapes1"), py::arg("poses1"), py::arg("shapes2"),
+        py::arg("poses2"), py::arg("proximities"), py::arg("threads") = 0);
 
   py::class_<Clearances> bounds(m, "Clearances", kClearancesDoc);
   bounds.def("__len__", [](const Clearances& self) { return self.count; });
   bind_columns(bounds, "pairs", &Clearances::lower_bound, &Clearances::normal, &Clearances::evaluations);
   bind_column(bounds, "lower_bound", &Clearances::lower_bound, "(N,), m; the gap is at least this");
   bind_column(bounds, "normal", &Clearances::normal, "(N, 3), unit, in the frame of body 1; it gives the bound");
-  bind_column(bounds, "evaluations", &Clearances::evaluations, "(N,) of int32; evaluations of the gap function");
+  bind_column(bounds, "evaluations", &Clearances::evaluations, kEvaluationsDoc);
   m.def("find_clearances", &clearances, kFindClearancesDoc, py::arg("shapes1"), py::arg("poses1"), py::arg("shapes2"),
         py::arg("poses2"), py::arg("enough") = std::numeric_limits<double>::infinity(), py::arg("max_evaluations") = 3,
         py::arg("first_normals") = py::none(), py::arg("threads") = 0);

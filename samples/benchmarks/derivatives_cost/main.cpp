@@ -87,7 +87,10 @@ double derivatives(const Pair& pair, const DerivativeSettings& settings) {
 
 const std::array<Way, 6> kWays = {
     {{"query", [](const Pair& pair) { return find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2).gap; }},
-     {"gradient", [](const Pair& pair) { return find_gap_gradient(pair.pose1, pair.pose2, pair.answer)[4]; }},
+     {"gradient",
+      [](const Pair& pair) {
+        return find_gap_gradient(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, pair.answer).gradient[4];
+      }},
      {"first derivatives", [](const Pair& pair) { return derivatives(pair, {.hessian = false, .parameters = false}); }},
      {"all", [](const Pair& pair) { return derivatives(pair, {}); }},
      {"farther than half",

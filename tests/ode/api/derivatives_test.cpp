@@ -2,6 +2,7 @@
 // snGeomProximity. The core's own tests compare more pairs, with more digits.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -31,6 +32,18 @@ snDerivatives derivatives_of(dGeomID g1, dGeomID g2) {
   CAPTURE(std::string(snLastError()));
   REQUIRE(snGeomDerivatives(g1, g2, &at, &found) == 1);
   return found;
+}
+
+/// The gradient alone has the digits of all derivatives.
+void check_gradient_alone(dGeomID g1, dGeomID g2, const snProximity& at) {
+  snDerivatives all;
+  REQUIRE(snGeomDerivatives(g1, g2, &at, &all) == 1);
+  dReal gradient[12];
+  snDerivativeStatus status = SN_DERIVATIVES_NOT_CONVERGED;
+  REQUIRE(snGeomGapGradient(g1, g2, &at, gradient, &status) == 1);
+  CHECK(std::equal(gradient, gradient + 12, all.gap));
+  CHECK(status == all.status);
+  REQUIRE(snGeomGapGradient(g1, g2, &at, gradient, nullptr) == 1);
 }
 
 Vec part(const std::array<double, 12>& twist, std::size_t first) { return {twist[first], twist[first + 1], twist[first + 2]}; }
@@ -155,15 +168,31 @@ TEST_CASE("derivatives of geoms: with every collider they are the derivatives of
         CHECK(found.has_points == 1);
         CHECK(found.evaluations <= 32);
         const snProximity at = asked(g1, g2);
-        dReal gradient[12];
-        REQUIRE(snGeomGapGradient(g1, g2, &at, gradient) == 1);
-        for (int j = 0; j < 12; ++j) CHECK(std::abs(gradient[j] - found.gap[j]) <= within_rounding(1e-5, 10));
-        for (int j = 0; j < 3; ++j) CHECK(std::abs(gradient[6 + j] - at.normal[j]) <= within_rounding(1e-15));
+        check_gradient_alone(g1, g2, at);
         if (!kIsSinglePrecision) check_differences(g1, g2, found);
       }
     }
   }
   CHECK(compared > 140);
+}
+
+TEST_CASE("derivatives of geoms: the gradient alone is that of all derivatives, also of bricks, whose points are uncertain") {
+  const OdeSession session;
+  Random random(33);
+  for (int k = 0; k < 200; ++k) {
+    const auto brick = [&] {
+      const auto half = [&] { return dReal(random.uniform(0.2, 1)); };
+      const auto exponent = [&] { return dReal(random.uniform(1.2, 50)); };
+      const dReal a = half(), b = half(), c = half(), delta = exponent();
+      const dGeomID geom = snCreateSuperellipsoid(nullptr, a, b, c, delta, exponent());
+      random.turn(geom);
+      return geom;
+    };
+    const Geom one(brick()), two(brick());
+    place(two, 2.0 * random.direction());
+    CAPTURE(k);
+    check_gradient_alone(one, two, asked(one, two));
+  }
 }
 
 TEST_CASE("derivatives of geoms: a ray, and the parameters of both geoms by name") {
@@ -218,7 +247,9 @@ TEST_CASE("derivatives of geoms: a face on a plane says what is not defined, a m
   place(ball, {dReal(3.2), dReal(4.1), 1});
   const snProximity at = asked(floor, ball);
   dReal gradient[12];
-  REQUIRE(snGeomGapGradient(floor, ball, &at, gradient) == 1);
+  snDerivativeStatus status = SN_DERIVATIVES_SMOOTH;
+  REQUIRE(snGeomGapGradient(floor, ball, &at, gradient, &status) == 1);
+  CHECK(status == SN_DERIVATIVES_NO_HESSIAN);
   CHECK(std::abs(gradient[8] - 1) < within_rounding(1e-9));
   CHECK(std::abs(gradient[2] + 1) < within_rounding(1e-9));
   // The point below the ball, from the mesh's origin.
@@ -312,18 +343,18 @@ TEST_CASE("derivatives and clearance of geoms: bad input is refused with its nam
   CHECK(snGeomDerivatives(ours, space, &at, &derivatives) == 0);
   CHECK(refused_with("g2 is a space, but must be a body made by snCreate"));
 
-  CHECK(snGeomGapGradient(ours, space, &at, gradient) == 0);
+  CHECK(snGeomGapGradient(ours, space, &at, gradient, nullptr) == 0);
   CHECK(refused_with("snGeomGapGradient: g2 is a space, but must be"));
   const Geom without_body(dCreateGeom(snGeomClass()));
-  CHECK(snGeomGapGradient(ours, without_body, &at, gradient) == 0);
+  CHECK(snGeomGapGradient(ours, without_body, &at, gradient, nullptr) == 0);
   CHECK(refused_with("g2 is a geom of this library's class, but must be a body made by snCreate"));
-  CHECK(snGeomGapGradient(ours, other, nullptr, gradient) == 0);
+  CHECK(snGeomGapGradient(ours, other, nullptr, gradient, nullptr) == 0);
   CHECK(refused_with("snGeomGapGradient: at = NULL"));
-  CHECK(snGeomGapGradient(ours, other, &at, nullptr) == 0);
+  CHECK(snGeomGapGradient(ours, other, &at, nullptr, nullptr) == 0);
   CHECK(refused_with("gradient = NULL"));
-  CHECK(snGeomGapGradient(sphere, box, &at, gradient) == 0);
+  CHECK(snGeomGapGradient(sphere, box, &at, gradient, nullptr) == 0);
   CHECK(refused_with("must be a body made by snCreate"));
-  CHECK(snGeomGapGradient(ours, other, &broken, gradient) == 0);
+  CHECK(snGeomGapGradient(ours, other, &broken, gradient, nullptr) == 0);
   CHECK(refused_with("at->normal = (nan, "));
 
   CHECK(snGeomClearance(ours, other, kNotANumber, 3, &clearance) == 0);
@@ -348,7 +379,7 @@ TEST_CASE("derivatives and clearance of geoms: bad input is refused with its nam
   dGeomSetPosition(other, kNotANumber, 0, 0);
   CHECK(snGeomDerivatives(ours, other, &at, &derivatives) == 0);
   CHECK(refused_with("pose"));
-  CHECK(snGeomGapGradient(ours, other, &at, gradient) == 0);
+  CHECK(snGeomGapGradient(ours, other, &at, gradient, nullptr) == 0);
   CHECK(refused_with("pose"));
   CHECK(snGeomClearance(ours, other, 1, 3, &clearance) == 0);
   CHECK(refused_with("pose"));
