@@ -27,7 +27,8 @@ enum class DerivativeStatus {
   Smooth,     ///< all derivatives are defined
   ActiveSet,  ///< defined while the witness points stay on their face, edge or vertex, because all multipliers are positive
   /// A witness point is at the border of its face or edge, or a body is flat at this point only: the gradient is defined, the
-  /// others are one-sided or change much within 1e-6 rad. Or a radius of curvature has no digits beside a very large one.
+  /// others are one-sided, or change by a tenth and more within 1e-6 rad: as the normal rotates by so much on either body, or the
+  /// point slides by so much of the other body's radius of curvature. Or a radius has no digits beside a very large one.
   Degenerate,
   /// Faces, flat sides or edges share more than a point, or do so after a rotation of 1e-6 rad, so that the gap has a kink: the
   /// witness points and the gradient of rotations are not unique.
@@ -88,8 +89,8 @@ struct ProximityDerivatives {
 /// exact while the contact stays on its face, edge or vertex.
 ///
 /// Newton's method first brings the answer's normal to rounding, with two evaluations as a rule and at most 32. Where both bodies
-/// may be flat, a point is near the border of a face, or both bodies are sharp, four poses that are rotated by 1e-6 rad are solved,
-/// too: the status says whether the derivatives hold there. All is computed in body 1's frame, so a large distance from the world's
+/// may be flat, a point is near the border of a face, or both bodies are sharp, eight poses are solved, too, in which the witness
+/// point of either body has rolled by 1e-6 rad: the status says whether the Jacobians there are the same. All is computed in body 1's frame, so a large distance from the world's
 /// origin costs no digits.
 ///
 /// The relative error is about 1e-7 or less, as long as the radii of curvature of the Minkowski difference differ by less than 1e9.

@@ -13,8 +13,19 @@
 namespace supernormal {
 namespace {
 
-// Gnomonic: after a smaller step the normal is exact to rounding, and the radii of curvature are known well enough.
+// Gnomonic: after a smaller step the normal is exact to rounding, and so are the radii of curvature of a round body.
 constexpr double kSmallStep = 1e-10;
+
+// In sizes of the smaller body: on a nearly flat side the radii change with the place of the boundary point, and not with the
+// normal. After a smaller displacement they are known well enough.
+constexpr double kSmallMove = 1e-10;
+
+// In sizes of the smaller body: after a larger one, that is not rounding, the radii of curvature may be off by 1e-6. Newton's
+// method ends there where they change faster than the normal.
+constexpr double kLargestMove = 1e-8;
+
+// Gnomonic: a smaller step is rounding of the normal.
+constexpr double kNoStep = 1e-15;
 
 // A larger last step leaves derivatives that are no more than estimates.
 constexpr double kLargestStep = 1e-7;
@@ -38,6 +49,9 @@ constexpr double kNoWeight = 1e-9;
 // rad: a normal that rotates by less as a body rotates by kNearby is not between two sharp points. Without this look 7 gradients
 // are wrong instead of 3.
 constexpr double kSharp = 1e-3;
+
+// In sizes of its body: a point of a curved edge that moves by more as the normal rotates by kNearby is beside a curved face.
+constexpr double kBesideFace = 1e-3;
 
 // In units of the bodies' sizes: the curvature of a model whose own is not positive, or rounding. At the maximum the weights do not
 // depend on it.
@@ -134,20 +148,37 @@ CommonNormal::CommonNormal(GapFunction& gap, const Vector3& start)
   if (!look_at(start, places[best])) return;
   const double least_gap = places[best].jet.s - kMostSteps * gap_.rounding();
   double part = 1;
-  while (places[best].step.norm() > kSmallStep && gap_.evaluations() < kMostSteps) {
+  while (!is_settled(places[best]) && gap_.evaluations() < kMostSteps) {
     if (!look_at(moved(places[best], part), places[1 - best])) break;
     // A step that leads down was too long: the pieces of a model may change, and on a nearly flat side the other body's point, too.
     if (places[1 - best].jet.s < places[best].jet.s - gap_.rounding()) {
       part *= kShorter;
       continue;
     }
-    if (!has_nonsmooth_points_ && !(places[1 - best].rest < places[best].rest)) break;
+    const bool must_gain = !has_nonsmooth_points_ || places[best].step.norm() <= kSmallStep;
+    if (must_gain && !(places[1 - best].rest < places[best].rest)) break;
     part = 1;
     best = 1 - best;
   }
   finish(places[best]);
   // The answer is a maximum. A lower one is another.
   is_converged_ = is_converged_ && s_ >= least_gap;
+}
+
+/// Whether the witness points are opposite one another to within `move` sizes of the smaller body. Along an infinite radius one
+/// point follows the other.
+bool CommonNormal::is_opposite(const Place& place, double move) const {
+  const int flat_count = place.body1.flat_count + place.body2.flat_count;
+  if (place.has_active_set || flat_count > 1) return true;
+  const Vector2& flat = place.body1.flat_count > 0 ? place.body1.flat[0] : place.body2.flat[0];
+  const double apart = flat_count > 0 ? std::abs(cross(flat, place.across)) : place.across.norm();
+  return apart <= move * std::min(gap_.shape1().half_extents().norm(), gap_.shape2().half_extents().norm());
+}
+
+/// Whether both the normal and the radii of curvature are known.
+bool CommonNormal::is_settled(const Place& place) const {
+  const double step = place.step.norm();
+  return step <= kNoStep || (step <= kSmallStep && is_opposite(place, kSmallMove));
 }
 
 bool CommonNormal::look_at(const Vector3& n, Place& place) {
@@ -216,7 +247,6 @@ void CommonNormal::find_active_set(Place& place) const {
   std::size_t active_count = 0;
   for (std::size_t k = 0; k < place.peak.count; ++k) {
     const double weight = place.peak.weight[k];
-    place.is_near_border = place.is_near_border || (place.peak.count > 1 && weight < kNearby);
     const auto pair = static_cast<int>(place.peak.active[k]);
     place.point1 += weight * one[pair / two.size()];
     place.point2 += weight * two[pair % two.size()];
@@ -234,11 +264,17 @@ void CommonNormal::find_active_set(Place& place) const {
   // The edges between active vertices, each of its own body.
   const auto edge1 = [&](std::size_t pair) -> Vector2 { return place.plane.project(vertex1(pair) - vertex1(active[0])); };
   const auto edge2 = [&](std::size_t pair) -> Vector2 { return place.plane.project(R * (vertex2(pair) - vertex2(active[0]))); };
+  double length = 0;
   for (std::size_t k = 1; k < active_count; ++k) {
     const Vector2 first = edge1(active[k]), second = edge2(active[k]);
     if (first.norm() > nothing) place.body1.flatten(first);
     if (second.norm() > nothing) place.body2.flatten(second);
+    length = std::max(length, first.norm() + second.norm());
   }
+  // A weight is the distance from the border relative to the face.
+  const auto weights_end = place.peak.weight.begin() + static_cast<std::ptrdiff_t>(place.peak.count);
+  const double least_weight = *std::min_element(place.peak.weight.begin(), weights_end);
+  place.is_near_border = place.peak.count > 1 && least_weight * length < kNearby * (length + place.slide());
   // Another vertex with the same height, off the active edges, takes over as soon as the bodies move. If both bodies then share a
   // direction, their faces or edges have more than a point in common.
   BodyCurvature all1 = place.body1, all2 = place.body2;
@@ -330,9 +366,19 @@ void CommonNormal::finish(const Place& place) {
   s_ = place.jet.s;
   if (place.response.kind == TangentResponse::Kind::Free) choose_points(place);
   is_converged_ = place.step.norm() <= kLargestStep && all_finite(point1_) && all_finite(lever2_);
-  const double size = std::min(gap_.shape1().half_extents().norm(), gap_.shape2().half_extents().norm());
-  const bool is_sharp = kNearby * size * place.response.G.norm() > kSharp;
-  may_change_nearby_ = is_sharp || place.is_near_border || (place.body1.may_be_flat(size) && place.body2.may_be_flat(size));
+  const double size1 = gap_.shape1().half_extents().norm(), size2 = gap_.shape2().half_extents().norm(),
+               size = std::min(size1, size2);
+  is_strict_ = is_strict_ && (place.step.norm() <= kNoStep || is_opposite(place, kLargestMove));
+  is_sharp_ = kNearby * size * place.response.G.norm() > kSharp;
+  const auto is_beside_face = [&](const ShapeTraits& traits, const BodyCurvature& body, double own_size) {
+    const bool is_flat_rim = body.flat_count > 0 && !place.has_active_set;
+    return traits.has_nonsmooth_points && (is_flat_rim || kNearby * body.A.trace() > kBesideFace * own_size);
+  };
+  may_change_nearby_ = is_sharp_ || place.is_near_border || is_beside_face(gap_.traits1(), place.body1, size1) ||
+                       is_beside_face(gap_.traits2(), place.body2, size2) ||
+                       (place.body1.may_be_flat(size) && place.body2.may_be_flat(size));
+  radii1_ = place.body1.across_flat();
+  radii2_ = place.body2.across_flat();
 }
 
 }  // namespace supernormal

@@ -1,6 +1,8 @@
 // A common normal to rounding, with what its derivatives need.
 #pragma once
 
+#include <cmath>
+
 #include "proximity/derivatives/tangent_response.hpp"
 #include "proximity/local/piecewise_model.hpp"
 #include "supernormal/proximity/gap_function.hpp"
@@ -16,10 +18,14 @@ class CommonNormal {
   bool is_converged() const { return is_converged_; }  ///< whether the last step was small enough
   bool has_active_set() const { return active_set_; }  ///< whether a witness point is on a face or edge of several vertices
   bool is_strict() const { return is_strict_; }        ///< whether all multipliers are positive, and no other vertex is tied
-  /// Whether a rotation by kNearby may change more than the response says: both bodies may be flat, or a point is near a border.
+  /// Whether a rotation by kNearby may change more than the response says: both bodies may be flat, a point is near a border, or
+  /// both bodies are sharp.
   bool may_change_nearby() const { return may_change_nearby_; }
+  bool is_sharp() const { return is_sharp_; }  ///< whether the normal rotates much faster than a body
   const TangentResponse& response() const { return response_; }
   const TangentPlane& plane() const { return plane_; }  ///< at the normal of the last evaluation, whose radii the response has
+  const Symmetric2& radii1() const { return radii1_; }  ///< m; body 1's radii of curvature in this plane, across edges
+  const Symmetric2& radii2() const { return radii2_; }  ///< m
 
   // In body 1's frame, after the last step, which needs no evaluation. It is at most kSmallStep.
   Vector3 normal() const { return n_; }
@@ -40,9 +46,14 @@ class CommonNormal {
     Vector2 step = Vector2::Zero();    // of the normal, gnomonic
     double rest = 0;                   // m; about twice what the gap would gain by the step
     bool has_active_set = false, is_strict = true, is_near_border = false;
+
+    /// m; how far the witness points slide along an edge or a face per rad of the normal's rotation.
+    double slide() const { return body1.A.trace() + body2.A.trace() + std::abs(jet.s); }
   };
 
   bool look_at(const Vector3& n, Place& place);
+  bool is_opposite(const Place& place, double move) const;
+  bool is_settled(const Place& place) const;
   void find_active_set(Place& place) const;
   Vector3 moved(const Place& place, double part) const;
   void finish(const Place& place);
@@ -52,9 +63,10 @@ class CommonNormal {
   const bool has_nonsmooth_points_, has_flat_faces_;
   TangentPlane plane_;
   TangentResponse response_;
+  Symmetric2 radii1_, radii2_;
   Vector3 n_ = Vector3::UnitX(), point1_ = Vector3::Zero(), lever2_ = Vector3::Zero();
   double s_ = 0;
-  bool is_converged_ = false, active_set_ = false, is_strict_ = true, may_change_nearby_ = false;
+  bool is_converged_ = false, active_set_ = false, is_strict_ = true, is_sharp_ = false, may_change_nearby_ = false;
 };
 
 }  // namespace supernormal

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "proximity/derivatives/common_normal.hpp"
 #include "proximity/derivatives/gradient_of_answer.hpp"
@@ -28,6 +29,10 @@ constexpr double kLeastBend = 1e-5;  // with 1e-6, 3 % fewer of these pairs have
 // In sizes of the smaller body: a point that so moves by more jumps. By as much the gradient may be off. With 1e-2, 3 % more of
 // these pairs have one.
 constexpr double kJump = 1e-3;
+
+// In sizes of the larger body: a longer radius of curvature is that of a flat side, whose normal does not move beside its body's
+// rotation.
+constexpr double kFlatSide = 10;
 
 // Of the smallest half-extent: the tolerance of a gap whose change over kNearby tells a slope to kLeastBend. With 1e-14, some
 // queries of sharp bodies end without an answer, and one more pair is refused without need.
@@ -132,6 +137,12 @@ DerivativeStatus status_of(GapFunction& gap, const CommonNormal& common) {
   return common.has_active_set() ? DerivativeStatus::ActiveSet : DerivativeStatus::Smooth;
 }
 
+/// Tilts along both directions of a tangent plane, both ways. Their square holds all tilts by kNearby.
+std::array<Vector2, 4> tilts_nearby() {
+  constexpr double kTilt = std::numbers::sqrt2 * kNearby;
+  return {Vector2(kTilt, 0), Vector2(-kTilt, 0), Vector2(0, kTilt), Vector2(0, -kTilt)};
+}
+
 /// What a rotation by kNearby does that the derivatives do not say.
 enum class Departure { None, Bend, Jump };
 
@@ -167,54 +178,101 @@ void add_parameters(const GapFunction& gap, const Vector3& n, const Vector3& poi
   out.parameters2.scale(-1);
 }
 
-/// The gradient of the gap by rotations of body 2, as a function of a common normal, m/rad.
-Vector3 gradient_by_w2(const CommonNormal& common) { return common.lever2().cross(common.normal()); }
+/// A motion of body 2, in body 1's frame: by w about its witness point, and by v across the normal.
+struct Motion {
+  Vector3 v, w;
+};
 
-/// How a common normal and this gradient change as body 2 rotates by w, by the formulas of write_jacobians().
+/// How a common normal changes by a motion, and witness point 2 beyond the motion itself, by the formulas of write_jacobians().
 struct Change {
-  Vector3 normal, gradient;
+  Vector3 normal, point;
 
-  Change(const CommonNormal& common, const Vector3& w) {
+  Change(const CommonNormal& common, const Motion& motion) {
     const TangentResponse& response = common.response();
     const TangentPlane& plane = common.plane();
-    const Vector3 n = common.normal(), lever = common.lever2(), rigid = w.cross(lever);
-    const Vector2 tilt = plane.project(w.cross(n)), opposite = plane.project(w.cross(lever - common.gap() * n));
-    normal = plane.lift(response.G * plane.project(rigid) + response.B2 * tilt);
-    const Vector3 point = rigid + plane.lift(response.W.transpose() * tilt - response.B2.transpose() * opposite);
-    gradient = point.cross(n) + lever.cross(normal);
+    const Vector2 tilt = plane.project(motion.w.cross(common.normal())), shift = plane.project(motion.v);
+    normal = plane.lift(response.G * shift + response.B2 * tilt);
+    point = plane.lift(response.W.transpose() * tilt - response.B2.transpose() * (shift - common.gap() * tilt));
   }
 };
 
-/// What body 2's rotation by w does. Newton's method finds the common normal there, from what the derivatives foresee. Where it
-/// ends without one, or on flat sides where its step is not defined, a query tells how the gap has changed.
-Departure look_at(const GapFunction& gap, const CommonNormal& common, const Vector3& w, double size, int& evaluations) {
-  const Pose turned{gap.offset(), Eigen::AngleAxisd(w.norm(), w.normalized()) * gap.rotation()};
-  const Change foreseen(common, w);
-  GapFunction there(gap.shape1(), {}, gap.shape2(), turned);
-  const CommonNormal found(there, (common.normal() + foreseen.normal).normalized());
-  evaluations += there.evaluations();
-  const Vector3 gradient = gradient_by_w2(common);
-  if (found.is_converged() && found.response().kind != TangentResponse::Kind::Free) {
-    return departure_of(gradient_by_w2(found) - gradient, foreseen.gradient, size);
-  }
+/// Whether the Jacobians at two poses that are nearly the same are so, too. They consist of these matrices. `largest`: m, the size
+/// of the larger body.
+bool has_same_jacobians(const CommonNormal& common, const CommonNormal& found, double largest) {
+  if (common.response().kind != TangentResponse::Kind::Regular) return true;  // there are none
+  if (found.response().kind != TangentResponse::Kind::Regular || !found.is_strict()) return false;
+  Matrix2 turn;
+  turn << common.plane().t1.dot(found.plane().t1), common.plane().t1.dot(found.plane().t2), common.plane().t2.dot(found.plane().t1),
+      common.plane().t2.dot(found.plane().t2);
+  const auto is_same = [&](const Matrix2& here, const Matrix2& there, double unit) {
+    return (turn * there * turn.transpose() - here).norm() <= kBend * std::max(here.norm(), unit);
+  };
+  return is_same(common.response().G, found.response().G, 1 / (kFlatSide * largest)) &&
+         is_same(common.response().B1, found.response().B1, 1) && is_same(common.response().B2, found.response().B2, 1);
+}
+
+/// What a motion of body 2 does. Newton's method finds the common normal there, from what the derivatives foresee. Where it ends
+/// without one, or on flat sides where its step is not defined, a query tells whether the gap has a kink.
+Departure look_at(const GapFunction& gap, const CommonNormal& common, const Motion& motion, int& evaluations) {
+  const double size1 = gap.shape1().half_extents().norm(), size2 = gap.shape2().half_extents().norm(),
+               size = std::min(size1, size2);
+  const double angle = motion.w.norm();
+  const Matrix3 turn = Eigen::AngleAxisd(angle, motion.w / angle).toRotationMatrix();
+  const Vector3 lever = turn * common.lever2();
+  const Pose there{gap.offset() + common.lever2() + motion.v - lever, turn * gap.rotation()};
+  const Change foreseen(common, motion);
+  const auto is_known = [](const CommonNormal& found) {
+    return found.is_converged() && found.response().kind != TangentResponse::Kind::Free;
+  };
+  const auto compared = [&](const CommonNormal& found) {
+    return std::max({departure_of(found.lever2() - lever, foreseen.point, size),
+                     departure_of(size * (found.normal() - common.normal()), size * foreseen.normal, size),
+                     has_same_jacobians(common, found, std::max(size1, size2)) ? Departure::None : Departure::Bend});
+  };
+  GapFunction gap_there(gap.shape1(), {}, gap.shape2(), there);
+  const CommonNormal found(gap_there, (common.normal() + foreseen.normal).normalized());
+  evaluations += gap_there.evaluations();
+  if (is_known(found)) return compared(found);
   const Vector3 first = common.normal();
   Settings exact;
   exact.tolerance = kSlopeTolerance;
-  const Proximity answer = find_proximity(gap.shape1(), {}, gap.shape2(), turned, exact, &first);
+  const Proximity answer = find_proximity(gap.shape1(), {}, gap.shape2(), there, exact, &first);
   evaluations += answer.evaluations;
   if (answer.status != Status::Converged) return Departure::Jump;
-  const Vector3 axis = w.normalized();
-  const double change = 2 * (answer.gap - common.gap() - gradient.dot(w)) / w.norm();
-  return departure_of(change * axis, foreseen.gradient.dot(axis) * axis, size);
+  GapFunction gap_again(gap.shape1(), {}, gap.shape2(), there);
+  const CommonNormal again(gap_again, answer.normal);
+  evaluations += gap_again.evaluations();
+  if (is_known(again)) return compared(again);
+  // The motion is across the normal at the witness point, so the gap changes to second order, if it has no kink.
+  const Vector3 axis = motion.w / angle;
+  const double change = 2 * (answer.gap - common.gap()) / angle;
+  const double second = (foreseen.normal.dot(motion.v) + foreseen.point.cross(common.normal()).dot(motion.w)) / angle;
+  const Departure unconfirmed = common.response().kind == TangentResponse::Kind::Regular ? Departure::Bend : Departure::None;
+  return std::max(departure_of(change * axis, second * axis, size), unconfirmed);
 }
 
-/// Rotates body 2 about both directions of the tangent plane, both ways.
+/// m; the radii of curvature, none larger than the body: a rotation moves no point by more than that times its angle.
+Symmetric2 bounded(const Symmetric2& A, const Shape& shape) {
+  const double size = shape.half_extents().norm();
+  if (A.trace() <= size) return A;
+  const double part = size / A.trace();
+  return {part * A.xx, part * A.xy, part * A.yy};
+}
+
+/// Rolls the witness points of both bodies by kNearby and a little more. First body 2 keeps its boundary point and rolls about body
+/// 1's centre of curvature, then body 1 keeps its own. A witness point on an edge or a face slides by as much as the other body's
+/// point moves. Between sharp points, whose centres are near, a rotation of a body moves them by its size times the angle.
 Departure look_nearby(const GapFunction& gap, const CommonNormal& common, int& evaluations) {
   const double size = std::min(gap.shape1().half_extents().norm(), gap.shape2().half_extents().norm());
+  const double apart = common.is_sharp() ? std::max(common.gap(), size) : common.gap();
+  const Symmetric2 roll1 = bounded(common.radii1(), gap.shape1()).plus_identity(apart),
+                   roll2 = bounded(common.radii2(), gap.shape2());
+  const TangentPlane& plane = common.plane();
   Departure worst = Departure::None;
-  for (const Vector3& axis : {common.plane().t1, common.plane().t2}) {
-    for (const double angle : {kNearby, -kNearby}) {
-      worst = std::max(worst, look_at(gap, common, angle * axis, size, evaluations));
+  for (const Vector2& tilt : tilts_nearby()) {
+    const Vector3 w = plane.n.cross(plane.lift(tilt));
+    for (const Vector2& shift : {Vector2(roll1 * tilt), Vector2(-(roll2 * tilt))}) {
+      worst = std::max(worst, look_at(gap, common, {plane.lift(shift), w}, evaluations));
       if (worst == Departure::Jump) return worst;
     }
   }
@@ -227,7 +285,7 @@ Departure look_nearby(const Shape& shape, const TangentPlane& tangent, const Vec
   const double size = shape.half_extents().norm();
   Departure worst = Departure::None;
   if (!shape.traits().has_nonsmooth_points && !body.may_be_flat(size)) return worst;
-  for (const Vector2& tilt : {Vector2(kNearby, 0), Vector2(-kNearby, 0), Vector2(0, kNearby), Vector2(0, -kNearby)}) {
+  for (const Vector2& tilt : tilts_nearby()) {
     const Vector3 moved = shape.point((tangent.n + tangent.lift(tilt)).normalized()) - r;
     worst = std::max(worst, departure_of(moved, tangent.lift(body.A * tilt), size));
   }

@@ -95,6 +95,14 @@ bool BodyCurvature::is_flat_along(const Vector2& direction) const {
   return flat_count == 2 || (flat_count == 1 && std::abs(cross(flat[0], direction)) <= kParallel);
 }
 
+Symmetric2 BodyCurvature::across_flat() const {
+  if (flat_count == 0) return A;
+  if (flat_count == 2) return {};
+  const Vector2 u = quarter_turn(flat[0]);
+  const double radius = u.dot(A * u);
+  return {radius * u.x() * u.x(), radius * u.x() * u.y(), radius * u.y() * u.y()};
+}
+
 bool BodyCurvature::may_be_flat(double size) const { return flat_count > 0 || kNearby * A.trace() > kFlat * size; }
 
 TangentResponse TangentResponse::of(const BodyCurvature& body1, const BodyCurvature& body2, double s, double length_unit) {

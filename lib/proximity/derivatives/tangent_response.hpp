@@ -30,6 +30,9 @@ struct BodyCurvature {
   /// Whether the radius is infinite along `direction`, a unit vector.
   bool is_flat_along(const Vector2& direction) const;
 
+  /// m; A without what it has along the directions of infinite radius.
+  Symmetric2 across_flat() const;
+
   /// Whether the boundary point moves as far as on a flat side when the body rotates by kNearby. `size` (m) is that of the smaller
   /// body.
   bool may_be_flat(double size) const;

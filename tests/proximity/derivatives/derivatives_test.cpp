@@ -434,6 +434,47 @@ TEST_CASE("derivatives: a vertex, an edge of a cylinder or a ball above a cap, a
   }
 }
 
+// Between two nearly flat sides the radii of curvature change by a part in 1e5 within a step of the normal that counts as rounding
+// for round bodies.
+TEST_CASE("derivatives: nearly flat sides have the same Jacobians in turned frames, from any answer, or are refused") {
+  std::mt19937_64 engine(1);
+  const auto uniform = [&engine](double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); };
+  const auto direction = [&uniform] { return Vector3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized(); };
+  const auto rotation = [&] { return Eigen::AngleAxisd(uniform(0, 3), direction()).toRotationMatrix(); };
+  const auto body = [&uniform] {
+    const Vector3 half(uniform(0.3, 1), uniform(0.3, 1), uniform(0.3, 1));
+    const double delta = uniform(1.5, 20);
+    return Superellipsoid(half, delta, uniform(1.5, 20));
+  };
+  const auto beside_axis = [&](int axis) {
+    return Vector3(Vector3::Unit(axis) + std::pow(10, uniform(-8, -2)) * direction()).normalized();
+  };
+  int compared = 0, different = 0;
+  for (int k = 0; k < 600; ++k) {
+    const Superellipsoid body1 = body(), body2 = body();
+    const Vector3 n1 = beside_axis(k % 3), n2 = beside_axis(k / 3 % 3);
+    const Pose pose1{Vector3::Zero(), rotation()};
+    const Vector3 n = pose1.rotation * n1;
+    Pose pose2;
+    pose2.rotation = Eigen::AngleAxisd(uniform(0, 6), n).toRotationMatrix() * test::rotation_between(n2, -n).toRotationMatrix();
+    pose2.position = pose1.rotation * body1.point(n1) + uniform(0, 0.3) * n - pose2.rotation * body2.point(n2);
+    Proximity answer = find_proximity(body1, pose1, body2, pose2);
+    const ProximityDerivatives here = find_proximity_derivatives(body1, pose1, body2, pose2, answer);
+    const Matrix3 turn = rotation();
+    answer.normal = (turn * answer.normal + 1e-9 * direction()).normalized();
+    const ProximityDerivatives there = find_proximity_derivatives(body1, {Vector3::Zero(), turn * pose1.rotation}, body2,
+                                                                  {turn * pose2.position, turn * pose2.rotation}, answer);
+    if (!here.has_normal || !there.has_normal) continue;
+    ++compared;
+    const Matrix3 by_v = turn.transpose() * there.normal.middleCols<3>(6) * turn,
+                  by_w = turn.transpose() * there.normal.middleCols<3>(9) * turn;
+    const double off = (by_v - here.normal.middleCols<3>(6)).norm() + (by_w - here.normal.middleCols<3>(9)).norm();
+    different += off > 1e-6 * here.normal.norm();
+  }
+  CHECK(compared > 300);
+  CHECK(different <= 1);
+}
+
 // The matrix of a rotated body holds the large radius in all its entries, and rounding of it drowns the other radius.
 TEST_CASE("derivatives: a radius of curvature that a large one drowns is refused, and known where the large one is along an axis") {
   const Sphere ball(0.3);
