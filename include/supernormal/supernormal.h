@@ -294,7 +294,7 @@ typedef enum snDerivativeStatus SN_ENUM_BASE {
   SN_DERIVATIVES_FREE_ON_FACE,       /**< faces or edges share more than a point: only derivatives by v of the gap are defined */
   SN_DERIVATIVES_SINGULAR_CURVATURE, /**< the normal may not be unique, as between two vertices */
   SN_DERIVATIVES_SEVERAL_MAXIMA,     /**< the opposite normal has the same gap */
-  SN_DERIVATIVES_NO_HESSIAN,         /**< a body of snCreateConvex without a Hessian, or a mesh: only the gradient is known */
+  SN_DERIVATIVES_NO_HESSIAN,         /**< a body of snCreateConvex has no Hessian: only the gradient of the gap is known */
   SN_DERIVATIVES_NOT_CONVERGED       /**< the normal of the answer is not a common normal */
 } snDerivativeStatus;
 #undef SN_ENUM_BASE
@@ -330,14 +330,14 @@ typedef struct snDerivatives {
   int evaluations;                           /**< evaluations of the gap function; 0 with a dPlane */
 } snDerivatives;
 
-/** The gradient of the gap by both twists and the status of snGeomDerivatives, digit by digit, without the other derivatives:
+/** The gradient of the gap by both twists of snGeomDerivatives, digit by digit, without the other derivatives:
  * (-n, -P1 x n, n, P2 x n) with the points P1 and P2 from the positions of the geoms. `at` is the answer of snGeomProximity or
  * snGeomProximityCertified for the same geoms in the same order and poses; its normal is first brought to rounding, with about two
- * evaluations. A dTriMesh or dHeightfield has SN_DERIVATIVES_NO_HESSIAN: the gradient is as exact as the normal and the points of
- * `at`, and on a flat side its part by rotations may be off by the size of the side. `status` may be NULL. The geoms are the geoms
- * of snGeomProximity. Returns 1; 0 (and snLastError) if an argument is refused, or a pose or a length is not finite. */
-SUPERNORMAL_ODE_API int snGeomGapGradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal gradient[12],
-                                          snDerivativeStatus* status);
+ * evaluations. Where the gap has a kink it is one of the subgradients; snGeomDerivatives says where. For a dTriMesh or dHeightfield
+ * the gradient is as exact as the normal and the points of `at`, and on a flat side its part by rotations may be off by the size of
+ * the side. The geoms are the geoms of snGeomProximity. Returns 1; 0 (and snLastError) if an argument is refused, or a pose or a
+ * length is not finite. */
+SUPERNORMAL_ODE_API int snGeomGapGradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal gradient[12]);
 
 /** All derivatives at the answer `at`, in closed form: its normal is first brought to rounding, with about two evaluations. The
  * geoms are the geoms of snGeomProximity, without dTriMesh and dHeightfield. `at` as for snGeomGapGradient. Returns 1; 0 (and

@@ -90,8 +90,8 @@ struct ProximityDerivatives {
 ///
 /// Newton's method first brings the answer's normal to rounding, with two evaluations as a rule and at most 32. Where both bodies
 /// may be flat, a point is near the border of a face, or both bodies are sharp, eight poses are solved, too, in which the witness
-/// point of either body has rolled by 1e-6 rad: the status says whether the Jacobians there are the same. All is computed in body 1's frame, so a large distance from the world's
-/// origin costs no digits.
+/// point of either body has rolled by 1e-6 rad: the status says whether the Jacobians there are the same. All is computed in body
+/// 1's frame, so a large distance from the world's origin costs no digits.
 ///
 /// The relative error is about 1e-7 or less, as long as the radii of curvature of the Minkowski difference differ by less than 1e9.
 /// A radius of curvature above 1e8 times the smallest half-extent counts as infinite. Beside a radius

@@ -170,7 +170,7 @@ GapGradient gap_gradient_of(const TwoGeoms& geoms, dGeomID g1, dGeomID g2, const
   return {DerivativeStatus::NoHessian, true, gradient_of_answer(pose1, pose2, answer), 0};
 }
 
-int answer_gradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal* gradient, snDerivativeStatus* status) {
+int answer_gradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal* gradient) {
   return guarded("snGeomGapGradient", 0, [&] {
     require_not_null("at", at);
     require_not_null("gradient", gradient);
@@ -178,7 +178,6 @@ int answer_gradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal* gradie
     const GapGradient found = gap_gradient_of(geoms, g1, g2, *at);
     if (found.status == DerivativeStatus::InvalidInput) geoms.refuse();
     for (int j = 0; j < kTwist; ++j) gradient[j] = to_real(found.gradient[j]);
-    if (status != nullptr) *status = static_cast<snDerivativeStatus>(found.status);
     return 1;
   });
 }
@@ -233,8 +232,8 @@ int answer_is_farther(dGeomID g1, dGeomID g2, double distance, dReal* normal) {
 
 using namespace supernormal::ode;
 
-extern "C" int snGeomGapGradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal gradient[12], snDerivativeStatus* status) {
-  return answer_gradient(g1, g2, at, gradient, status);
+extern "C" int snGeomGapGradient(dGeomID g1, dGeomID g2, const snProximity* at, dReal gradient[12]) {
+  return answer_gradient(g1, g2, at, gradient);
 }
 
 extern "C" int snGeomDerivatives(dGeomID g1, dGeomID g2, const snProximity* at, snDerivatives* out) {
