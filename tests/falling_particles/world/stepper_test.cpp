@@ -23,14 +23,14 @@ namespace fx = supernormal::effects;
 
 namespace {
 
-constexpr double kGravity = 9.81;  // m/s^2
+constexpr double kEarth = 9.81;  // m/s^2
 
 GrainKind slab() { return {"slab", {0.05, 0.035, 0.025}, 20, 20, 0, 1000, "test"}; }
 
 Scene with_stepper(std::vector<Wall> walls, const GrainKind& kind, double step) {
   Scene scene = scene_of(Open{{{-1, -1, 0}, {2, 2, 1}}, {{-9, -9, -9}, {18, 18, 18}}}, {{kind, 1}});
   scene.walls = std::move(walls);
-  scene.effects = {fx::Gravity{{0, 0, -kGravity}}, fx::Friction{0.4, {}}};
+  scene.effects = {fx::Gravity{{0, 0, -kEarth}}, fx::Friction{0.4, {}}};
   scene.time.step = step;
   scene.solver = {.stepper = Accuracy{}};
   return scene;
@@ -40,13 +40,13 @@ Wall floor_of(const WallShape& shape, const Vector3& position = Vector3::Zero(),
   return {"floor", shape, {position, Eigen::Quaterniond::Identity()}, std::move(motions)};
 }
 
-Placement at(const Point& position, const Point& velocity = {}) { return {0, position, {1, 0, 0, 0}, 1, velocity}; }
+Placement place_at(const Point& position, const Point& velocity = {}) { return {0, position, {1, 0, 0, 0}, 1, velocity}; }
 
-void run(Stepper& stepper, const Scene& scene, double time) {
+void advance(Stepper& stepper, const Scene& scene, double time) {
   for (int k = 0; (k + 0.5) * scene.time.step < time; ++k) stepper.step();
 }
 
-const dReal* velocity_of(const World& world) { return dBodyGetLinearVel(world.grains()[0].body); }
+const dReal* first_velocity(const World& world) { return dBodyGetLinearVel(world.grains()[0].body); }
 
 /// What the loader says of the scene with the stepper, and more.
 std::string complaint_of_stepper(const std::string& also, const std::string& solver = "",
@@ -66,10 +66,10 @@ TEST_CASE("stepper: a tower of ten bricks stands at 20 ms, where quickstep's fal
       scene.effects.emplace_back(fx::SpeculativeContacts{});
     }
     std::vector<Placement> bricks;
-    for (int i = 0; i < 10; ++i) bricks.push_back(at({0.001 * (i % 2), 0, 0.025 + 0.0501 * i}));
+    for (int i = 0; i < 10; ++i) bricks.push_back(place_at({0.001 * (i % 2), 0, 0.025 + 0.0501 * i}));
     const World world(scene, bricks);
     Stepper stepper(world, scene);
-    run(stepper, scene, 4);
+    advance(stepper, scene, 4);
     CHECK((world.grains().back().position()[2] > 0.474) == has_stepper);
   }
 }
@@ -78,13 +78,13 @@ TEST_CASE("stepper: a brick slides as far in all directions as Coulomb's law say
   for (const double angle : {0.0, 0.3, std::numbers::pi / 4}) {
     CAPTURE(angle);
     const Scene scene = with_stepper({floor_of(PlaneShape{})}, slab(), 5e-3);
-    const World world(scene, {at({0, 0, 0.025}, {std::cos(angle), std::sin(angle), 0})});
+    const World world(scene, {place_at({0, 0, 0.025}, {std::cos(angle), std::sin(angle), 0})});
     Stepper stepper(world, scene);
-    run(stepper, scene, 0.5);
+    advance(stepper, scene, 0.5);
     const Point place = world.grains()[0].position();
-    CHECK(std::hypot(place[0], place[1]) == relative(1 / (2 * 0.4 * kGravity)).epsilon(1e-2));
+    CHECK(std::hypot(place[0], place[1]) == relative(1 / (2 * 0.4 * kEarth)).epsilon(1e-2));
     CHECK(std::abs(std::atan2(place[1], place[0]) - angle) < 1e-3);
-    CHECK(std::abs(velocity_of(world)[0]) < 1e-9);
+    CHECK(std::abs(first_velocity(world)[0]) < 1e-9);
   }
 }
 
@@ -93,29 +93,29 @@ TEST_CASE("stepper: a ball that slides rolls in the end, and rolling resistance 
   for (const double resistance : {0.0, 1e-4}) {
     CAPTURE(resistance);
     if (resistance > 0) scene.effects.emplace_back(fx::RollingResistance{resistance, 0, {}});
-    const World world(scene, {at({0, 0, 5e-3}, {1, 0, 0})});
+    const World world(scene, {place_at({0, 0, 5e-3}, {1, 0, 0})});
     Stepper stepper(world, scene);
-    run(stepper, scene, 0.5);
-    const double taken = resistance * kGravity * 0.5 / 5e-3;  // m/s; of the angular momentum about the contact over mass and radius
-    CHECK(velocity_of(world)[0] == relative(5.0 / 7 * (1 - taken)).epsilon(1e-3));
+    advance(stepper, scene, 0.5);
+    const double taken = resistance * kEarth * 0.5 / 5e-3;  // m/s; of the angular momentum about the contact over mass and radius
+    CHECK(first_velocity(world)[0] == relative(5.0 / 7 * (1 - taken)).epsilon(1e-3));
   }
 }
 
 TEST_CASE("stepper: a ball bounces to the square of its restitution times its height, and from a wall that comes") {
   Scene scene = with_stepper({floor_of(PlaneShape{}, {0, 0, 0}, {{Translation{{0, 0, 2}}}})}, ball(), 0.01);
   scene.effects = {fx::Restitution{0.8, 0, {}}};
-  const World world(scene, {at({0, 0, 0.1}, {0, 0, -3})});
+  const World world(scene, {place_at({0, 0, 0.1}, {0, 0, -3})});
   Stepper stepper(world, scene);
-  run(stepper, scene, 0.1);
-  CHECK(velocity_of(world)[2] == relative(2 + 0.8 * 5).epsilon(1e-9));
+  advance(stepper, scene, 0.1);
+  CHECK(first_velocity(world)[2] == relative(2 + 0.8 * 5).epsilon(1e-9));
   CHECK(stepper.costs().parts > 10);  // a step ended early
 
   scene = with_stepper({floor_of(PlaneShape{})}, ball(), 0.01);
   scene.effects.emplace_back(fx::Restitution{0.8, 0.05, {}});
-  const World below(scene, {at({0, 0, 5e-3 + 0.5})});
+  const World below(scene, {place_at({0, 0, 5e-3 + 0.5})});
   Stepper falls(below, scene);
-  const double fall = std::sqrt(2 * 0.5 / kGravity);
-  run(falls, scene, fall + 0.8 * fall);
+  const double fall = std::sqrt(2 * 0.5 / kEarth);
+  advance(falls, scene, fall + 0.8 * fall);
   CHECK(below.grains()[0].position()[2] - 5e-3 == relative(0.64 * 0.5).epsilon(0.01));
 }
 
@@ -128,20 +128,20 @@ TEST_CASE("stepper: grains keep to a floor that rises, and ride on one that turn
       CAPTURE(kind.name);
       const double half = kind.half_axes[2];
       const Scene rising = with_stepper({floor_of(shape, {0, 0, 0}, {{Translation{{0, 0, 0.5}}}})}, kind, 0.01);
-      const World up(rising, {at({0, 0, top + half}, {0, 0, 0.5})});
+      const World up(rising, {place_at({0, 0, top + half}, {0, 0, 0.5})});
       Stepper rises(up, rising);
-      run(rises, rising, 0.5);
+      advance(rises, rising, 0.5);
       // Look-ahead takes the floor for one that stands, so grains fall for a step at times.
-      CHECK(std::abs(up.grains()[0].position()[2] - (top + half + 0.25)) < kGravity * 1e-4);
+      CHECK(std::abs(up.grains()[0].position()[2] - (top + half + 0.25)) < kEarth * 1e-4);
 
       const Scene turning = with_stepper({floor_of(shape, {0, 0, 0}, {{Rotation{{0, 0, 1}, {0, 0, 0}, 60}}})}, kind, 0.01);
       if (kind.name == "ball") continue;  // it rolls
       const double speed = 0.06 * 2 * std::numbers::pi;
-      Placement place = at({0.06, 0, top + half}, {0, speed, 0});
+      Placement place = place_at({0.06, 0, top + half}, {0, speed, 0});
       place.angular_velocity = {0, 0, 2 * std::numbers::pi};
       const World around(turning, {place});
       Stepper turns(around, turning);
-      run(turns, turning, 1);
+      advance(turns, turning, 1);
       const double tangents = std::pow(2 * std::numbers::pi, 2) * turning.time.step / 8 / 2;  // of sub-steps lead outwards
       CHECK(around.grains()[0].position()[0] == relative(0.06).epsilon(tangents));
       CHECK(std::abs(around.grains()[0].position()[1]) < 2e-3 * 0.06);
@@ -155,7 +155,7 @@ TEST_CASE("stepper: measured forces carry the weight of a pile on all walls") {
   scene.time.step = 4e-3;
   Simulation simulation(scene, 1);
   double weight = 0, carried = 0;
-  for (const Grain& grain : simulation.world.grains()) weight += kGravity * grain.mass.mass;
+  for (const Grain& grain : simulation.world.grains()) weight += kEarth * grain.mass.mass;
   for (int k = 0; k < 300; ++k) simulation.stepper.step(k >= 250);
   for (const MeasuredContact& contact : simulation.stepper.measured_contacts()) {
     if ((grain_of(contact.geom.g1) == nullptr) == (grain_of(contact.geom.g2) == nullptr)) continue;  // between grains
@@ -167,7 +167,7 @@ TEST_CASE("stepper: measured forces carry the weight of a pile on all walls") {
 TEST_CASE("stepper: the force of an impact is measured in all parts of its step") {
   Scene scene = with_stepper({floor_of(PlaneShape{})}, ball(), 0.01);
   scene.effects = {fx::Restitution{1, 0, {}}};
-  const World world(scene, {at({0, 0, 0.02}, {0, 0, -3})});
+  const World world(scene, {place_at({0, 0, 0.02}, {0, 0, -3})});
   Stepper stepper(world, scene);
   double impulse = 0;
   for (int k = 0; k < 5; ++k) {
@@ -182,11 +182,11 @@ TEST_CASE("stepper: a part that is free falls, rests on the floor and carries a 
   plate.name = "plate";
   plate.flight = Flight{.mass = 1, .inertia = Eigen::Vector3d(0.0034, 0.0034, 0.0067).asDiagonal()};
   const Scene scene = with_stepper({floor_of(PlaneShape{}), plate}, ball(), 5e-3);
-  const World world(scene, {at({0, 0, 0.11 + 5e-3})});
+  const World world(scene, {place_at({0, 0, 0.11 + 5e-3})});
   Stepper stepper(world, scene);
-  run(stepper, scene, 0.1);
-  CHECK(world.walls().state(1).pose.position.z() == relative(0.1 - 0.5 * kGravity * 0.01).epsilon(1e-3));
-  run(stepper, scene, 0.9);
+  advance(stepper, scene, 0.1);
+  CHECK(world.walls().state(1).pose.position.z() == relative(0.1 - 0.5 * kEarth * 0.01).epsilon(1e-3));
+  advance(stepper, scene, 0.9);
   CHECK(world.walls().state(1).pose.position.z() == relative(0.01).epsilon(0.01));
   CHECK(world.grains()[0].position()[2] == relative(0.025).epsilon(0.01));
 }
@@ -196,7 +196,7 @@ TEST_CASE("stepper: a free part that turns about no principal axis keeps its ene
   plate.flight = Flight{.mass = 1, .inertia = Eigen::Vector3d(1, 4, 5).asDiagonal(), .velocity = {{0.5, 0, 0}, {3, 2, 1}}};
   Scene scene = with_stepper({plate}, ball(), 5e-3);
   scene.effects.clear();
-  const World world(scene, {at({1, 1, 1})});
+  const World world(scene, {place_at({1, 1, 1})});
   Stepper stepper(world, scene);
   const auto energy = [&] {
     const Eigen::Quaterniond& turn = world.walls().state(0).pose.rotation;
@@ -205,7 +205,7 @@ TEST_CASE("stepper: a free part that turns about no principal axis keeps its ene
     return in_body.cwiseQuotient(Vector3(1, 4, 5)).dot(in_body);
   };
   const double before = energy();
-  run(stepper, scene, 2);
+  advance(stepper, scene, 2);
   CHECK(energy() == relative(before).epsilon(1e-3));
   CHECK(world.walls().state(0).pose.position.x() == relative(1).epsilon(1e-9));
 }
@@ -214,13 +214,13 @@ TEST_CASE("stepper: grains that sleep wake where something hits them") {
   Scene scene = with_stepper({floor_of(PlaneShape{})}, slab(), 0.01);
   scene.effects.emplace_back(fx::AutoDisable{0.01, 0.1, 0.1, 10});
   scene.kinds = {{slab(), 2}};
-  const World world(scene, {at({0, 0, 0.025}), at({0, 0, 0.075 + 1})});
+  const World world(scene, {place_at({0, 0, 0.025}), place_at({0, 0, 0.075 + 1})});
   Stepper stepper(world, scene);
-  run(stepper, scene, 0.4);
+  advance(stepper, scene, 0.4);
   CHECK(dBodyIsEnabled(world.grains()[0].body) == 0);
-  run(stepper, scene, 0.1);
+  advance(stepper, scene, 0.1);
   CHECK(dBodyIsEnabled(world.grains()[0].body) != 0);
-  run(stepper, scene, 2);
+  advance(stepper, scene, 2);
   CHECK(dBodyIsEnabled(world.grains()[0].body) == 0);
   CHECK(dBodyIsEnabled(world.grains()[1].body) == 0);
 }
