@@ -1,6 +1,8 @@
 // The gradient of the gap from the points of an answer alone.
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "supernormal/proximity/derivatives.hpp"
 
 namespace supernormal {
