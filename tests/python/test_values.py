@@ -52,6 +52,7 @@ OF_ARRAYS = [
     sn.find_ray_hits(BRICK, sn.Pose(), [[0, 0, 9], [0, 9, 9]], (0, 0, -1)),
     EGG.tessellate(0.1),
     sn.find_proximity_derivatives(EGG, sn.Pose(), EGG, THERE, sn.find_proximity(EGG, sn.Pose(), EGG, THERE), parameters=False),
+    sn.find_gap_gradient(EGG, sn.Pose(), EGG, THERE, sn.find_proximity(EGG, sn.Pose(), EGG, THERE)),
     sn.find_clearances(EGG, sn.Pose(), sn.Shapes(SHAPES), THERE),
 ]
 EVERYTHING = [*VALUES, *UNHASHED, *OF_ARRAYS]
