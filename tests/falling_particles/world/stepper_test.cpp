@@ -66,6 +66,7 @@ TEST_CASE("stepper: a tower of ten bricks stands at 20 ms, where quickstep's fal
       scene.effects.emplace_back(fx::SpeculativeContacts{});
     }
     std::vector<Placement> bricks;
+    bricks.reserve(10);
     for (int i = 0; i < 10; ++i) bricks.push_back(place_at({0.001 * (i % 2), 0, 0.025 + 0.0501 * i}));
     const World world(scene, bricks);
     Stepper stepper(world, scene);
