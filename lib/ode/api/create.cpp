@@ -17,10 +17,6 @@ namespace supernormal::ode {
 
 dGeomID create_geom(dSpaceID space, const std::shared_ptr<const Shape>& shape) {
   require_not_null("shape", shape.get());
-  const char* const names[] = {"the half-width of the shape along x", "the half-width of the shape along y",
-                               "the half-width of the shape along z"};
-  const Vector3 half = shape->half_extents();
-  for (int axis = 0; axis < 3; ++axis) require_in(names[axis], half[axis], kMinLength, kMaxLength, "m");
   // Its constructor tests the functions.
   static_cast<void>(
       CallbackShape([&](const Vector3& n) { return shape->support(n); }, [&](const Vector3& n) { return shape->point(n); }));

@@ -11,7 +11,6 @@
 #include "ode/geom/body.hpp"
 #include "ode/support/last_error.hpp"
 #include "ode/support/require.hpp"
-#include "supernormal/geom.hpp"
 #include "supernormal/supernormal.h"
 
 namespace supernormal::ode {
@@ -50,7 +49,7 @@ extern "C" int snGeomDescribe(dGeomID geom, char* text, int capacity) {
 extern "C" dGeomID snCreateFromDescription(dSpaceID space, const char* text) {
   return guarded("snCreateFromDescription", dGeomID{}, [&] {
     require_not_null("text", text);
-    return create_geom(space, read_shape(text));
+    return create_geom(space, Body::of(read_shape(text)));
   });
 }
 

@@ -12,6 +12,7 @@
 #include "ode/geom/class_slot.hpp"
 #include "ode/geom/geom_class.hpp"
 #include "ode/support/last_error.hpp"
+#include "shapes/validation.hpp"
 #include "supernormal/supernormal.h"
 
 namespace supernormal::ode {
@@ -96,6 +97,10 @@ void require_space(dSpaceID space) {
 
 dGeomID create_geom(dSpaceID space, std::unique_ptr<Body> body) {
   require_space(space);
+  const char* const names[] = {"the half-width of the shape along x", "the half-width of the shape along y",
+                               "the half-width of the shape along z"};
+  const Vector3 half = body->shape().half_extents();
+  for (int axis = 0; axis < 3; ++axis) require_in(names[axis], half[axis], kMinLength, kMaxLength, "m");
   const dGeomID geom = dCreateGeom(require_geom_class());
   static_cast<ClassData*>(dGeomGetClassData(geom))->body = body.release();
   ++live_geoms;

@@ -16,7 +16,8 @@ int require_geom_class();
 /// Refuses a geom that is no space, at which ODE would end the program. Null is a space: none.
 void require_space(dSpaceID space);
 
-/// Creates a geom of our class that owns `body`. Adds it to `space` unless that is null.
+/// Creates a geom of our class that owns `body`. Adds it to `space` unless that is null. Throws std::invalid_argument if `space` is
+/// no space, or a half-width of the body is outside [kMinLength, kMaxLength]: the core takes points, segments and flat shapes.
 dGeomID create_geom(dSpaceID space, std::unique_ptr<Body> body);
 
 }  // namespace supernormal::ode
