@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "base/tangent_plane.hpp"
+#include "base/validation.hpp"
+#include "proximity/gap/limits.hpp"
 #include "proximity/lanes/lane_query.hpp"
-#include "proximity/limits.hpp"
-#include "proximity/tangent_plane.hpp"
-#include "shapes/validation.hpp"
 
 namespace supernormal {
 namespace {

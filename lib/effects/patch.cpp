@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/tangent_plane.hpp"
 #include "ode/geom/convert.hpp"
-#include "proximity/tangent_plane.hpp"
 
 namespace supernormal::effects {
 namespace {

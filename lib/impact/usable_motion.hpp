@@ -1,8 +1,8 @@
 // Tests for what a search for an impact can compute with.
 #pragma once
 
-#include "proximity/usable_pose.hpp"
-#include "shapes/validation.hpp"
+#include "base/usable_pose.hpp"
+#include "base/validation.hpp"
 #include "supernormal/impact/time_of_impact.hpp"
 
 namespace supernormal {

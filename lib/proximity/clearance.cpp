@@ -6,12 +6,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "proximity/answer.hpp"
-#include "proximity/limits.hpp"
+#include "base/usable_pose.hpp"
+#include "base/validation.hpp"
+#include "proximity/gap/limits.hpp"
 #include "proximity/local/first_guess.hpp"
 #include "proximity/local/regular_hessian.hpp"
-#include "proximity/usable_pose.hpp"
-#include "shapes/validation.hpp"
+#include "proximity/search/answer.hpp"
 #include "supernormal/proximity/batch.hpp"
 #include "supernormal/proximity/solve.hpp"
 

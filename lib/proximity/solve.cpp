@@ -4,12 +4,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "proximity/answer.hpp"
+#include "base/usable_pose.hpp"
+#include "base/validation.hpp"
 #include "proximity/lanes/lane_query.hpp"
 #include "proximity/local/first_guess.hpp"
-#include "proximity/solvers.hpp"
-#include "proximity/usable_pose.hpp"
-#include "shapes/validation.hpp"
+#include "proximity/search/answer.hpp"
+#include "proximity/search/solvers.hpp"
 
 namespace supernormal {
 namespace {

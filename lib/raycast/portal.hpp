@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "proximity/tangent_plane.hpp"
+#include "base/tangent_plane.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {

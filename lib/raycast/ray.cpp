@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "proximity/answer.hpp"
-#include "proximity/usable_pose.hpp"
+#include "base/usable_pose.hpp"
+#include "base/validation.hpp"
+#include "proximity/search/answer.hpp"
 #include "raycast/ray_entry.hpp"
-#include "shapes/validation.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/capsule.hpp"
 #include "supernormal/shapes/sphere.hpp"

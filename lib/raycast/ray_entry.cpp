@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/finite.hpp"
 #include "proximity/local/local_model.hpp"
-#include "shapes/finite.hpp"
 
 namespace supernormal {
 namespace {

@@ -4,10 +4,10 @@
 #include <array>
 #include <limits>
 
+#include "base/tangent_plane.hpp"
 #include "proximity/bounds/cutting_planes.hpp"
+#include "proximity/gap/stopping_rule.hpp"
 #include "proximity/local/bfgs_hessian.hpp"
-#include "proximity/stopping_rule.hpp"
-#include "proximity/tangent_plane.hpp"
 #include "raycast/portal.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/proximity.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "shapes/validation.hpp"
+#include "base/validation.hpp"
 
 namespace supernormal {
 

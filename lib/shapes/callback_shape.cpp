@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "shapes/finite.hpp"
-#include "shapes/validation.hpp"
+#include "base/finite.hpp"
+#include "base/validation.hpp"
 
 namespace supernormal {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "shapes/validation.hpp"
+#include "base/validation.hpp"
 
 namespace supernormal {
 namespace {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "shapes/validation.hpp"
+#include "base/validation.hpp"
 
 namespace supernormal {
 namespace {

@@ -1,8 +1,8 @@
 #include "supernormal/shapes/ellipsoid.hpp"
 
+#include "base/validation.hpp"
 #include "shapes/lanes/lane_body_of.hpp"
 #include "shapes/norm_parameters.hpp"
-#include "shapes/validation.hpp"
 
 namespace supernormal {
 

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "shapes/finite.hpp"
-#include "shapes/validation.hpp"
+#include "base/finite.hpp"
+#include "base/validation.hpp"
 
 namespace supernormal {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "shapes/validation.hpp"
+#include "base/validation.hpp"
 
 namespace supernormal {
 

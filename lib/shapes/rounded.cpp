@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "shapes/validation.hpp"
+#include "base/validation.hpp"
 
 namespace supernormal {
 

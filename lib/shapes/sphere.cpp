@@ -1,6 +1,6 @@
 #include "supernormal/shapes/sphere.hpp"
 
-#include "shapes/validation.hpp"
+#include "base/validation.hpp"
 
 namespace supernormal {
 

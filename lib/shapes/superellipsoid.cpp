@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/validation.hpp"
 #include "shapes/lanes/lane_body_of.hpp"
 #include "shapes/lanes/powers.hpp"
 #include "shapes/nested_norms.hpp"
 #include "shapes/norm_parameters.hpp"
 #include "shapes/sharp_section.hpp"
 #include "shapes/superellipsoid_batch.hpp"
-#include "shapes/validation.hpp"
 
 namespace supernormal {
 namespace {

@@ -15,7 +15,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "shapes/validation.hpp"
+#include "base/validation.hpp"
 
 namespace supernormal {
 namespace {

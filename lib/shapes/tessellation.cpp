@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "shapes/finite.hpp"
-#include "shapes/validation.hpp"
+#include "base/finite.hpp"
+#include "base/validation.hpp"
 
 namespace supernormal {
 namespace {

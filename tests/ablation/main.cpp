@@ -1,4 +1,4 @@
-// Changes one constant of the solver at a time (lib/proximity/tuning.hpp). Prints the cost over fixed sets of pairs.
+// Changes one constant of the solver at a time (lib/proximity/gap/tuning.hpp). Prints the cost over fixed sets of pairs.
 //
 //     ablation [--pairs 3000] [--samples 20000] [--only name] [--list]
 #include <CLI/CLI.hpp>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "measurement.hpp"
-#include "proximity/tuning.hpp"
+#include "proximity/gap/tuning.hpp"
 
 namespace supernormal::ablation {
 namespace {

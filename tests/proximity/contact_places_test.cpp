@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "proximity/contact_point.hpp"
+#include "proximity/search/contact_point.hpp"
 #include "supernormal/contact/contact_manifold.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"

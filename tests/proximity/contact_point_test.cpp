@@ -1,5 +1,5 @@
 // Tests of the point at which a contact acts: halfway in depth, and at the sharper body's point.
-#include "proximity/contact_point.hpp"
+#include "proximity/search/contact_point.hpp"
 
 #include <doctest/doctest.h>
 

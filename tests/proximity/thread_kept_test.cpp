@@ -1,5 +1,5 @@
 // Tests of what a thread keeps until its end: by the language, and by a key of POSIX threads.
-#include "proximity/thread_kept.hpp"
+#include "base/thread_kept.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "proximity/kept_by_key.hpp"
+#include "base/kept_by_key.hpp"
 
 using namespace supernormal;
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/validation.hpp"
 #include "contact/ahead/free_motion.hpp"
 #include "contact/ahead/meeting.hpp"
 #include "contact/ahead/nearness.hpp"
 #include "contact/ahead/small_rotation.hpp"
-#include "shapes/validation.hpp"
 
 namespace supernormal {
 namespace {

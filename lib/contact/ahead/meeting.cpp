@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shapes/validation.hpp"
+#include "base/validation.hpp"
 #include "supernormal/proximity/solve.hpp"
 
 namespace supernormal {

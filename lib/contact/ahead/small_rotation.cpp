@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/tangent_plane.hpp"
 #include "contact/ahead/nearness.hpp"
 #include "contact/manifold/convex_polygon.hpp"
-#include "proximity/tangent_plane.hpp"
 #include "supernormal/contact/body_box.hpp"
 
 namespace supernormal {

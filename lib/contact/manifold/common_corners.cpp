@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/validation.hpp"
 #include "contact/manifold/convex_polygon.hpp"
 #include "contact/manifold/unit_root.hpp"
-#include "shapes/validation.hpp"
 
 namespace supernormal {
 namespace {

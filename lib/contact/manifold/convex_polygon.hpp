@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "proximity/tangent_plane.hpp"
+#include "base/tangent_plane.hpp"
 
 namespace supernormal {
 

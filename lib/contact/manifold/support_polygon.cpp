@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/tangent_plane.hpp"
 #include "contact/manifold/unit_root.hpp"
-#include "proximity/tangent_plane.hpp"
 #include "shapes/lanes/four_normals.hpp"
 #include "shapes/lanes/lane_body_of.hpp"
 

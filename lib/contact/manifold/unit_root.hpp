@@ -1,7 +1,7 @@
 // Directions in a plane as complex numbers, without angles.
 #pragma once
 
-#include "proximity/tangent_plane.hpp"
+#include "base/tangent_plane.hpp"
 
 namespace supernormal {
 

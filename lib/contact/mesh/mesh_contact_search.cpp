@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
+#include "base/usable_pose.hpp"
 #include "contact/mesh/arc.hpp"
 #include "contact/mesh/triangle_proximity.hpp"
-#include "proximity/usable_pose.hpp"
 
 namespace supernormal {
 namespace {

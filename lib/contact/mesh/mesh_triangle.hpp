@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "shapes/validation.hpp"
+#include "base/validation.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 
 namespace supernormal {

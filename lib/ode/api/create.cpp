@@ -2,12 +2,12 @@
 #include <memory>
 #include <utility>
 
+#include "base/validation.hpp"
 #include "ode/api/registration.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/user_shape.hpp"
 #include "ode/support/last_error.hpp"
 #include "ode/support/require.hpp"
-#include "shapes/validation.hpp"
 #include "supernormal/geom.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/capsule.hpp"

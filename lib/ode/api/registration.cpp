@@ -6,13 +6,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/validation.hpp"
 #include "ode/colliders/collider.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/bounding_box.hpp"
 #include "ode/geom/class_slot.hpp"
 #include "ode/geom/geom_class.hpp"
 #include "ode/support/last_error.hpp"
-#include "shapes/validation.hpp"
 #include "supernormal/supernormal.h"
 
 namespace supernormal::ode {

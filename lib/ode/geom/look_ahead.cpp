@@ -5,11 +5,11 @@
 #include <atomic>
 #include <string>
 
+#include "base/finite.hpp"
+#include "base/validation.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/geom/geom_class.hpp"
-#include "shapes/finite.hpp"
-#include "shapes/validation.hpp"
 #include "supernormal/impact/motion.hpp"
 
 namespace supernormal::ode {

@@ -3,9 +3,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/finite.hpp"
+#include "base/validation.hpp"
 #include "ode/geom/geom_class.hpp"
-#include "shapes/finite.hpp"
-#include "shapes/validation.hpp"
 
 namespace supernormal::ode {
 namespace {

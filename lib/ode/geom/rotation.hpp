@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "proximity/usable_pose.hpp"
+#include "base/usable_pose.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal::ode {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <memory>
 
-#include "proximity/thread_kept.hpp"
+#include "base/thread_kept.hpp"
 #include "supernormal/proximity/separation.hpp"
 
 namespace supernormal::ode {

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "proximity/usable_pose.hpp"
-#include "shapes/validation.hpp"
+#include "base/usable_pose.hpp"
+#include "base/validation.hpp"
 
 namespace supernormal::ode {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "proximity/answer.hpp"
-#include "proximity/solvers.hpp"
-#include "shapes/finite.hpp"
+#include "base/finite.hpp"
+#include "proximity/search/answer.hpp"
+#include "proximity/search/solvers.hpp"
 
 namespace supernormal {
 namespace {

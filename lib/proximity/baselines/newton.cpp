@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "proximity/answer.hpp"
+#include "base/finite.hpp"
 #include "proximity/local/local_model.hpp"
-#include "proximity/solvers.hpp"
-#include "shapes/finite.hpp"
+#include "proximity/search/answer.hpp"
+#include "proximity/search/solvers.hpp"
 
 namespace supernormal {
 namespace {

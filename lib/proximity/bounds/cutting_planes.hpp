@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "proximity/tangent_plane.hpp"
+#include "base/tangent_plane.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <span>
 
-#include "proximity/limits.hpp"
-#include "proximity/tuning.hpp"
-#include "shapes/finite.hpp"
+#include "base/finite.hpp"
+#include "proximity/gap/limits.hpp"
+#include "proximity/gap/tuning.hpp"
 
 namespace supernormal {
 namespace {

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/usable_pose.hpp"
 #include "proximity/derivatives/common_normal.hpp"
 #include "proximity/derivatives/gradient_of_answer.hpp"
-#include "proximity/limits.hpp"
-#include "proximity/usable_pose.hpp"
+#include "proximity/gap/limits.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
 

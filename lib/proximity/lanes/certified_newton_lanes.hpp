@@ -12,10 +12,10 @@
 // Each operation acts on its lane alone, so the answer of a pair does not depend on the others, nor on the number of lanes.
 #pragma once
 
+#include "proximity/gap/limits.hpp"
+#include "proximity/gap/tuning.hpp"
 #include "proximity/lanes/pair_query.hpp"
 #include "proximity/lanes/tilts.hpp"
-#include "proximity/limits.hpp"
-#include "proximity/tuning.hpp"
 #include "shapes/lanes/superellipsoid_jet.hpp"
 
 namespace supernormal {

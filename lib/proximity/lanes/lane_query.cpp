@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "proximity/answer.hpp"
+#include "proximity/gap/tuning.hpp"
 #include "proximity/local/first_guess.hpp"
-#include "proximity/solvers.hpp"
-#include "proximity/tuning.hpp"
+#include "proximity/search/answer.hpp"
+#include "proximity/search/solvers.hpp"
 #include "shapes/lanes/lane_body_of.hpp"
 
 namespace supernormal {

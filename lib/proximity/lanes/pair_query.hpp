@@ -2,7 +2,7 @@
 // other type (shapes/lanes/real.hpp).
 #pragma once
 
-#include "proximity/limits.hpp"
+#include "proximity/gap/limits.hpp"
 #include "supernormal/shapes/lane_body.hpp"
 
 namespace supernormal {

@@ -1,7 +1,7 @@
 // The proof of faces by tilted normals, in lanes (CertifiedNewton::prove_by_tilts).
 #pragma once
 
-#include "proximity/tuning.hpp"
+#include "proximity/gap/tuning.hpp"
 #include "shapes/lanes/vectors.hpp"
 
 namespace supernormal {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "proximity/limits.hpp"
+#include "proximity/gap/limits.hpp"
 
 namespace supernormal {
 namespace {

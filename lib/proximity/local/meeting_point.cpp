@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/finite.hpp"
 #include "proximity/local/piecewise_model.hpp"
-#include "shapes/finite.hpp"
 
 namespace supernormal {
 namespace {

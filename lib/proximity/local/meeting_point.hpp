@@ -1,7 +1,7 @@
 // The contact of two bodies that both have faces or straight edges.
 #pragma once
 
-#include "proximity/stopping_rule.hpp"
+#include "proximity/gap/stopping_rule.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 
 namespace supernormal {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/finite.hpp"
+#include "proximity/gap/tuning.hpp"
 #include "proximity/local/length_of.hpp"
 #include "proximity/local/strict_complementarity.hpp"
-#include "proximity/tuning.hpp"
-#include "shapes/finite.hpp"
 
 namespace supernormal {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "shapes/finite.hpp"
+#include "base/finite.hpp"
 
 namespace supernormal {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "proximity/limits.hpp"
+#include "proximity/gap/limits.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {

@@ -1,7 +1,7 @@
 // The quadratic model of an ascent and its maximum within a disc.
 #pragma once
 
-#include "proximity/tangent_plane.hpp"
+#include "base/tangent_plane.hpp"
 
 namespace supernormal {
 

@@ -14,11 +14,11 @@
 #include <string>
 
 #include "arrays.hpp"
+#include "base/validation.hpp"
 #include "batch_arguments.hpp"
 #include "bindings.hpp"
 #include "columns.hpp"
 #include "parallel_for.hpp"
-#include "shapes/validation.hpp"
 #include "supernormal/proximity/clearance.hpp"
 
 namespace py = pybind11;

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "arrays.hpp"
+#include "base/validation.hpp"
 #include "bindings.hpp"
 #include "enums.hpp"
 #include "parallel_for.hpp"
-#include "shapes/validation.hpp"
 #include "supernormal/impact/time_of_impact.hpp"
 #include "supernormal/python/interpreter_lock.hpp"
 #include "values.hpp"

@@ -15,9 +15,9 @@
 #include <string>
 
 #include "arrays.hpp"
+#include "base/usable_pose.hpp"
+#include "base/validation.hpp"
 #include "bindings.hpp"
-#include "proximity/usable_pose.hpp"
-#include "shapes/validation.hpp"
 #include "values.hpp"
 
 namespace py = pybind11;

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "base/validation.hpp"
 #include "bindings.hpp"
 #include "enums.hpp"
 #include "parallel_for.hpp"
 #include "recording_shape.hpp"
 #include "shape_queries.hpp"
-#include "shapes/validation.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/python/interpreter_lock.hpp"

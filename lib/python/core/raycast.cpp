@@ -5,10 +5,10 @@
 #include <stdexcept>
 
 #include "arrays.hpp"
+#include "base/validation.hpp"
 #include "bindings.hpp"
 #include "enums.hpp"
 #include "parallel_for.hpp"
-#include "shapes/validation.hpp"
 #include "supernormal/python/interpreter_lock.hpp"
 #include "supernormal/raycast/ray.hpp"
 #include "values.hpp"

@@ -1,10 +1,10 @@
 // Our bodies and dConvex: the convex hull of its vertices. Its polygons and planes are ignored.
+#include "base/thread_kept.hpp"
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/convex/convex_vertices.hpp"
 #include "ode/colliders/solve_pair.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/runtime/warm_start.hpp"
-#include "proximity/thread_kept.hpp"
 #include "supernormal/shapes/polytope.hpp"
 
 namespace supernormal::ode {

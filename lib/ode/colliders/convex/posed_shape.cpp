@@ -3,10 +3,10 @@
 #include <limits>
 #include <vector>
 
+#include "base/thread_kept.hpp"
 #include "ode/colliders/convex/convex_vertices.hpp"
 #include "ode/colliders/no_answer.hpp"
 #include "ode/geom/body.hpp"
-#include "proximity/thread_kept.hpp"
 
 namespace supernormal::ode {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "proximity/thread_kept.hpp"
+#include "base/thread_kept.hpp"
 
 namespace supernormal::ode {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/thread_kept.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/support/private_geom.hpp"
-#include "proximity/thread_kept.hpp"
 
 namespace supernormal::ode {
 namespace {

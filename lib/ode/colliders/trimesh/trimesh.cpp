@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/thread_kept.hpp"
+#include "base/usable_pose.hpp"
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/contact.hpp"
 #include "ode/colliders/impact.hpp"
@@ -14,8 +16,6 @@
 #include "ode/geom/look_ahead.hpp"
 #include "ode/runtime/statistics.hpp"
 #include "ode/support/last_error.hpp"
-#include "proximity/thread_kept.hpp"
-#include "proximity/usable_pose.hpp"
 #include "supernormal/contact/body_box.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/contact/mesh_contacts_ahead.hpp"

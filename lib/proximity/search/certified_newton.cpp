@@ -1,11 +1,11 @@
-#include "proximity/local/certified_newton.hpp"
+#include "proximity/search/certified_newton.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "proximity/answer.hpp"
 #include "proximity/bounds/minimum_norm_point.hpp"
-#include "proximity/tuning.hpp"
+#include "proximity/gap/tuning.hpp"
+#include "proximity/search/answer.hpp"
 
 namespace supernormal {
 

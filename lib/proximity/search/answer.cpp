@@ -1,4 +1,4 @@
-#include "proximity/answer.hpp"
+#include "proximity/search/answer.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,9 +1,9 @@
-#include "proximity/local/ascent.hpp"
+#include "proximity/search/ascent.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "proximity/answer.hpp"
+#include "proximity/search/answer.hpp"
 
 namespace supernormal {
 namespace {

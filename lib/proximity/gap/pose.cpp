@@ -2,9 +2,9 @@
 
 #include <stdexcept>
 
-#include "proximity/usable_pose.hpp"
+#include "base/usable_pose.hpp"
+#include "base/validation.hpp"
 #include "shapes/description_text.hpp"
-#include "shapes/validation.hpp"
 
 namespace supernormal {
 

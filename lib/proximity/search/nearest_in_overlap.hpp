@@ -1,7 +1,7 @@
 // The point of two bodies' overlap that is nearest to a contact's intended place.
 #pragma once
 
-#include "proximity/stopping_rule.hpp"
+#include "proximity/gap/stopping_rule.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 
 namespace supernormal {

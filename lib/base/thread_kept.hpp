@@ -2,7 +2,7 @@
 #pragma once
 
 #if defined(__MINGW32__) && !defined(__clang__)
-#include "proximity/kept_by_key.hpp"
+#include "base/kept_by_key.hpp"
 #endif
 
 namespace supernormal {

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "proximity/bounds/inner_polytope.hpp"
-#include "proximity/local/ascent.hpp"
+#include "proximity/search/ascent.hpp"
 
 namespace supernormal {
 

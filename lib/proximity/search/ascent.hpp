@@ -7,11 +7,11 @@
 
 #include "proximity/bounds/cutting_planes.hpp"
 #include "proximity/bounds/minimum_norm_point.hpp"
+#include "proximity/gap/stopping_rule.hpp"
+#include "proximity/gap/tuning.hpp"
 #include "proximity/local/bfgs_hessian.hpp"
 #include "proximity/local/model_step.hpp"
 #include "proximity/local/vertex_cache.hpp"
-#include "proximity/stopping_rule.hpp"
-#include "proximity/tuning.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/proximity.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "proximity/limits.hpp"
-#include "shapes/finite.hpp"
+#include "base/finite.hpp"
+#include "proximity/gap/limits.hpp"
 #include "shapes/superellipsoid_batch.hpp"
 
 namespace supernormal {

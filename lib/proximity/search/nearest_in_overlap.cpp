@@ -1,4 +1,4 @@
-#include "proximity/nearest_in_overlap.hpp"
+#include "proximity/search/nearest_in_overlap.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

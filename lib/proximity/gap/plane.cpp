@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "proximity/usable_pose.hpp"
-#include "shapes/validation.hpp"
+#include "base/usable_pose.hpp"
+#include "base/validation.hpp"
 
 namespace supernormal {
 

@@ -3,14 +3,14 @@
 #include <limits>
 #include <optional>
 
-#include "proximity/answer.hpp"
-#include "proximity/bounds/expanding_polytope.hpp"
-#include "proximity/local/ascent.hpp"
-#include "proximity/local/certified_newton.hpp"
+#include "proximity/gap/tuning.hpp"
 #include "proximity/local/meeting_point.hpp"
 #include "proximity/local/vertex_cache.hpp"
-#include "proximity/solvers.hpp"
-#include "proximity/tuning.hpp"
+#include "proximity/search/answer.hpp"
+#include "proximity/search/ascent.hpp"
+#include "proximity/search/certified_newton.hpp"
+#include "proximity/search/expanding_polytope.hpp"
+#include "proximity/search/solvers.hpp"
 
 namespace supernormal {
 namespace {

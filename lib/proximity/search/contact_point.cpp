@@ -1,14 +1,14 @@
-#include "proximity/contact_point.hpp"
+#include "proximity/search/contact_point.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "proximity/limits.hpp"
+#include "proximity/gap/limits.hpp"
 #include "proximity/local/local_model.hpp"
 #include "proximity/local/piecewise_model.hpp"
 #include "proximity/local/regular_hessian.hpp"
-#include "proximity/nearest_in_overlap.hpp"
+#include "proximity/search/nearest_in_overlap.hpp"
 
 namespace supernormal {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "proximity/stopping_rule.hpp"
+#include "proximity/gap/stopping_rule.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 
 namespace supernormal {

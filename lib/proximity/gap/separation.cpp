@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "proximity/limits.hpp"
+#include "proximity/gap/limits.hpp"
 
 namespace supernormal {
 

@@ -1,4 +1,4 @@
-#include "proximity/bounds/expanding_polytope.hpp"
+#include "proximity/search/expanding_polytope.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,9 +9,9 @@
 #include <span>
 #include <utility>
 
+#include "base/thread_kept.hpp"
 #include "proximity/bounds/minimum_norm_point.hpp"
-#include "proximity/thread_kept.hpp"
-#include "proximity/tuning.hpp"
+#include "proximity/gap/tuning.hpp"
 
 namespace supernormal {
 namespace {

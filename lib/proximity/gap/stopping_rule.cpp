@@ -1,6 +1,6 @@
-#include "proximity/stopping_rule.hpp"
+#include "proximity/gap/stopping_rule.hpp"
 
-#include "proximity/limits.hpp"
+#include "proximity/gap/limits.hpp"
 
 namespace supernormal {
 

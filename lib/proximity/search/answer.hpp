@@ -1,8 +1,8 @@
 // From the last evaluation of a solver to its answer.
 #pragma once
 
-#include "proximity/contact_point.hpp"
-#include "proximity/stopping_rule.hpp"
+#include "proximity/gap/stopping_rule.hpp"
+#include "proximity/search/contact_point.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/proximity.hpp"
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "shapes/finite.hpp"
+#include "base/finite.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {

@@ -6,11 +6,11 @@
 #include <span>
 
 #include "proximity/bounds/cutting_planes.hpp"
-#include "proximity/contact_point.hpp"
-#include "proximity/limits.hpp"
+#include "proximity/gap/limits.hpp"
+#include "proximity/gap/stopping_rule.hpp"
 #include "proximity/local/regular_hessian.hpp"
-#include "proximity/solvers.hpp"
-#include "proximity/stopping_rule.hpp"
+#include "proximity/search/contact_point.hpp"
+#include "proximity/search/solvers.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/proximity.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "shapes/finite.hpp"
+#include "base/finite.hpp"
 #include "supernormal/proximity/pose.hpp"
 
 namespace supernormal {
