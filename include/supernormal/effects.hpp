@@ -16,10 +16,12 @@
 
 #include <ode/ode.h>
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -212,10 +214,12 @@ struct SpeculativeContacts {
   MaterialSelector on;  ///< the contacts that it applies to
 };
 
-/// Any effect.
-using Effect =
-    std::variant<Friction, AnisotropicFriction, RollingResistance, Restitution, Compliance, Hertz, Adhesion, Gravity, QuadraticDrag,
-                 StokesDrag, Buoyancy, Damping, AutoDisable, MaxCorrectingVelocity, SurfaceLayer, SpeculativeContacts>;
+/// Any effect. A class of its own, so that names of functions do not contain all effects.
+struct Effect : std::variant<Friction, AnisotropicFriction, RollingResistance, Restitution, Compliance, Hertz, Adhesion, Gravity,
+                             QuadraticDrag, StokesDrag, Buoyancy, Damping, AutoDisable, MaxCorrectingVelocity, SurfaceLayer,
+                             SpeculativeContacts> {
+  using variant::variant;
+};
 
 /// Reports why and where a list was refused. The text contains the effect, the parameter, its value and range, or the two effects
 /// that exclude each other.
@@ -248,6 +252,18 @@ struct Description {
 };
 /// The descriptions of all effects.
 SUPERNORMAL_ODE_API std::span<const Description> descriptions();
+
+/// A parameter that read_effect() asks for.
+struct Parameter {
+  enum class Kind { Number, Whole, Vector };  ///< a whole number; three numbers
+  const char* name;                           ///< as in Description::parameters
+  Kind kind;                                  ///< what it is
+  bool has_default;                           ///< whether it may be left out
+};
+/// Makes an effect for all contacts, whose name is one of descriptions(). `read` returns the numbers of each parameter, or none,
+/// which leaves the default. The constructor of Effects checks the ranges. Throws std::invalid_argument for another name, or
+/// another count of numbers.
+SUPERNORMAL_ODE_API Effect read_effect(std::string_view name, const std::function<std::vector<double>(const Parameter&)>& read);
 
 /// Who solves the contacts. A stepper (supernormal/stepper.hpp) knows gaps, impacts and the circle of friction by itself. So
 /// contacts ahead stay, with their negative depths, and the added bodies look ahead by the step. Pass all contacts to

@@ -131,8 +131,8 @@ struct Effects::State {
   bool looks_ahead;
   SpeculativeSetup speculative;
   bool is_measuring = false;
-  std::array<double, std::variant_size_v<Effect>> seconds{};
-  std::array<unsigned long long, std::variant_size_v<Effect>> visits{};
+  std::array<double, std::variant_size_v<Effect::variant>> seconds{};
+  std::array<unsigned long long, std::variant_size_v<Effect::variant>> visits{};
 };
 
 // Runs the passes on each region of contact, and moves the contacts to attach to the front.
@@ -228,7 +228,7 @@ std::vector<Cost> Effects::costs() const {
   std::vector<Cost> costs = {{.name = "rigid_contact"}};
   for (const PairMaterial& pair : state_->pair_materials.all()) costs.front().contacts += pair.contacts;
   costs.front().rows = costs.front().contacts;
-  for (EffectIndex index = 0; index < std::variant_size_v<Effect>; ++index) {
+  for (EffectIndex index = 0; index < std::variant_size_v<Effect::variant>; ++index) {
     const bool is_listed = std::ranges::any_of(state_->list, [&](const Effect& effect) { return effect.index() == index; });
     if (!is_listed) continue;
     Cost cost{.name = descriptions()[index].name, .bodies = state_->visits[index], .seconds = state_->seconds[index]};

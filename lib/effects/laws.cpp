@@ -1,14 +1,18 @@
 #include "effects/laws.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
-#include "shapes/validation.hpp"
+#include "base/validation.hpp"
 
 namespace supernormal::effects {
 namespace {
@@ -17,11 +21,16 @@ namespace {
 struct Range {
   double low, high;
   const char* unit = "";
-  bool is_open = false;  ///< whether `low` itself is outside
+  bool is_open = false;      ///< whether `low` itself is outside
+  bool has_default = false;  ///< whether a scene may leave the parameter out
 };
 
 constexpr Range above_zero(double high, const char* unit = "") { return {0, high, unit, true}; }
 constexpr Range closed(double low, double high, const char* unit = "") { return {low, high, unit}; }
+constexpr Range optional(Range range) {
+  range.has_default = true;
+  return range;
+}
 
 constexpr const char* kNoPass = "none; ODE does it";
 constexpr const char* kPerContact = "one per contact";
@@ -36,14 +45,14 @@ template <>
 struct Law<Friction> {
   static constexpr Description kText = {"friction", "", 2, kPerContact,
                                         "Coulomb; cone kept by an inscribed square turned to the slip"};
-  static void list(const Friction& e, auto& visitor) { visitor.number("coefficient", e.coefficient, above_zero(100)); }
+  static void list(auto& e, auto& visitor) { visitor.number("coefficient", e.coefficient, above_zero(100)); }
 };
 
 template <>
 struct Law<AnisotropicFriction> {
   static constexpr Description kText = {"anisotropic_friction", "", 2, kPerContact,
                                         "Goyal, Ruina and Papadopoulos, Wear 143 (1991)"};
-  static void list(const AnisotropicFriction& e, auto& visitor) {
+  static void list(auto& e, auto& visitor) {
     visitor.number("along", e.along, closed(0, 100));
     visitor.number("across", e.across, closed(0, 100));
     visitor.not_both_zero("along", e.along, "across", e.across);
@@ -55,9 +64,9 @@ template <>
 struct Law<RollingResistance> {
   static constexpr Description kText = {"rolling_resistance", "", 3, kPerContact,
                                         "Ai et al., Powder Technology 206 (2011), model A"};
-  static void list(const RollingResistance& e, auto& visitor) {
-    visitor.number("rolling", e.rolling, closed(0, 1e3, "m"));
-    visitor.number("spinning", e.spinning, closed(0, 1e3, "m"));
+  static void list(auto& e, auto& visitor) {
+    visitor.number("rolling", e.rolling, optional(closed(0, 1e3, "m")));
+    visitor.number("spinning", e.spinning, optional(closed(0, 1e3, "m")));
     visitor.not_both_zero("rolling", e.rolling, "spinning", e.spinning);
   }
 };
@@ -65,18 +74,18 @@ struct Law<RollingResistance> {
 template <>
 struct Law<Restitution> {
   static constexpr Description kText = {"restitution", "", 0, kNoPass, "Newton"};
-  static void list(const Restitution& e, auto& visitor) {
+  static void list(auto& e, auto& visitor) {
     visitor.number("coefficient", e.coefficient, above_zero(1));
-    visitor.number("threshold", e.threshold, closed(0, 100, "m/s"));
+    visitor.number("threshold", e.threshold, optional(closed(0, 100, "m/s")));
   }
 };
 
 template <>
 struct Law<Compliance> {
   static constexpr Description kText = {"compliance", "", 0, kPerContact, "Kelvin and Voigt"};
-  static void list(const Compliance& e, auto& visitor) {
+  static void list(auto& e, auto& visitor) {
     visitor.number("stiffness", e.stiffness, above_zero(1e15, "N/m"));
-    visitor.number("damping", e.damping, closed(0, 1e15, "N s/m"));
+    visitor.number("damping", e.damping, optional(closed(0, 1e15, "N s/m")));
   }
 };
 
@@ -84,10 +93,10 @@ template <>
 struct Law<Hertz> {
   static constexpr Description kText = {"hertz", "", 0, kPerContact,
                                         "Johnson, Contact Mechanics (1985), 4.2; Tsuji et al., Powder Technology 71 (1992)"};
-  static void list(const Hertz& e, auto& visitor) {
+  static void list(auto& e, auto& visitor) {
     visitor.number("youngs_modulus", e.youngs_modulus, above_zero(1e15, "Pa"));
     visitor.number("poisson_ratio", e.poisson_ratio, closed(0, 0.5));
-    visitor.number("restitution", e.restitution, closed(0.05, 1));
+    visitor.number("restitution", e.restitution, optional(closed(0.05, 1)));
   }
 };
 
@@ -95,19 +104,19 @@ template <>
 struct Law<Adhesion> {
   static constexpr Description kText = {"adhesion", "", 0, kPerContact,
                                         "constant attraction, as Derjaguin, Muller and Toporov (1975)"};
-  static void list(const Adhesion& e, auto& visitor) { visitor.number("pull_off", e.pull_off, above_zero(1e9, "N")); }
+  static void list(auto& e, auto& visitor) { visitor.number("pull_off", e.pull_off, above_zero(1e9, "N")); }
 };
 
 template <>
 struct Law<Gravity> {
   static constexpr Description kText = {"gravity", "", 0, kNoPass, "uniform field"};
-  static void list(const Gravity& e, auto& visitor) { visitor.vector("acceleration", e.acceleration, closed(-1e4, 1e4, "m/s^2")); }
+  static void list(auto& e, auto& visitor) { visitor.vector("acceleration", e.acceleration, closed(-1e4, 1e4, "m/s^2")); }
 };
 
 template <>
 struct Law<QuadraticDrag> {
   static constexpr Description kText = {"quadratic_drag", "", 0, kPerBody, "Newton; area of the body itself"};
-  static void list(const QuadraticDrag& e, auto& visitor) {
+  static void list(auto& e, auto& visitor) {
     visitor.number("density", e.density, above_zero(1e5, "kg/m^3"));
     visitor.number("coefficient", e.coefficient, above_zero(100));
   }
@@ -116,13 +125,13 @@ struct Law<QuadraticDrag> {
 template <>
 struct Law<StokesDrag> {
   static constexpr Description kText = {"stokes_drag", "", 0, kPerBody, "Leith, Aerosol Science and Technology 6 (1987)"};
-  static void list(const StokesDrag& e, auto& visitor) { visitor.number("viscosity", e.viscosity, above_zero(1e6, "Pa s")); }
+  static void list(auto& e, auto& visitor) { visitor.number("viscosity", e.viscosity, above_zero(1e6, "Pa s")); }
 };
 
 template <>
 struct Law<Buoyancy> {
   static constexpr Description kText = {"buoyancy", "", 0, kPerBody, "Archimedes"};
-  static void list(const Buoyancy& e, auto& visitor) {
+  static void list(auto& e, auto& visitor) {
     visitor.number("density", e.density, above_zero(1e5, "kg/m^3"));
     visitor.number("level", e.level, closed(-1e6, 1e6, "m"));
   }
@@ -131,9 +140,9 @@ struct Law<Buoyancy> {
 template <>
 struct Law<Damping> {
   static constexpr Description kText = {"damping", "", 0, kNoPass, "exponential decay"};
-  static void list(const Damping& e, auto& visitor) {
-    visitor.number("linear", e.linear, closed(0, 1e6, "1/s"));
-    visitor.number("angular", e.angular, closed(0, 1e6, "1/s"));
+  static void list(auto& e, auto& visitor) {
+    visitor.number("linear", e.linear, optional(closed(0, 1e6, "1/s")));
+    visitor.number("angular", e.angular, optional(closed(0, 1e6, "1/s")));
     visitor.not_both_zero("linear", e.linear, "angular", e.angular);
   }
 };
@@ -141,33 +150,31 @@ struct Law<Damping> {
 template <>
 struct Law<AutoDisable> {
   static constexpr Description kText = {"auto_disable", "", 0, kNoPass, "ODE manual"};
-  static void list(const AutoDisable& e, auto& visitor) {
+  static void list(auto& e, auto& visitor) {
     visitor.number("linear", e.linear, above_zero(1e3, "m/s"));
     visitor.number("angular", e.angular, above_zero(1e6, "rad/s"));
-    visitor.number("time", e.time, closed(0, 1e6, "s"));
-    visitor.number("samples", e.samples, closed(1, 1000));
+    visitor.number("time", e.time, optional(closed(0, 1e6, "s")));
+    visitor.whole("samples", e.samples, optional(closed(1, 1000)));
   }
 };
 
 template <>
 struct Law<MaxCorrectingVelocity> {
   static constexpr Description kText = {"max_correcting_velocity", "", 0, kNoPass, "ODE manual"};
-  static void list(const MaxCorrectingVelocity& e, auto& visitor) {
-    visitor.number("velocity", e.velocity, above_zero(1e6, "m/s"));
-  }
+  static void list(auto& e, auto& visitor) { visitor.number("velocity", e.velocity, above_zero(1e6, "m/s")); }
 };
 
 template <>
 struct Law<SurfaceLayer> {
   static constexpr Description kText = {"surface_layer", "", 0, kNoPass, "ODE manual"};
-  static void list(const SurfaceLayer& e, auto& visitor) { visitor.number("depth", e.depth, above_zero(1e3, "m")); }
+  static void list(auto& e, auto& visitor) { visitor.number("depth", e.depth, above_zero(1e3, "m")); }
 };
 
 template <>
 struct Law<SpeculativeContacts> {
   static constexpr Description kText = {"speculative_contacts", "", 0, "one per contact ahead of touch",
                                         "Anitescu and Potra, Nonlinear Dynamics 14 (1997)"};
-  static void list(const SpeculativeContacts& /*effect*/, auto& /*visitor*/) {}
+  static void list(auto& /*effect*/, auto& /*visitor*/) {}
 };
 
 /// Refuses what a law shows it.
@@ -189,6 +196,7 @@ class Check {
       throw BadEffect(name_, parameter, error.what());
     }
   }
+  void whole(const char* parameter, int value, const Range& range) const { number(parameter, value, range); }
   void vector(const char* parameter, const Vector3& value, const Range& range) const {
     for (const double component : value) number(parameter, component, range);
   }
@@ -208,18 +216,20 @@ class Check {
   const char* name_;
 };
 
-/// Puts the parameters that a law shows it into words: "rolling, spinning [0, 1e3] m".
+/// Puts the parameters that a law shows it into words: "rolling, spinning [0, 1e3] m, 0 without it".
 class Words {
  public:
-  void number(const char* parameter, double /*value*/, const Range& range) {
+  void number(const char* parameter, double value, const Range& range) {
     const std::string text = std::string(range.is_open ? " (" : " [") + short_text(range.low) + ", " + short_text(range.high) +
-                             "]" + (*range.unit == '\0' ? "" : " ") + range.unit;
+                             "]" + (*range.unit == '\0' ? "" : " ") + range.unit +
+                             (range.has_default ? ", " + short_text(value) + " without it" : "");
     // Parameters with one range have it once.
     const bool has_same_range = text == range_;
     if (has_same_range) text_.resize(text_.size() - range_.size());
     text_ += (text_.empty() ? "" : has_same_range ? ", " : "; ") + std::string(parameter) + text;
     range_ = text;
   }
+  void whole(const char* parameter, int value, const Range& range) { number(parameter, value, range); }
   void vector(const char* parameter, const Vector3& /*value*/, const Range& range) { number(parameter, 0, range); }
   void direction(const char* parameter, const Vector3& /*value*/, const char* of) {
     text_ += std::string("; ") + parameter + ", " + of;
@@ -240,6 +250,42 @@ class Words {
   std::string text_, range_;
 };
 
+/// Sets the parameters that a law shows it.
+class Reader {
+ public:
+  using Read = std::function<std::vector<double>(const Parameter&)>;
+  explicit Reader(const Read& read) : read_(read) {}
+
+  void number(const char* name, double& value, const Range& range) const { set(name, Parameter::Kind::Number, range, &value, 1); }
+  void whole(const char* name, int& value, const Range& range) const {
+    double number = value;
+    set(name, Parameter::Kind::Whole, range, &number, 1);
+    if (std::nearbyint(number) != number || std::abs(number) > std::numeric_limits<int>::max()) {
+      throw std::invalid_argument(std::string(name) + " = " + to_text(number) + ", but must be a whole number");
+    }
+    value = static_cast<int>(number);
+  }
+  void vector(const char* name, Vector3& value, const Range& range) const {
+    set(name, Parameter::Kind::Vector, range, value.data(), 3);
+  }
+  void direction(const char* name, Vector3& value, const char* /*of*/) const { vector(name, value, {}); }
+  static void not_both_zero(const char* /*first*/, double /*value1*/, const char* /*second*/, double /*value2*/) {}
+
+ private:
+  void set(const char* name, Parameter::Kind kind, const Range& range, double* values, std::size_t count) const {
+    const std::vector<double> numbers = read_({name, kind, range.has_default});
+    if (numbers.empty()) return;
+    if (numbers.size() == count) {
+      std::ranges::copy(numbers, values);
+      return;
+    }
+    throw std::invalid_argument(std::string(name) + " has " + std::to_string(numbers.size()) +
+                                " numbers; allowed: " + std::to_string(count) + ", or none for the default");
+  }
+
+  const Read& read_;
+};
+
 constexpr bool has_text(const char* text) { return text != nullptr && !std::string_view(text).empty(); }
 
 template <typename E>
@@ -248,14 +294,15 @@ constexpr bool is_complete() {
   return has_text(kText.name) && has_text(kText.passes) && has_text(kText.source);
 }
 
-constexpr std::size_t kCount = std::variant_size_v<Effect>;
+constexpr std::size_t kCount = std::variant_size_v<Effect::variant>;
 
 /// The descriptions, with the texts of the parameters, to which they point.
 struct Descriptions {
   template <std::size_t... kIs>
   explicit Descriptions(std::index_sequence<kIs...> /*indices*/) {
-    static_assert((is_complete<std::variant_alternative_t<kIs, Effect>>() && ...), "the law of an effect leaves out a text");
-    (add<std::variant_alternative_t<kIs, Effect>>(kIs), ...);
+    static_assert((is_complete<std::variant_alternative_t<kIs, Effect::variant>>() && ...),
+                  "the law of an effect leaves out a text");
+    (add<std::variant_alternative_t<kIs, Effect::variant>>(kIs), ...);
   }
 
   std::array<std::string, kCount> parameters;
@@ -265,18 +312,40 @@ struct Descriptions {
   template <typename E>
   void add(std::size_t index) {
     Words words;
-    Law<E>::list(E(), words);
+    const E by_default{};
+    Law<E>::list(by_default, words);
     parameters[index] = words.text();
     all[index] = Law<E>::kText;
     all[index].parameters = parameters[index].c_str();
   }
 };
 
+template <typename E>
+Effect read_one(const Reader& reader) {
+  E effect;
+  Law<E>::list(effect, reader);
+  return effect;
+}
+
+template <std::size_t... kIs>
+Effect read_at(std::size_t index, const Reader& reader, std::index_sequence<kIs...> /*indices*/) {
+  using Make = Effect (*)(const Reader&);
+  constexpr std::array<Make, kCount> kMakers = {read_one<std::variant_alternative_t<kIs, Effect::variant>>...};
+  return kMakers[index](reader);
+}
+
 }  // namespace
 
 std::span<const Description> descriptions() {
   static const Descriptions all{std::make_index_sequence<kCount>()};
   return all.all;
+}
+
+Effect read_effect(std::string_view name, const std::function<std::vector<double>(const Parameter&)>& read) {
+  const auto all = descriptions();
+  const auto found = std::ranges::find(all, name, &Description::name);
+  if (found == all.end()) throw std::invalid_argument("no effect has the name " + std::string(name));
+  return read_at(static_cast<std::size_t>(found - all.begin()), Reader(read), std::make_index_sequence<kCount>());
 }
 
 void require_parameters(const Effect& effect) {

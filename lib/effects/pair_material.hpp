@@ -22,9 +22,9 @@ template <typename E>
 constexpr EffectIndex index_of() {
   EffectIndex index = 0;
   [&]<std::size_t... kIs>(std::index_sequence<kIs...>) {
-    ((index = std::is_same_v<E, std::variant_alternative_t<kIs, Effect>> ? kIs : index), ...);
+    ((index = std::is_same_v<E, std::variant_alternative_t<kIs, Effect::variant>> ? kIs : index), ...);
   }
-  (std::make_index_sequence<std::variant_size_v<Effect>>());
+  (std::make_index_sequence<std::variant_size_v<Effect::variant>>());
   return index;
 }
 
@@ -61,11 +61,11 @@ struct PairMaterial {
   bool is_speculative = false;  ///< whether contacts ahead of touch become constraints on the step
   bool takes_ahead = false;     ///< whether contacts ahead of touch are attached
 
-  std::vector<Pass> passes;                             ///< the passes that contacts also need
-  std::vector<EffectIndex> listed;                      ///< the effects that apply to these contacts
-  std::array<int, std::variant_size_v<Effect>> rows{};  ///< the rows that each effect adds to a contact
-  unsigned long long contacts = 0;                      ///< contacts set up so far
-  unsigned long long ahead = 0;                         ///< how many of them were ahead of touch
+  std::vector<Pass> passes;                                      ///< the passes that contacts also need
+  std::vector<EffectIndex> listed;                               ///< the effects that apply to these contacts
+  std::array<int, std::variant_size_v<Effect::variant>> rows{};  ///< the rows that each effect adds to a contact
+  unsigned long long contacts = 0;                               ///< contacts set up so far
+  unsigned long long ahead = 0;                                  ///< how many of them were ahead of touch
   unsigned long long coarse = 0;
 };
 

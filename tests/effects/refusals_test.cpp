@@ -1,8 +1,10 @@
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "supernormal/effects.hpp"
 
@@ -109,16 +111,43 @@ TEST_CASE("a refusal has its reason without the contacts that it is about") {
 }
 
 TEST_CASE("every effect has a description") {
-  CHECK(descriptions().size() == std::variant_size_v<Effect>);
+  CHECK(descriptions().size() == std::variant_size_v<Effect::variant>);
   for (const Description& description : descriptions()) {
     CHECK_FALSE(std::string(description.name).empty());
     CHECK_FALSE(std::string(description.source).empty());
   }
   const auto parameters_of = [](const Effect& effect) { return std::string(descriptions()[effect.index()].parameters); };
   CHECK(parameters_of(AnisotropicFriction{}) == "along, across [0, 100]; direction, of the body");
-  CHECK(parameters_of(RollingResistance{}) == "rolling, spinning [0, 1e3] m");
-  CHECK(parameters_of(Compliance{}) == "stiffness (0, 1e15] N/m; damping [0, 1e15] N s/m");
-  CHECK(parameters_of(Hertz{}) == "youngs_modulus (0, 1e15] Pa; poisson_ratio [0, 0.5]; restitution [0.05, 1]");
+  CHECK(parameters_of(RollingResistance{}) == "rolling, spinning [0, 1e3] m, 0 without it");
+  CHECK(parameters_of(Compliance{}) == "stiffness (0, 1e15] N/m; damping [0, 1e15] N s/m, 0 without it");
+  CHECK(parameters_of(Hertz{}) == "youngs_modulus (0, 1e15] Pa; poisson_ratio [0, 0.5]; restitution [0.05, 1], 1 without it");
   CHECK(parameters_of(Gravity{}) == "acceleration [-1e4, 1e4] m/s^2");
   CHECK(parameters_of(SpeculativeContacts{}) == "none");
+}
+
+TEST_CASE("an effect is read by the names of its parameters") {
+  const auto read = [](const char* name, const std::map<std::string, std::vector<double>>& numbers) {
+    return read_effect(name, [&](const Parameter& parameter) {
+      const auto found = numbers.find(parameter.name);
+      return found == numbers.end() ? std::vector<double>() : found->second;
+    });
+  };
+  CHECK(std::get<Friction>(read("friction", {{"coefficient", {0.4}}})).coefficient == 0.4);
+  CHECK(std::get<Gravity>(read("gravity", {{"acceleration", {1, 2, 3}}})).acceleration == supernormal::Vector3(1, 2, 3));
+  const auto sleep = std::get<AutoDisable>(read("auto_disable", {{"linear", {0.5}}, {"samples", {7}}}));
+  CHECK(sleep.linear == 0.5);
+  CHECK(sleep.angular == AutoDisable().angular);
+  CHECK(sleep.samples == 7);
+  CHECK_THROWS_WITH_AS(read("auto_disable", {{"samples", {2.5}}}), "samples = 2.5, but must be a whole number",
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(read("gravity", {{"acceleration", {1, 2}}}), doctest::Contains("acceleration has 2 numbers; allowed: 3"),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(read("fricton", {}), "no effect has the name fricton", std::invalid_argument);
+  // What may be left out, and every other parameter, is in the words of the description.
+  for (const Description& description : descriptions()) {
+    read_effect(description.name, [&](const Parameter& parameter) {
+      CHECK_MESSAGE(std::string(description.parameters).find(parameter.name) != std::string::npos, description.name);
+      return std::vector<double>();
+    });
+  }
 }
