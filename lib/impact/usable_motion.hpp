@@ -3,6 +3,7 @@
 
 #include "base/usable_pose.hpp"
 #include "base/validation.hpp"
+#include "proximity/gap/usable_settings.hpp"
 #include "supernormal/impact/time_of_impact.hpp"
 
 namespace supernormal {
@@ -10,8 +11,7 @@ namespace supernormal {
 /// Throws std::invalid_argument if a number is out of range.
 inline void require_usable(double horizon, const Settings& settings) {
   require_in("horizon", horizon, 0, kMaxHorizon, "s");
-  require_in("tolerance", settings.tolerance, 1e-15, 1);
-  require_in("max_evaluations", settings.max_evaluations, 1, 1e6);
+  require_in_range(settings);
 }
 
 /// Whether the numbers of a motion, and the angle of its rotation until the horizon, are in range.

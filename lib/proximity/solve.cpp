@@ -6,22 +6,13 @@
 
 #include "base/usable_pose.hpp"
 #include "base/validation.hpp"
+#include "proximity/gap/usable_settings.hpp"
 #include "proximity/lanes/lane_query.hpp"
 #include "proximity/local/first_guess.hpp"
-#include "proximity/search/answer.hpp"
 #include "proximity/search/solvers.hpp"
 
 namespace supernormal {
 namespace {
-
-constexpr double kMinTolerance = 1e-15;
-constexpr double kMaxTolerance = 1;
-constexpr double kMaxEvaluations = 1e6;
-
-void check(const Settings& settings) {
-  require_in("tolerance", settings.tolerance, kMinTolerance, kMaxTolerance);
-  require_in("max_evaluations", settings.max_evaluations, 1, kMaxEvaluations);
-}
 
 Proximity solve(GapFunction& gap, const Settings& settings, const Vector3& start, WantedMaximum wanted) {
   if (gap.traits2().has_nonsmooth_points) return solve_hybrid(gap, settings, start, wanted);
@@ -67,7 +58,7 @@ Proximity find_alone(const ProximityQuery& pair, const Settings& settings) {
 
 Proximity find_proximity(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Settings& settings,
                          const Vector3* first_normal) {
-  check(settings);
+  require_in_range(settings);
   if (!is_usable(pose1) || !is_usable(pose2)) return {};
   const bool is_warm = first_normal != nullptr && is_usable(*first_normal);
   const ProximityQuery pair = {&shape1, &pose1, &shape2, &pose2, is_warm ? first_normal : nullptr};
@@ -88,7 +79,7 @@ void find_proximities(std::span<const ProximityQuery> queries, const Settings& s
 
 void find_in_lanes(std::span<const ProximityQuery> queries, const Settings& settings, std::span<Proximity> results,
                    std::span<ContactCurvature> curvatures) {
-  check(settings);
+  require_in_range(settings);
   require_one_for_each("results", results.size(), queries.size());
   const LaneKernels& kernels = lane_kernels();
   LaneBatch in_lanes(settings, *kernels.kernels[kernels.count - 1], results, curvatures);

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/usable_pose.hpp"
-#include "base/validation.hpp"
+#include "proximity/gap/usable_settings.hpp"
 #include "proximity/search/answer.hpp"
 #include "raycast/ray_entry.hpp"
 #include "supernormal/proximity/solve.hpp"
@@ -17,8 +17,7 @@ namespace supernormal {
 namespace {
 
 void check(const Vector3& direction, double length, const Settings& settings) {
-  require_in("tolerance", settings.tolerance, 1e-15, 1);
-  require_in("max_evaluations", settings.max_evaluations, 1, 1e6);
+  require_in_range(settings);
   require_in("length of the ray", length, 0, std::numeric_limits<double>::infinity(), "m");
   require_unit("the ray's direction", direction);
 }

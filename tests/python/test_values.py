@@ -89,6 +89,13 @@ def test_a_copy(value, make):
     assert repr(made) == repr(value)
 
 
+@pytest.mark.parametrize("value", EVERYTHING, ids=name)
+def test_arrays_of_an_object_are_read_only(value):
+    # Many are copies: what is written to a copy changes nothing.
+    for key, array in content(value).items():
+        assert not isinstance(array, np.ndarray) or not array.flags.writeable, key
+
+
 @pytest.mark.parametrize("value", SHAPES, ids=name)
 def test_a_copy_of_a_shape_computes_the_same(value):
     made = pickle.loads(pickle.dumps(value))

@@ -7,6 +7,7 @@
 #include "ode/runtime/warm_start.hpp"
 #include "ode/support/last_error.hpp"
 #include "ode/support/require.hpp"
+#include "proximity/gap/usable_settings.hpp"
 #include "supernormal/supernormal.h"
 
 namespace supernormal::ode {
@@ -26,14 +27,7 @@ Solver to_solver(snSolver solver) {
 }
 
 Settings to_settings(snSolver solver, dReal tolerance, int max_evaluations) {
-  Settings settings;
-  settings.solver = to_solver(solver);
-  settings.tolerance = require_in("tolerance", tolerance, 1e-15, 1);
-  if (max_evaluations < 1 || max_evaluations > 1000000) {
-    throw std::invalid_argument("max_evaluations = " + std::to_string(max_evaluations) + " is outside [1, 1000000]");
-  }
-  settings.max_evaluations = max_evaluations;
-  return settings;
+  return require_in_range({to_solver(solver), tolerance, max_evaluations});
 }
 
 }  // namespace

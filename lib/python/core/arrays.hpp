@@ -8,10 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace supernormal::python {
+#include "numbers.hpp"
 
-/// An argument that NumPy can convert to an array of doubles. It is copied only if it is not such an array.
-using Doubles = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+namespace supernormal::python {
 
 /// The name of an argument or of one entry. The text is only made for a message.
 struct Name {

@@ -1,7 +1,6 @@
 // Queries of N pairs and N rays on all cores.
 #include "supernormal/proximity/batch.hpp"
 
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -45,7 +44,6 @@ std::unique_ptr<Proximities> proximities(const py::object& shapes1, const py::ob
   const PosesArgument places2("poses2", poses2, count);
   std::optional<VectorsArgument> first;
   if (first_normals) first.emplace("first_normals", *first_normals, count);
-  find_proximities({}, settings, {});  // refuses settings out of range, which are no pair's fault
   auto out = std::make_unique<Proximities>(count.value());
   const auto set = [&out](std::ptrdiff_t i, const Proximity& result) {
     if (result.status == Status::InvalidInput) throw std::invalid_argument(kNotFinite);

@@ -1,5 +1,4 @@
 // Shapes composed of other shapes, of points or of user functions.
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <memory>
@@ -77,8 +76,7 @@ class PythonFunction {
     const auto result = py::reinterpret_steal<py::object>(outlive_the_interpreter(
         [&] { return PyObject_CallFunctionObjArgs(function_->ptr(), direction.ptr(), static_cast<PyObject*>(nullptr)); }));
     if (!result) throw py::error_already_set();
-    const Doubles values = outlive_the_interpreter([&] { return Doubles::ensure(result); });
-    if (!values) PyErr_Clear();
+    const Doubles values = outlive_the_interpreter([&] { return Doubles::of(result); });
     if (!values || values.size() != static_cast<py::ssize_t>(kCount)) {
       throw std::invalid_argument(std::string(name_) + "(" + vector_text(n.data(), 3) + ") returned " +
                                   std::string(py::repr(result)) + ", but must return " + std::to_string(kCount) +

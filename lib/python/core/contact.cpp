@@ -1,5 +1,4 @@
 // Contact manifolds and curvatures.
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <stdexcept>

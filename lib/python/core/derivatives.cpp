@@ -1,7 +1,6 @@
 // Derivatives and clearances of N pairs on all cores.
 #include "supernormal/proximity/derivatives.hpp"
 
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -312,9 +311,9 @@ template <typename ColumnType>
 void bind_optional(py::class_<Derivatives>& type, const char* name, ColumnType Derivatives::*column, const char* doc) {
   type.def_property_readonly(
       name,
-      [column](const Derivatives& self) -> py::object {
+      [column](const Derivatives& self) -> std::optional<py::array_t<double>> {
         const auto& array = (self.*column).array();
-        if (array.shape(0) != self.count) return py::none();
+        if (array.shape(0) != self.count) return std::nullopt;
         return array;
       },
       doc);

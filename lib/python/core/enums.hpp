@@ -16,15 +16,15 @@ template <typename Enum>
 struct EnumName;
 template <>
 struct EnumName<Solver> {
-  static constexpr const char* kName = "Solver";
+  static constexpr auto kName = pybind11::detail::const_name("Solver");
 };
 template <>
 struct EnumName<Status> {
-  static constexpr const char* kName = "Status";
+  static constexpr auto kName = pybind11::detail::const_name("Status");
 };
 template <>
 struct EnumName<ImpactStatus> {
-  static constexpr const char* kName = "ImpactStatus";
+  static constexpr auto kName = pybind11::detail::const_name("ImpactStatus");
 };
 
 }  // namespace supernormal::python
@@ -35,16 +35,16 @@ namespace pybind11::detail {
 template <typename Enum>
 struct IntEnumCaster {
   using Names = supernormal::python::EnumName<Enum>;
-  PYBIND11_TYPE_CASTER(Enum, const_name("int"));
+  PYBIND11_TYPE_CASTER(Enum, const_name("supernormal._core.") + Names::kName);
 
   bool load(handle source, bool) {
     if (!PyLong_Check(source.ptr())) return false;
-    value = static_cast<Enum>(int_(supernormal::python::enum_member(Names::kName, source.cast<int>())).template cast<int>());
+    value = static_cast<Enum>(int_(supernormal::python::enum_member(Names::kName.text, source.cast<int>())).template cast<int>());
     return true;
   }
 
   static handle cast(Enum value, return_value_policy, handle) {
-    return supernormal::python::enum_member(Names::kName, static_cast<int>(value)).release();
+    return supernormal::python::enum_member(Names::kName.text, static_cast<int>(value)).release();
   }
 };
 

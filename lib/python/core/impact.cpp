@@ -1,5 +1,4 @@
 // The time of impact of two moving bodies.
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <cmath>

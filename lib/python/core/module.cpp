@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "bindings.hpp"
+#include "supernormal/python/argument_errors.hpp"
 
 namespace supernormal::python {
 namespace {
@@ -52,4 +53,5 @@ PYBIND11_MODULE(_core, m) {
   bind_batch(m);
   bind_derivatives(m);
   guard_classes(m);
+  guard(m);
 }

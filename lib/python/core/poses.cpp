@@ -1,7 +1,6 @@
 // Pose and Poses, from a rotation matrix or a quaternion. They validate rotations once, as the core requires.
 #include "poses.hpp"
 
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <Eigen/Geometry>

@@ -1,5 +1,4 @@
 // Settings, and the proximity of two bodies or of a body and a plane.
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <optional>
@@ -13,6 +12,7 @@
 #include "bindings.hpp"
 #include "enums.hpp"
 #include "parallel_for.hpp"
+#include "proximity/gap/usable_settings.hpp"
 #include "recording_shape.hpp"
 #include "shape_queries.hpp"
 #include "supernormal/proximity/plane.hpp"
@@ -54,8 +54,25 @@ Proximity plane_proximity(const Shape& shape, const Pose& pose, const Vector3& p
   return require_answer(find_plane_proximity(shape, pose, normal, plane_offset));
 }
 
+Settings make_settings(Solver solver, double tolerance, int max_evaluations, bool stop_when_apart, bool certify_depth) {
+  return require_in_range({solver, tolerance, max_evaluations, stop_when_apart, certify_depth});
+}
+
+/// A setting that a program may change within its range.
+template <typename Value>
+void bind_setting(py::class_<Settings>& type, const char* name, Value Settings::*setting, const char* doc) {
+  type.def_property(
+      name, [setting](const Settings& self) { return self.*setting; },
+      [setting](Settings& self, Value value) {
+        Settings changed = self;
+        changed.*setting = value;
+        self = require_in_range(changed);
+      },
+      doc);
+}
+
 constexpr const char* kSettingsDoc =
-    R"(The solver of a query, and when it stops. A query raises ValueError when a setting is out of range.
+    R"(The solver of a query, and when it stops. Raises ValueError when a setting is out of range, also when it is changed.
 
 solver: the method.
 tolerance: the largest error of the gap, relative to the smallest half-extent of the two bodies, in [1e-15, 1].
@@ -98,29 +115,26 @@ Raises ValueError when an argument is out of range.)";
 
 void bind_settings(py::module_& m) {
   py::class_<Settings> type(m, "Settings", kSettingsDoc);
-  type.def(py::init([](Solver solver, double tolerance, int max_evaluations, bool stop_when_apart, bool certify_depth) {
-             return Settings{solver, tolerance, max_evaluations, stop_when_apart, certify_depth};
-           }),
-           py::kw_only(), py::arg("solver") = Solver::Hybrid, py::arg("tolerance") = Settings().tolerance,
+  type.def(py::init(&make_settings), py::kw_only(), py::arg("solver") = Solver::Hybrid, py::arg("tolerance") = Settings().tolerance,
            py::arg("max_evaluations") = Settings().max_evaluations, py::arg("stop_when_apart") = false,
            py::arg("certify_depth") = false)
-      .def_readwrite("solver", &Settings::solver, "Solver")
-      .def_readwrite("tolerance", &Settings::tolerance, "in [1e-15, 1]")
-      .def_readwrite("max_evaluations", &Settings::max_evaluations, "in [1, 1000000]")
-      .def_readwrite("stop_when_apart", &Settings::stop_when_apart, "bool")
-      .def_readwrite("certify_depth", &Settings::certify_depth, "bool")
       .def("__repr__", [](const Settings& self) {
         return "Settings(solver=" + py::repr(py::cast(self.solver)).cast<std::string>() + ", tolerance=" + to_text(self.tolerance) +
                ", max_evaluations=" + std::to_string(self.max_evaluations) +
                ", stop_when_apart=" + (self.stop_when_apart ? "True" : "False") +
                ", certify_depth=" + (self.certify_depth ? "True" : "False") + ")";
       });
+  bind_setting(type, "solver", &Settings::solver, "Solver");
+  bind_setting(type, "tolerance", &Settings::tolerance, "in [1e-15, 1]");
+  bind_setting(type, "max_evaluations", &Settings::max_evaluations, "in [1, 1000000]");
+  bind_setting(type, "stop_when_apart", &Settings::stop_when_apart, "bool");
+  bind_setting(type, "certify_depth", &Settings::certify_depth, "bool");
   const auto arguments_of = [](const Settings& self) {
     return py::make_tuple(self.solver, self.tolerance, self.max_evaluations, self.stop_when_apart, self.certify_depth);
   };
   bind_equality(type, arguments_of);
   bind_copies(type, arguments_of, [](const py::tuple& of) {
-    return Settings{of[0].cast<Solver>(), of[1].cast<double>(), of[2].cast<int>(), of[3].cast<bool>(), of[4].cast<bool>()};
+    return make_settings(of[0].cast<Solver>(), of[1].cast<double>(), of[2].cast<int>(), of[3].cast<bool>(), of[4].cast<bool>());
   });
 }
 

@@ -1,5 +1,4 @@
 // The first hit of a ray on a body.
-#include <pybind11/eigen.h>
 
 #include <limits>
 #include <stdexcept>

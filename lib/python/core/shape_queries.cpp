@@ -1,14 +1,11 @@
 #include "shape_queries.hpp"
 
-#include <pybind11/eigen.h>
-
 #include <algorithm>
 #include <string>
 
 #include "arrays.hpp"
 #include "enums.hpp"
 #include "parallel_for.hpp"
-#include "supernormal/proximity/batch.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/silhouette.hpp"
 #include "supernormal/shapes/sphere.hpp"
@@ -77,7 +74,6 @@ py::array_t<double> signed_distance(const Shape& self, const Doubles& points, co
                                     int threads) {
   const py::ssize_t count = require_vectors("point", points);
   for (py::ssize_t i = 0; i < count; ++i) require_place({"point", points.ndim() == 1 ? -1 : i}, vector_at(points.data() + 3 * i));
-  find_proximities({}, settings, {});  // refuses settings out of range, which are no point's fault
   py::array_t<double> out(leading_shape(points, {}));
   const double* const from = points.data();
   double* const to = out.mutable_data();

@@ -1,5 +1,4 @@
 // Shape, and the shapes with explicit parameters.
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <memory>

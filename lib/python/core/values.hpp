@@ -1,7 +1,6 @@
 // Value objects: compared, copied, pickled and printed by their constructor arguments.
 #pragma once
 
-#include <pybind11/eigen.h>
 #include <pybind11/pybind11.h>
 
 #include <initializer_list>
@@ -9,6 +8,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "numbers.hpp"
 
 namespace supernormal::python {
 

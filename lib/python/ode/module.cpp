@@ -1,5 +1,4 @@
 // The Python module supernormal._ode: the C interface. Geoms are numbers, as returned by _id() of PyODE.
-#include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -14,6 +13,8 @@
 #include <tuple>
 
 #include "pyode_slots.hpp"
+#include "python/core/numbers.hpp"
+#include "supernormal/python/argument_errors.hpp"
 #include "supernormal/shapes/description.hpp"
 #include "supernormal/shapes/shape.hpp"
 #include "supernormal/stepper.hpp"
@@ -254,4 +255,5 @@ PYBIND11_MODULE(_ode, m) {
   supernormal::python::bind_library(m);
   supernormal::python::bind_stepper(m);
   supernormal::python::bind_slots(m);
+  supernormal::python::guard(m);
 }

@@ -17,6 +17,7 @@
 #include "observe/energy.hpp"
 #include "observe/measuring.hpp"
 #include "open_world.hpp"
+#include "supernormal/python/argument_errors.hpp"
 
 namespace py = pybind11;
 
@@ -135,4 +136,5 @@ PYBIND11_MODULE(_scenes, m) {
   });
   falling_particles::python::bind_source(m);
   falling_particles::python::bind_world(m);
+  supernormal::python::guard(m);
 }
