@@ -56,12 +56,12 @@ BoundingBox box_of(const Shape& shape) {
 }  // namespace
 
 Matrix3 rotation_at(const Motion& motion, double time) {
-  const double speed = motion.angular_velocity.stableNorm();
+  const double speed = motion.angular_velocity.hypotNorm();  // digits of stableNorm() depend on where the vector is in memory
   if (speed == 0) return motion.pose.rotation;
   return Eigen::AngleAxisd(speed * time, motion.angular_velocity / speed).toRotationMatrix() * motion.pose.rotation;
 }
 
-BodyRotation::BodyRotation(const Shape& shape, const Motion& motion) : speed_(motion.angular_velocity.stableNorm()) {
+BodyRotation::BodyRotation(const Shape& shape, const Motion& motion) : speed_(motion.angular_velocity.hypotNorm()) {
   if (!is_rotating()) {
     reach_ = shape.half_extents().norm() + motion.centre.norm();
     return;
