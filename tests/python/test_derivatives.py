@@ -150,11 +150,51 @@ def test_bounds_hold_and_distances_decide():
     assert len(sn.find_clearances([], sn.Pose(), EGG, sn.Pose())) == 0
 
 
+def test_each_pair_has_a_distance_of_its_own():
+    gap = asked(np.zeros(12)).gap
+    distances = gap + RANDOM.choice([-1e-3, 1e-3], COUNT)
+    assert (sn.are_farther_than(EGG, POSES1, BODIES, POSES2, distances) == (distances < gap)).all()
+    # Superellipsoids are answered many at a time, with the same digits.
+    together = sn.find_proximities(BODIES, POSES1, BODIES, POSES2).gap
+    for distance in (together - 1e-3, together + 1e-3, np.median(together)):
+        assert (sn.are_farther_than(BODIES, POSES1, BODIES, POSES2, distance) == (together > distance)).all()
+    with pytest.raises(ValueError, match=r"^distance\[3\] = inf m is not finite"):
+        sn.are_farther_than(EGG, POSES1, BODIES, POSES2, np.where(np.arange(COUNT) == 3, np.inf, 0))
+    with pytest.raises(ValueError, match="distance has 2 entries and poses2 has 40"):
+        sn.are_farther_than(EGG, POSES1, BODIES, POSES2, [1, 2])
+
+
+def test_the_derivatives_of_a_body_and_a_plane_are_differences():
+    normal, offset = np.array((0.1, -0.3, 0.9)) / np.linalg.norm((0.1, -0.3, 0.9)), 0.2
+    found = sn.find_plane_derivatives(BODIES, POSES1, normal, offset, parameters=False)
+    assert len(found) == COUNT and found.has_gap.all() and found.parameters1 is None
+    step = 1e-5
+    for k, twist in enumerate(step * np.eye(6)):
+        ahead, behind = (sn.Poses(moved(POSES1, sign * twist).position, rotation=moved(POSES1, sign * twist).rotation) for sign in (1, -1))
+        gaps = [[sn.find_plane_proximity(body, pose, normal, offset).gap for body, pose in zip(BODIES, poses)] for poses in (ahead, behind)]
+        assert found.gap_gradient[:, k] == pytest.approx(np.subtract(*gaps) / (2 * step), abs=1e-7)
+    many = sn.find_plane_derivatives(BODIES[3], POSES1[3], np.tile(normal, (2, 1)), [offset, 5])
+    assert (many.gap_gradient[0] == found.gap_gradient[3]).all()
+    with pytest.raises(ValueError, match=r"plane_offset\[1\] = nan m is not finite"):
+        sn.find_plane_derivatives(EGG, sn.Pose(), normal, [0, np.nan])
+
+
+def test_the_entries_of_proximities_are_those_of_the_arrays():
+    answers = asked(np.zeros(12))
+    one = sn.find_proximity(EGG, POSES1[7], BODIES[7], POSES2[7], EXACT)
+    assert answers[7] == answers[np.int64(7)] == answers[7 - COUNT] == one
+    assert [each.gap for each in answers] == list(answers.gap) and len(list(POSES1)) == COUNT == len(list(BODIES))
+    with pytest.raises(IndexError, match=r"proximities\[40\]: proximities has 40 entries"):
+        answers[COUNT]
+
+
 def test_what_is_refused():
     answers = asked(np.zeros(12))
     arguments = (EGG, POSES1, BODIES, POSES2)
     with pytest.raises(ValueError, match="proximities has 40 entries and poses2 has 2"):
         sn.find_proximity_derivatives(EGG, sn.Pose(), EGG, sn.Poses([[1, 2, 3], [4, 5, 6]]), answers)
+    with pytest.raises(ValueError, match="proximities is one Proximity for 40 pairs, but must be Proximities"):
+        sn.find_gap_gradient(*arguments, answers[0])
     with pytest.raises(TypeError, match="proximities is 7, but must be a Proximity or Proximities"):
         sn.find_gap_gradient(*arguments, 7)
     with pytest.raises(ValueError, match="distance = nan m is not finite"):

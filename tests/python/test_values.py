@@ -54,6 +54,7 @@ OF_ARRAYS = [
     sn.find_proximity_derivatives(EGG, sn.Pose(), EGG, THERE, sn.find_proximity(EGG, sn.Pose(), EGG, THERE), parameters=False),
     sn.find_gap_gradient(EGG, sn.Pose(), EGG, THERE, sn.find_proximity(EGG, sn.Pose(), EGG, THERE)),
     sn.find_clearances(EGG, sn.Pose(), sn.Shapes(SHAPES), THERE),
+    sn.find_times_of_impact(BRICK, sn.Motion(), EGG, [sn.Motion(THERE, (0, 0, -9)), sn.Motion(THERE)], 1),
 ]
 EVERYTHING = [*VALUES, *UNHASHED, *OF_ARRAYS]
 

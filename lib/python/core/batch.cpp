@@ -3,79 +3,47 @@
 
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <array>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "arrays.hpp"
-#include "batch_arguments.hpp"
 #include "bindings.hpp"
 #include "columns.hpp"
 #include "enums.hpp"
+#include "pairs.hpp"
 #include "parallel_for.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/raycast/ray.hpp"
-#include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/sphere.hpp"
-#include "supernormal/shapes/superellipsoid.hpp"
 
 namespace py = pybind11;
 
 namespace supernormal::python {
 namespace {
 
-/// Whether many pairs of such bodies are cheaper together. None of their queries throws or has no answer.
-bool is_power_body(const Shape& shape) {
-  return dynamic_cast<const Superellipsoid*>(&shape) != nullptr || dynamic_cast<const Ellipsoid*>(&shape) != nullptr;
-}
-
 std::unique_ptr<Proximities> proximities(const py::object& shapes1, const py::object& poses1, const py::object& shapes2,
                                          const py::object& poses2, const Settings& settings,
                                          const std::optional<Doubles>& first_normals, int threads) {
-  PairCount count;
-  const ShapesArgument bodies1("shapes1", shapes1, count);
-  const PosesArgument places1("poses1", poses1, count);
-  const ShapesArgument bodies2("shapes2", shapes2, count);
-  const PosesArgument places2("poses2", poses2, count);
-  std::optional<VectorsArgument> first;
-  if (first_normals) first.emplace("first_normals", *first_normals, count);
-  auto out = std::make_unique<Proximities>(count.value());
+  const Pairs pairs(shapes1, poses1, shapes2, poses2, first_normals);
+  auto out = std::make_unique<Proximities>(pairs.count());
   const auto set = [&out](std::ptrdiff_t i, const Proximity& result) {
     if (result.status == Status::InvalidInput) throw std::invalid_argument(kNotFinite);
     out->set(i, result);
   };
-  parallel_for_ranges(count.value(), threads, [&](std::ptrdiff_t& i, std::ptrdiff_t end) {
-    constexpr std::size_t kAtOnce = 64;  // vector lanes are full, and the stack takes 40 kB
-    std::array<Vector3, kAtOnce> normals;
-    std::array<Pose, kAtOnce> posed1, posed2;
-    std::array<ProximityQuery, kAtOnce> queries{};
-    std::array<std::ptrdiff_t, kAtOnce> which{};
-    std::array<Proximity, kAtOnce> results;
-    std::size_t size = 0;
-    const auto solve = [&] {
-      find_proximities({queries.data(), size}, settings, {results.data(), size});
-      for (std::size_t k = 0; k < size; ++k) set(which[k], results[k]);
-      size = 0;
+  parallel_for_ranges(pairs.count(), threads, [&](std::ptrdiff_t& i, std::ptrdiff_t end) {
+    std::array<Proximity, Pairs::kAtOnce> results;
+    const auto many = [&](std::span<const ProximityQuery> queries, std::span<const std::ptrdiff_t> which) {
+      find_proximities(queries, settings, {results.data(), queries.size()});
+      for (std::size_t k = 0; k < queries.size(); ++k) set(which[k], results[k]);
     };
-    for (; i < end; ++i) {
-      if (first) normals[size] = require_direction(first->name(i), (*first)[i]);
-      posed1[size] = places1[i];
-      posed2[size] = places2[i];
-      which[size] = i;
-      queries[size] = {&bodies1[i], &posed1[size], &bodies2[i], &posed2[size], first ? &normals[size] : nullptr};
-      // A shape of the program's own may throw, and then its index counts.
-      if (!is_power_body(bodies1[i]) || !is_power_body(bodies2[i])) {
-        set(i, find_proximity(queries[size], settings));
-      } else if (++size == kAtOnce) {
-        solve();
-      }
-    }
-    solve();
+    pairs.for_batches(i, end, many,
+                      [&](const ProximityQuery& query, std::ptrdiff_t k) { set(k, find_proximity(query, settings)); });
   });
   return out;
 }
@@ -150,7 +118,11 @@ Raises the errors of find_ray_hit(), with the index of the ray. Raises ValueErro
 
 void bind_batch(py::module_& m) {
   py::class_<Proximities> pairs(m, "Proximities", kProximitiesDoc);
-  pairs.def("__len__", [](const Proximities& self) { return self.count; });
+  pairs.def("__len__", [](const Proximities& self) { return self.count; })
+      .def("__getitem__", [](const Proximities& self, std::ptrdiff_t i) {
+        return self[static_cast<std::ptrdiff_t>(require_index("proximities", i, static_cast<std::size_t>(self.count)))];
+      });
+  bind_iteration(pairs);
   bind_columns(pairs, "pairs", &Proximities::gap, &Proximities::error, &Proximities::normal, &Proximities::point1,
                &Proximities::point2, &Proximities::contact, &Proximities::evaluations, &Proximities::status,
                &Proximities::is_global, &Proximities::global_error);

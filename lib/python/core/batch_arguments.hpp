@@ -3,6 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "arrays.hpp"
+#include "base/validation.hpp"
 #include "poses.hpp"
 #include "shape_sequence.hpp"
 
@@ -82,6 +84,32 @@ class PosesArgument {
  private:
   Pose single_;
   std::shared_ptr<Poses> poses_;
+};
+
+/// Numbers: one for all pairs, or (N,).
+class NumbersArgument {
+ public:
+  NumbersArgument(const char* name, Doubles values, PairCount& count) : name_(name), values_(std::move(values)) {
+    if (values_.ndim() == 0) return;
+    count.add(name, static_cast<std::size_t>(require_rows(name, values_, {})));
+    stride_ = 1;
+  }
+
+  double operator[](std::ptrdiff_t i) const { return values_.data()[stride_ * i]; }
+
+  /// Raises ValueError, with the entry, unless all numbers are finite. `unit` is that of the message.
+  void require_finite(const char* unit) const {
+    for (std::ptrdiff_t i = 0; i < values_.size(); ++i) {
+      if (std::isfinite(values_.data()[i])) continue;
+      throw std::invalid_argument(Name{name_, stride_ == 0 ? -1 : i}.text() + " = " + to_text(values_.data()[i]) + " " + unit +
+                                  " is not finite");
+    }
+  }
+
+ private:
+  const char* name_;
+  Doubles values_;
+  std::ptrdiff_t stride_ = 0;
 };
 
 /// Vectors: (3,) for all pairs, or (N, 3).

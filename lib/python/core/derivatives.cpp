@@ -3,20 +3,20 @@
 
 #include <pybind11/stl.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 
 #include "arrays.hpp"
-#include "base/validation.hpp"
-#include "batch_arguments.hpp"
 #include "bindings.hpp"
 #include "columns.hpp"
+#include "pairs.hpp"
 #include "parallel_for.hpp"
 #include "supernormal/proximity/clearance.hpp"
 
@@ -33,7 +33,9 @@ class ProximitiesArgument {
   ProximitiesArgument(const char* name, const py::object& argument, PairCount& count) {
     if (py::isinstance<Proximity>(argument)) {
       single_ = argument.cast<Proximity>();
-      return;
+      if (count.value() == 1) return;
+      throw std::invalid_argument(std::string(name) + " is one Proximity for " + std::to_string(count.value()) +
+                                  " pairs, but must be Proximities");
     }
     if (!py::isinstance<Proximities>(argument)) {
       throw py::type_error(std::string(name) + " is " + std::string(py::repr(argument)) +
@@ -97,35 +99,33 @@ struct Derivatives {
   }
 };
 
+template <typename Found>
+const Found& require_finite(const Found& found) {
+  if (found.status == DerivativeStatus::InvalidInput) throw std::invalid_argument(kNotFinite);
+  return found;
+}
+
 /// Answers of N queries, with their bodies and poses.
 class AnsweredPairs {
  public:
   AnsweredPairs(const py::object& shapes1, const py::object& poses1, const py::object& shapes2, const py::object& poses2,
                 const py::object& proximities)
-      : bodies1_("shapes1", shapes1, count_),
-        places1_("poses1", poses1, count_),
-        bodies2_("shapes2", shapes2, count_),
-        places2_("poses2", poses2, count_),
-        answers_("proximities", proximities, count_) {}
+      : pairs_(shapes1, poses1, shapes2, poses2), answers_("proximities", proximities, pairs_.counted()) {}
 
-  std::ptrdiff_t count() const { return count_.value(); }
+  std::ptrdiff_t count() const { return pairs_.count(); }
 
   /// Calls find(shape1, pose1, shape2, pose2, proximity) for all pairs, and out.set(i, result).
   template <typename Find, typename Out>
   void find_all(int threads, Out& out, Find find) const {
     parallel_for(count(), threads, [&](std::ptrdiff_t i) {
-      const auto found = find(bodies1_[i], places1_[i], bodies2_[i], places2_[i], answers_[i]);
-      if (found.status == DerivativeStatus::InvalidInput) throw std::invalid_argument(kNotFinite);
-      out.set(i, found);
+      Vector3 none;
+      const ProximityQuery query = pairs_.query(i, none);
+      out.set(i, require_finite(find(*query.shape1, *query.pose1, *query.shape2, *query.pose2, answers_[i])));
     });
   }
 
  private:
-  PairCount count_;
-  ShapesArgument bodies1_;
-  PosesArgument places1_;
-  ShapesArgument bodies2_;
-  PosesArgument places2_;
+  Pairs pairs_;
   ProximitiesArgument answers_;
 };
 
@@ -136,6 +136,23 @@ std::unique_ptr<Derivatives> proximity_derivatives(const py::object& shapes1, co
   const DerivativeSettings settings{hessian, parameters};
   auto out = std::make_unique<Derivatives>(pairs.count(), settings);
   pairs.find_all(threads, *out, [&](const auto&... pair) { return find_proximity_derivatives(pair..., settings); });
+  return out;
+}
+
+std::unique_ptr<Derivatives> plane_derivatives(const py::object& shapes, const py::object& poses, const Doubles& plane_normal,
+                                               const Doubles& plane_offset, bool hessian, bool parameters, int threads) {
+  PairCount count;
+  const ShapesArgument bodies("shapes", shapes, count);
+  const PosesArgument places("poses", poses, count);
+  const VectorsArgument normals("plane_normal", plane_normal, count);
+  const NumbersArgument offsets("plane_offset", plane_offset, count);
+  offsets.require_finite("m");
+  const DerivativeSettings settings{hessian, parameters};
+  auto out = std::make_unique<Derivatives>(count.value(), settings);
+  parallel_for(count.value(), threads, [&](std::ptrdiff_t i) {
+    const Vector3 normal = require_direction(normals.name(i), normals[i]);
+    out->set(i, require_finite(find_plane_derivatives(bodies[i], places[i], normal, offsets[i], settings)));
+  });
   return out;
 }
 
@@ -180,49 +197,18 @@ struct Clearances {
   Column<int> evaluations{count};
 };
 
-/// The pairs of a question about clearances.
-class ClearancePairs {
- public:
-  ClearancePairs(const py::object& shapes1, const py::object& poses1, const py::object& shapes2, const py::object& poses2,
-                 const std::optional<Doubles>& first_normals)
-      : bodies1_("shapes1", shapes1, count_),
-        places1_("poses1", poses1, count_),
-        bodies2_("shapes2", shapes2, count_),
-        places2_("poses2", poses2, count_) {
-    if (first_normals) first_.emplace("first_normals", *first_normals, count_);
-  }
-
-  std::ptrdiff_t count() const { return count_.value(); }
-
-  /// Calls ask(shape1, pose1, shape2, pose2, first_normal) for pair i. The normal is 0 if there is none.
-  template <typename Ask>
-  auto ask(std::ptrdiff_t i, Ask ask) const {
-    Vector3 first = Vector3::Zero();
-    if (first_) first = require_direction(first_->name(i), (*first_)[i]);
-    return ask(bodies1_[i], places1_[i], bodies2_[i], places2_[i], first);
-  }
-
- private:
-  PairCount count_;
-  ShapesArgument bodies1_;
-  PosesArgument places1_;
-  ShapesArgument bodies2_;
-  PosesArgument places2_;
-  std::optional<VectorsArgument> first_;
-};
-
 std::unique_ptr<Clearances> clearances(const py::object& shapes1, const py::object& poses1, const py::object& shapes2,
                                        const py::object& poses2, double enough, int max_evaluations,
                                        const std::optional<Doubles>& first_normals, int threads) {
-  const ClearancePairs pairs(shapes1, poses1, shapes2, poses2, first_normals);
+  const Pairs pairs(shapes1, poses1, shapes2, poses2, first_normals);
   if (std::isnan(enough)) throw std::invalid_argument("enough = nan m, but must be a number");
   require_in("max_evaluations", max_evaluations, 1, 3);
   auto out = std::make_unique<Clearances>(pairs.count());
   parallel_for(pairs.count(), threads, [&](std::ptrdiff_t i) {
-    const Clearance found = pairs.ask(
-        i, [&](const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Vector3& first_normal) {
-          return find_clearance(shape1, pose1, shape2, pose2, enough, max_evaluations, &first_normal);
-        });
+    Vector3 first;
+    const ProximityQuery query = pairs.query(i, first);
+    const Clearance found =
+        find_clearance(*query.shape1, *query.pose1, *query.shape2, *query.pose2, enough, max_evaluations, query.first_normal);
     if (!std::isfinite(found.lower_bound)) throw std::invalid_argument(kNotFinite);
     out->set(i, found);
   });
@@ -230,14 +216,27 @@ std::unique_ptr<Clearances> clearances(const py::object& shapes1, const py::obje
 }
 
 py::array_t<bool> farther(const py::object& shapes1, const py::object& poses1, const py::object& shapes2, const py::object& poses2,
-                          double distance, const std::optional<Doubles>& first_normals, int threads) {
-  const ClearancePairs pairs(shapes1, poses1, shapes2, poses2, first_normals);
-  if (!std::isfinite(distance)) throw std::invalid_argument("distance = " + to_text(distance) + " m is not finite");
+                          const Doubles& distance, const std::optional<Doubles>& first_normals, int threads) {
+  Pairs pairs(shapes1, poses1, shapes2, poses2, first_normals);
+  const NumbersArgument distances("distance", distance, pairs.counted());
+  distances.require_finite("m");
   Column<bool> out(pairs.count());
-  parallel_for(pairs.count(), threads, [&](std::ptrdiff_t i) {
-    out.set(i, pairs.ask(i, [&](const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, Vector3& first) {
-      return is_farther_than(shape1, pose1, shape2, pose2, distance, &first);
-    }));
+  parallel_for_ranges(pairs.count(), threads, [&](std::ptrdiff_t& i, std::ptrdiff_t end) {
+    std::array<Clearance, Pairs::kAtOnce> bounds;
+    std::array<bool, Pairs::kAtOnce> answers{};
+    const auto many = [&](std::span<const ProximityQuery> queries, std::span<const std::ptrdiff_t> which) {
+      for (std::size_t first = 0, last = 0; first < queries.size(); first = last) {
+        const double asked = distances[which[first]];
+        while (last < queries.size() && distances[which[last]] == asked) ++last;
+        const std::size_t size = last - first;  // of pairs with the same distance
+        are_farther_than(queries.subspan(first, size), asked, {bounds.data(), size}, {answers.data(), size});
+        for (std::size_t k = 0; k < size; ++k) out.set(which[first + k], answers[k]);
+      }
+    };
+    pairs.for_batches(i, end, many, [&](const ProximityQuery& query, std::ptrdiff_t k) {
+      Vector3 first = query.first_normal != nullptr ? *query.first_normal : Vector3(Vector3::Zero());
+      out.set(k, is_farther_than(*query.shape1, *query.pose1, *query.shape2, *query.pose2, distances[k], &first));
+    });
   });
   return out.array();
 }
@@ -263,6 +262,22 @@ threads: in [0, 256]; 0: up to one for each core, each with at least 256 of the 
 
 Newton's method brings each normal to rounding first. Raises ValueError when a shape returns a number that is not finite, with the index of
 the pair, and when the arguments differ in length.)";
+
+constexpr const char* kPlaneDerivativesDoc =
+    R"(The derivatives of find_plane_proximity() of N bodies and planes, in closed form, on all cores.
+
+Body 2 is the half-space, and the origin of its frame is that of the world: its twist moves the plane by v2 and rotates it about this
+origin by w2.
+
+shapes: one Shape for all, or Shapes, or a sequence of N Shape.
+poses: one Pose for all, or Poses.
+plane_normal: (3,) or (N, 3), world frame, out of the half-space, any length but 0; it is normalised.
+plane_offset: m; one for all or (N,).
+hessian, parameters: whether to compute gap_hessian; parameters1 and parameters2.
+threads: in [0, 256]; 0: up to one for each core, each with at least 256 of the N.
+
+Raises ValueError when an argument is out of range, when the arguments differ in length, and when a shape returns a number that is
+not finite, with the index of the body.)";
 
 constexpr const char* kGradientsDoc = "Gradients of the gaps of N pairs: the results of find_gap_gradient().";
 
@@ -299,7 +314,7 @@ distance (the depth of an overlap), False means that no proof was found.
 
 shapes1, shapes2: one Shape for all pairs, or Shapes, or a sequence of N Shape.
 poses1, poses2: one Pose for all pairs, or Poses.
-distance: m, finite.
+distance: m, finite; one for all pairs or (N,).
 first_normals: (N, 3) or (3,), in the frame of body 1, any length but 0; or None. Clearances.normal is such.
 threads: in [0, 256]; 0: up to one for each core, each with at least 256 of the N.
 
@@ -361,6 +376,9 @@ void bind_derivatives(py::module_& m) {
   bind_derivatives_class(m);
   m.def("find_proximity_derivatives", &proximity_derivatives, kFindDerivativesDoc, py::arg("shapes1"), py::arg("poses1"),
         py::arg("shapes2"), py::arg("poses2"), py::arg("proximities"), py::arg("hessian") = true, py::arg("parameters") = true,
+        py::arg("threads") = 0);
+  m.def("find_plane_derivatives", &plane_derivatives, kPlaneDerivativesDoc, py::arg("shapes"), py::arg("poses"),
+        py::arg("plane_normal"), py::arg("plane_offset"), py::arg("hessian") = true, py::arg("parameters") = true,
         py::arg("threads") = 0);
   m.def("find_gap_gradient", &gap_gradient, kGradientDoc, py::arg("shapes1"), py::arg("poses1"), py::arg("shapes2"),
         py::arg("poses2"), py::arg("proximities"), py::arg("threads") = 0);

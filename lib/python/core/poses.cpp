@@ -162,6 +162,7 @@ void bind_poses(py::module_& m) {
            [](const Poses& self, std::ptrdiff_t i) { return self.poses[require_index("poses", i, self.poses.size())]; })
       .def("__eq__", &are_equal, py::arg("other"))
       .def("__repr__", &text_of);
+  bind_iteration(poses);
   bind_copies(
       poses, [](const std::shared_ptr<Poses>& self) { return py::make_tuple(positions_of(*self), rotations_of(*self)); },
       [](const py::tuple& of) {

@@ -121,6 +121,7 @@ void bind_shape_sequence(py::module_& m) {
       .def("__getitem__",
            [](const ShapeSequence& self, std::ptrdiff_t i) { return self.share(require_index("shapes", i, self.size())); })
       .def("__repr__", [](const ShapeSequence& self) { return "Shapes(of " + std::to_string(self.size()) + " bodies)"; });
+  bind_iteration(type);
   bind_value(
       type,
       [](const Pointer& self) {

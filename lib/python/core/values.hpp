@@ -64,6 +64,13 @@ void bind_copies(Class& type, const ArgumentsOf& arguments_of, const Make& make)
       [make](const py::tuple& state) { return std::pair(make(state[0].cast<py::tuple>()), state[1].cast<py::dict>()); }));
 }
 
+/// Binds iter() of a class with __getitem__. Without it type checkers do not take its objects for iterables.
+template <typename Class>
+void bind_iteration(Class& type) {
+  namespace py = pybind11;
+  type.def("__iter__", [](const py::object& self) { return py::reinterpret_steal<py::iterator>(PySeqIter_New(self.ptr())); });
+}
+
 /// Binds ==. Objects of the same class are equal if their arguments are.
 template <typename Class, typename ArgumentsOf>
 void bind_equality(Class& type, const ArgumentsOf& arguments_of) {

@@ -1,5 +1,5 @@
 from enum import IntEnum
-from typing import Callable, Optional, Sequence, Tuple, Union
+from typing import Callable, Iterator, Optional, Sequence, SupportsIndex, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -63,7 +63,8 @@ class Poses:
     @property
     def rotation(self) -> _Floats: ...
     def __len__(self) -> int: ...
-    def __getitem__(self, index: int) -> Pose: ...
+    def __getitem__(self, index: SupportsIndex) -> Pose: ...
+    def __iter__(self) -> Iterator[Pose]: ...
 
 class Settings:
     solver: Solver
@@ -232,7 +233,8 @@ class Shapes:
         taper_y: npt.ArrayLike,
     ) -> Shapes: ...
     def __len__(self) -> int: ...
-    def __getitem__(self, index: int) -> Shape: ...
+    def __getitem__(self, index: SupportsIndex) -> Shape: ...
+    def __iter__(self) -> Iterator[Shape]: ...
 
 class Proximity:
     @property
@@ -278,6 +280,8 @@ class Proximities:
     @property
     def global_error(self) -> _Floats: ...
     def __len__(self) -> int: ...
+    def __getitem__(self, index: SupportsIndex) -> Proximity: ...
+    def __iter__(self) -> Iterator[Proximity]: ...
 
 class ProximityDerivatives:
     @property
@@ -375,6 +379,23 @@ class Impact:
     @property
     def may_hit(self) -> bool: ...
 
+class Impacts:
+    @property
+    def status(self) -> npt.NDArray[np.uint8]: ...
+    @property
+    def time(self) -> _Floats: ...
+    @property
+    def apart_until(self) -> _Floats: ...
+    @property
+    def gap(self) -> _Floats: ...
+    @property
+    def normal(self) -> _Floats: ...
+    @property
+    def contact(self) -> _Floats: ...
+    @property
+    def evaluations(self) -> npt.NDArray[np.int32]: ...
+    def __len__(self) -> int: ...
+
 class RayHit:
     @property
     def hit(self) -> bool: ...
@@ -447,6 +468,24 @@ def find_plane_time_of_impact(
     horizon: float,
     settings: Settings = ...,
 ) -> Impact: ...
+def find_mesh_time_of_impact(
+    shape: Shape,
+    motion: Motion,
+    points: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    mesh_motion: Motion,
+    horizon: float,
+    settings: Settings = ...,
+) -> Tuple[Impact, int]: ...
+def find_times_of_impact(
+    shapes1: Union[Shape, Shapes, Sequence[Shape]],
+    motions1: Union[Motion, Sequence[Motion]],
+    shapes2: Union[Shape, Shapes, Sequence[Shape]],
+    motions2: Union[Motion, Sequence[Motion]],
+    horizon: float,
+    settings: Settings = ...,
+    threads: int = ...,
+) -> Impacts: ...
 def find_proximities(
     shapes1: Union[Shape, Shapes, Sequence[Shape]],
     poses1: Union[Pose, Poses],
@@ -462,6 +501,15 @@ def find_proximity_derivatives(
     shapes2: Union[Shape, Shapes, Sequence[Shape]],
     poses2: Union[Pose, Poses],
     proximities: Union[Proximity, Proximities],
+    hessian: bool = ...,
+    parameters: bool = ...,
+    threads: int = ...,
+) -> ProximityDerivatives: ...
+def find_plane_derivatives(
+    shapes: Union[Shape, Shapes, Sequence[Shape]],
+    poses: Union[Pose, Poses],
+    plane_normal: npt.ArrayLike,
+    plane_offset: npt.ArrayLike,
     hessian: bool = ...,
     parameters: bool = ...,
     threads: int = ...,
@@ -489,7 +537,7 @@ def are_farther_than(
     poses1: Union[Pose, Poses],
     shapes2: Union[Shape, Shapes, Sequence[Shape]],
     poses2: Union[Pose, Poses],
-    distance: float,
+    distance: npt.ArrayLike,
     first_normals: Optional[npt.ArrayLike] = ...,
     threads: int = ...,
 ) -> npt.NDArray[np.bool_]: ...
