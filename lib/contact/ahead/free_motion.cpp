@@ -29,7 +29,7 @@ double most_swing(const MotionAhead& motion1, const MotionAhead& motion2, double
 /// Two single contacts of a round body with the same normal, now and at the end of the free motion, as one manifold.
 template <class Pair>
 void add_end(const Pair& pair, const ContactManifold& ahead, ContactManifold& contacts) {
-  limit_rotation(pair.body1, pair.body2, pair.time, pair.share, contacts);
+  limit_rotation(pair.body1, pair.body2, pair.time, pair.share, Places::Between, contacts);
   const ManifoldCorner end{contacts.deepest.contact, -contacts.deepest.gap};
   const ManifoldCorner now{ahead.deepest.contact, -ahead.deepest.gap};
   if (now.depth > end.depth) contacts.deepest = ahead.deepest;

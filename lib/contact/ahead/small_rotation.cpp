@@ -3,11 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "base/tangent_plane.hpp"
 #include "contact/ahead/nearness.hpp"
 #include "contact/manifold/convex_polygon.hpp"
 #include "supernormal/contact/body_box.hpp"
+#include "supernormal/raycast/ray.hpp"
 
 namespace supernormal {
 namespace {
@@ -29,6 +31,15 @@ Vector3 nearest_place(const ContactManifold& manifold, const Vector3& point) {
   bool is_inside = region.area() > 0;
   for (int k = 0; k < region.size(); ++k) is_inside = is_inside && cross(region[k], region[(k + 1) % region.size()]) >= 0;
   return is_inside ? point : frame.lift(region.nearest_to({0, 0}));
+}
+
+/// The point of the body's boundary nearest to the tangent plane on the line through `place` along the normal; `place` itself if
+/// the line misses the body.
+Vector3 point_of(const BodyAhead& body, const Vector3& normal, const Vector3& place, int& evaluations) {
+  const Vector3 outside = place + 2 * body.shape.bounding_radius() * normal;
+  const RayHit hit = find_ray_hit(body.shape, body.pose, outside, -normal, HUGE_VAL);
+  evaluations += hit.evaluations;
+  return hit.hit ? hit.point : place;
 }
 
 /// The centre of the body's box, m.
@@ -82,10 +93,20 @@ class LeverLimit {
     return std::min(fraction_for_small_rotation(arm, normal_, approach_), fraction_for_height(arm));
   }
 
-  /// The shift of a contact at `place`, m.
-  Vector3 shift_of(const Vector3& place) const {
-    const Vector3 under = under_centre(place);
-    return (fraction_at(place) - 1) * (place - under) + shift_for_friction(place, under - centre_);
+  /// The shift of a contact at `place` in the tangent plane, m.
+  Vector3 shift_of(const Vector3& place) const { return (fraction_at(place) - 1) * (place - under_centre(place)); }
+
+  /// The shift along the normal, m. The lever arm of friction is the distance of the contact plane from the centre of mass.
+  /// Friction is at most as large as the normal force and ends when sliding ends. Only the normal force of the impact counts here:
+  /// the weight rolls the body in steps of any length.
+  Vector3 shift_for_friction(const Vector3& place) const {
+    const Vector3 arm = under_centre(place) - centre_;
+    const Vector3 closing = closing_at(place);
+    const Vector3 slip = closing - normal_.dot(closing) * normal_;
+    const double speed = slip.norm();
+    const double displacement = std::min(speed * time_, approach_ - gained_ * time_);
+    if (!(displacement > 0)) return Vector3::Zero();
+    return (fraction_for_small_rotation(arm, slip / speed, displacement) - 1) * arm;
   }
 
  private:
@@ -94,18 +115,6 @@ class LeverLimit {
 
   /// The overlap that would form at `place` without contact forces, m.
   double approach_at(const Vector3& place) const { return (normal_.dot(closing_at(place)) + gained_) * time_ - gap_; }
-
-  /// The lever arm of friction is the distance of the contact plane from the centre of mass. Friction is at most as large as the
-  /// normal force and ends when sliding ends. Only the normal force of the impact counts here: the weight rolls the body in steps
-  /// of any length.
-  Vector3 shift_for_friction(const Vector3& place, const Vector3& arm) const {
-    const Vector3 closing = closing_at(place);
-    const Vector3 slip = closing - normal_.dot(closing) * normal_;
-    const double speed = slip.norm();
-    const double displacement = std::min(speed * time_, approach_ - gained_ * time_);
-    if (!(displacement > 0)) return Vector3::Zero();
-    return (fraction_for_small_rotation(arm, slip / speed, displacement) - 1) * arm;
-  }
 
   /// The largest fraction of a lever arm with which a force against `direction`, which stops the displacement `displacement` (m),
   /// rotates the bodies by at most the largest rotation. The removal of a present rotation is free.
@@ -186,18 +195,31 @@ void act_between_centres(const BodyAhead& body1, const BodyAhead& body2, double 
   manifold.corner_count = 0;
 }
 
-void limit_rotation(const BodyAhead& body1, const BodyAhead& body2, double time, double share, ContactManifold& manifold) {
+void limit_rotation(const BodyAhead& body1, const BodyAhead& body2, double time, double share, Places places,
+                    ContactManifold& manifold) {
+  const Vector3& normal = manifold.deepest.normal;
   const LeverLimit limit(body1, body2, time, share, manifold.deepest);
   if (!(limit.approach() > 0)) return;
   const Vector3 under = limit.under_centre(manifold.deepest.contact);
   const Vector3 place = nearest_place(manifold, under);
+  const auto moved = [&](const Vector3& point, const Vector3& shift) -> Vector3 {
+    if (places == Places::Between || shift.isZero(0)) return point + shift;
+    return point_of(body1, normal, point + shift, manifold.evaluations);
+  };
   const Vector3 shift = limit.shift_of(place);
-  for (ManifoldCorner& corner : manifold.corners) corner.point += shift;
-  manifold.deepest.contact += limit.shift_of(manifold.deepest.contact);  // used alone if max_contacts is 1
+  const Vector3 shift_of_friction = limit.shift_for_friction(moved(place, shift));
+  for (int k = 0; k < manifold.corner_count; ++k) {
+    Vector3& point = manifold.corners[static_cast<std::size_t>(k)].point;
+    point = moved(point, shift) + shift_of_friction;
+  }
+  // Used alone if max_contacts is 1.
+  Vector3& contact = manifold.deepest.contact;
+  contact = moved(contact, limit.shift_of(contact));
+  contact += limit.shift_for_friction(contact);
   // If all contacts are on one side of the centre, only the nearest one acts. Quickstep does not find this.
   const bool is_beside = manifold.corner_count > 0 && place != under && limit.fraction_at(place) < 1;
   if (is_beside) {
-    manifold.deepest.contact = place + shift;
+    manifold.deepest.contact = moved(place, shift) + shift_of_friction;
     manifold.corner_count = 0;
   }
 }

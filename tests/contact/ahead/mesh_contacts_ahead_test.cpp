@@ -206,6 +206,34 @@ TEST_CASE("a ball over waves has contacts on its surface, at rest, sliding and r
   }
 }
 
+TEST_CASE("places of contacts are on the body, also where they move to limit its rotation") {
+  const std::vector<MeshTriangle> floor = floor_mesh(4, 0.2).placed();
+  const Vector3 half_axes(0.01, 0.007, 0.005);
+  const Ellipsoid body(half_axes);
+  MeshContactsAhead ahead;
+  Draw draw(57);
+  int moved = 0;
+  for (int i = 0; i < draws(300); ++i) {
+    CAPTURE(i);
+    BodyAhead there = flying(body, draw.in_box({0.1, 0.1, 0}), Vector3::Zero());
+    there.pose.rotation = draw.rotation();
+    there.pose.position.z() = body.support(there.pose.rotation.transpose() * -Vector3::UnitZ());
+    there.motion.centre = there.pose.position;
+    there.motion.turning = Matrix3::Identity() / 2e-5;
+    if (i % 2 == 0) there.motion.velocity = Vector3(draw.uniform(-0.2, 0.2), draw.uniform(-0.2, 0.2), 0);
+    there.motion.acceleration = Vector3(0, 0, -9.81);
+    const auto found = ahead.find(there, {}, i % 3 == 0 ? 0.005 : 0.02, floor);
+    REQUIRE(!found.empty());
+    for (const MeshManifold& contact : found) {
+      const Vector3 place = contact.manifold.deepest.contact;
+      const Vector3 in_body = there.pose.rotation.transpose() * (place - there.pose.position);
+      CHECK(in_body.cwiseQuotient(half_axes).norm() == doctest::Approx(1).epsilon(1e-6));
+      moved += place.z() > 1e-4 ? 1 : 0;
+    }
+  }
+  CHECK(moved > draws(30));
+}
+
 TEST_CASE("a body that rolls over rough ground has normals of its faces, edges and vertices alone") {
   TriangleMesh ground = floor_mesh(12, 0.13);
   Draw draw(57);
