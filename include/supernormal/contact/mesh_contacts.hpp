@@ -79,6 +79,12 @@ class SUPERNORMAL_API MeshContacts {
   int evaluations() const;
 
  private:
+  friend class MeshContactsAhead;
+
+  /// The same for gaps up to `distance` (m).
+  SUPERNORMAL_LOCAL std::span<const MeshContact> find_within(double distance, const Shape& shape, const Pose& pose,
+                                                             std::span<const MeshTriangle> triangles, const Settings& settings);
+
   std::unique_ptr<MeshContactSearch> search_;
 };
 

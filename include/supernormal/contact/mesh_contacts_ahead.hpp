@@ -25,7 +25,10 @@ struct MeshManifold {
 /// The body is moved along its velocity to the first face that it hits from outside, and from there along the faces that it hits,
 /// until `time` is over. MeshContacts finds the contacts at each of these places and at the end, for the body swept by a ball. The
 /// ball's radius is the distance within which a triangle counts as near. Sweeping does not change the normals, and reduces the gaps
-/// by the radius.
+/// by the radius. The rule for the border of a sheet asks the body itself.
+///
+/// If the surface is at rest, the contacts without manifold points are points of the body's boundary, at present or with the
+/// orientation at the end of the step. Only an impact with friction is moved into the body (find_contacts_ahead()).
 class SUPERNORMAL_API MeshContactsAhead {
  public:
   /// The region that the body and everything near it cover on the way, relative to the body's box.
@@ -63,8 +66,9 @@ class SUPERNORMAL_API MeshContactsAhead {
   SUPERNORMAL_LOCAL void add_overlaps(const Search& search);
   SUPERNORMAL_LOCAL void add_contacts(const Search& search, const Vector3& way);
   SUPERNORMAL_LOCAL void add_continued(const Search& search, const Vector3& way);
-  SUPERNORMAL_LOCAL bool is_apart_now(const Search& search, std::span<const MeshContact> of_sweep);
-  SUPERNORMAL_LOCAL void add(const Search& search, const Proximity& there, int triangle, const Vector3& way);
+  SUPERNORMAL_LOCAL bool is_apart_now(const Search& search, std::span<const MeshContact> contacts);
+  SUPERNORMAL_LOCAL double approach_in_excess(const Search& search, const Proximity& there);
+  SUPERNORMAL_LOCAL void add(const Search& search, Proximity there, int triangle, const Vector3& way);
 
   MeshContacts contacts_;
   std::vector<MeshManifold> found_;

@@ -14,8 +14,8 @@
 #include "contact/mesh/mesh_triangle.hpp"
 #include "supernormal/impact/mesh_time_of_impact.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "supernormal/raycast/ray.hpp"
 #include "supernormal/shapes/polytope.hpp"
-#include "supernormal/shapes/rounded.hpp"
 
 namespace supernormal {
 namespace {
@@ -96,14 +96,6 @@ class FirstImpact {
   int evaluations_ = 0;
 };
 
-/// The contact of a body from the contact of its sweep with a ball of this radius.
-Proximity without_sweep(Proximity swept, double radius) {
-  swept.gap += radius;
-  swept.point1 -= radius * swept.normal;
-  swept.contact -= radius * swept.normal;
-  return swept;
-}
-
 /// Whether the segment between two points meets the triangle.
 bool is_between(const MeshTriangle& triangle, const Vector3& from, const Vector3& to) {
   const Vector3 along = to - from;
@@ -117,6 +109,24 @@ bool is_between(const MeshTriangle& triangle, const Vector3& from, const Vector3
   const double height = normal.dot(a);
   const double whole = normal.dot(along);
   return whole != 0 && height / whole >= 0 && height / whole <= 1;
+}
+
+/// Whether a contact is behind all triangles that it touches, as of a body that has passed the border of a sheet.
+bool is_behind(const Proximity& contact, std::span<const MeshTriangle> triangles, double touch) {
+  bool touches_any = false;
+  for (const MeshTriangle& triangle : triangles) {
+    const std::array<Vector3, 3>& v = triangle.vertices;
+    const Vector3 normal = (v[1] - v[0]).cross(v[2] - v[0]).stableNormalized();
+    bool touches = std::abs(normal.dot(contact.point2 - v[0])) <= touch;
+    for (std::size_t k = 0; k < 3 && touches; ++k) {
+      const Vector3 inward = normal.cross(v[(k + 1) % 3] - v[k]).stableNormalized();
+      touches = inward.dot(contact.point2 - v[k]) >= -touch;
+    }
+    if (!touches) continue;
+    if (contact.normal.dot(normal) <= 0) return false;
+    touches_any = true;
+  }
+  return touches_any;
 }
 
 /// The tangent plane of a surface.
@@ -274,10 +284,10 @@ void MeshContactsAhead::leave_free_motion(const Search& search) {
   const auto left = choose_contacts(free, borne, search.graze, negligible, contacts_after, &MeshManifold::manifold);
   if (!left) return;
   found_.erase(std::remove_if(others, found_.end(), holds_back), found_.end());
-  found_.push_back(*left);
+  if (left->manifold.deepest.status != Status::Apart) found_.push_back(*left);
 }
 
-/// The contact at the end of a motion on which the body does not meet the triangles.
+/// The contact at the end of a motion on which the body does not meet the triangles. Apart if it is behind them there.
 std::optional<MeshManifold> MeshContactsAhead::find_after(const Search& search, const FreeMotion& motion,
                                                           std::span<const MeshTriangle> triangles) {
   const Shape& shape = search.body.shape;
@@ -289,6 +299,11 @@ std::optional<MeshManifold> MeshContactsAhead::find_after(const Search& search, 
       find_mesh_time_of_impact(shape, motion.motion1(), triangles, frame.motion, search.time, search.settings).impact;
   evaluations_ += impact.evaluations;
   if (impact.may_hit()) return std::nullopt;
+  if (is_behind(nearest.proximity, triangles, search.settings.tolerance * search.size + search.rounding)) {
+    nearest.proximity.status = Status::Apart;
+    nearest.proximity.gap = std::numeric_limits<double>::infinity();
+    return MeshManifold{nearest.proximity, nearest.triangle};
+  }
   nearest.proximity.contact += (0.5 - search.share) * nearest.proximity.gap * nearest.proximity.normal;
   ContactManifold manifold = find_plane_manifold_of_gaps(shape, there, nearest.proximity);
   draw_in_corners(manifold, search.triangles);
@@ -361,13 +376,12 @@ void MeshContactsAhead::add_overlaps(const Search& search) {
 /// no contacts of the body. Behind a sheet, everything in front of the sheet is overlap. At a border, the contact's normal need not
 /// separate the body, so the contact must not push it.
 void MeshContactsAhead::add_contacts(const Search& search, const Vector3& way) {
-  // The swept body refers to the shape without owning it.
-  const Rounded swept(std::shared_ptr<const Shape>(std::shared_ptr<const Shape>(), &search.body.shape), search.near);
-  const std::span<const MeshContact> contacts = contacts_.find(swept, search.body.pose, search.triangles, search.settings);
+  const std::span<const MeshContact> contacts =
+      contacts_.find_within(search.near, search.body.shape, search.body.pose, search.triangles, search.settings);
   evaluations_ += contacts_.evaluations();
   const bool is_apart = is_apart_now(search, contacts);
   for (const MeshContact& contact : contacts) {
-    Proximity there = without_sweep(contact.proximity, search.near);
+    Proximity there = contact.proximity;
     if (is_apart && there.gap <= -search.graze) continue;
     if (is_apart) there.gap = std::max(there.gap, 0.0);
     add(search, there, contact.triangle, way);
@@ -378,18 +392,18 @@ void MeshContactsAhead::add_contacts(const Search& search, const Vector3& way) {
 void MeshContactsAhead::add_continued(const Search& search, const Vector3& way) {
   const Vector3& velocity = search.body.motion.velocity;
   for (const MeshContact& contact : contacts_.continued()) {
-    const Proximity there = without_sweep(contact.proximity, search.near);
+    const Proximity& there = contact.proximity;
     if (there.gap <= 0 && there.normal.dot(velocity) > kAlong * velocity.norm()) add(search, there, contact.triangle, way);
   }
 }
 
 /// Whether the body, at its position on the path, overlaps no triangle although the contacts of its sweep say so.
-bool MeshContactsAhead::is_apart_now(const Search& search, std::span<const MeshContact> of_sweep) {
+bool MeshContactsAhead::is_apart_now(const Search& search, std::span<const MeshContact> contacts) {
   const Shape& shape = search.body.shape;
   const Pose& pose = search.body.pose;
   bool overlaps = false;
-  for (const MeshContact& contact : of_sweep) {
-    if (contact.proximity.gap >= -search.near) continue;
+  for (const MeshContact& contact : contacts) {
+    if (contact.proximity.gap >= 0) continue;
     overlaps = true;
     // A resting body overlaps by rounding. A triangle between its deepest and its highest point proves the overlap at once.
     if (is_in_surface(search, pose, contact.proximity.normal)) return false;
@@ -400,7 +414,29 @@ bool MeshContactsAhead::is_apart_now(const Search& search, std::span<const MeshC
   return nearest.status != Status::InvalidInput && nearest.gap > 0;
 }
 
-void MeshContactsAhead::add(const Search& search, const Proximity& there, int triangle, const Vector3& way) {
+/// How much more a point of the body at the border of a sheet approaches by the rotation of a step than the body does, m. The
+/// contact is no support point there, and its normal is not that of the body. So the points of a ball that rolls come down on the
+/// border, but the ball does not.
+double MeshContactsAhead::approach_in_excess(const Search& search, const Proximity& there) {
+  const Vector3 rotation = search.time * (search.body.motion.angular_velocity - search.surface.angular_velocity);
+  if (rotation.isZero(0)) return 0;
+  const Shape& shape = search.body.shape;
+  const Pose& pose = search.body.pose;
+  const Vector3& normal = there.normal;
+  ++evaluations_;
+  const double extent = shape.support(pose.rotation.transpose() * normal) + normal.dot(pose.position);
+  const double above = extent - normal.dot(there.contact);
+  if (above <= search.settings.tolerance * search.size + search.rounding) return 0;
+  const RayHit hit = find_ray_hit(shape, pose, there.contact + above * normal, -normal, above + search.size, search.settings);
+  evaluations_ += hit.evaluations;
+  const double cosine = hit.normal.dot(normal);
+  if (!hit.hit || !(cosine > 0)) return 0;
+  const Vector3 arm = there.contact - pose.position + search.now.pose.position - search.now.motion.centre;
+  return std::max(0.0, rotation.dot(arm.cross(normal - hit.normal / cosine)));
+}
+
+void MeshContactsAhead::add(const Search& search, Proximity there, int triangle, const Vector3& way) {
+  there.gap += approach_in_excess(search, there);
   const MotionAhead& motion = search.now.motion;
   const double overlap = approach_of(motion, search.surface, search.time, there.normal, there.gap + there.normal.dot(way)) +
                          growth_by_rotation(search.body, there.normal, there.point1, search.time);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "contact/mesh/mesh_contact_search.hpp"
 #include "supernormal/raycast/ray.hpp"
@@ -31,10 +32,12 @@ Vector3 turned(const Vector3& normal, const Vector3& face_normal, double weight)
 }
 
 // The lowest point of the body over the edge, along the first normal of the arc. `low` is beyond the edge, at the start of the arc.
-// Each step takes the normal for which both points are equally deep, until the body has no point beyond their chord.
-Vector3 lowest_over_edge(SupportProbe& probe, const Arc& arc, ArcSample low, double tolerance, int max_evaluations) {
+// Each step takes the normal for which both points are equally deep, until the body has no point beyond their chord. Empty if the
+// whole body is beyond the edge.
+std::optional<Vector3> lowest_over_edge(SupportProbe& probe, const Arc& arc, ArcSample low, double tolerance, int max_evaluations) {
   const auto beyond = [&](const ArcSample& sample) { return arc.towards.dot(sample.point - arc.edge_point); };
   ArcSample high = arc.sample(arc.end, probe);
+  if (beyond(high) > 0) return std::nullopt;
   const int last_evaluation = probe.evaluations() + max_evaluations;
   while (beyond(high) < 0 && probe.evaluations() < last_evaluation) {
     const Vector3 chord = low.point - high.point;
@@ -52,8 +55,8 @@ Vector3 lowest_over_edge(SupportProbe& probe, const Arc& arc, ArcSample low, dou
 
 // 1: the body stands on the sheet; 0: it is beside its border.
 double MeshContactSearch::stands_on(SupportProbe& probe, const Vector3& face_normal, const Vector3& place) const {
-  const double low = face_normal.dot(probe.deepest(face_normal).point);
-  const double high = face_normal.dot(probe.deepest(-face_normal).point);
+  const double low = face_normal.dot(probe.deepest(face_normal).point) + swept_;
+  const double high = face_normal.dot(probe.deepest(-face_normal).point) - swept_;
   const double share = (face_normal.dot(place) - low) / (high - low);
   return std::clamp((kIsBeside - share) / (kIsBeside - kStands), 0.0, 1.0);
 }
@@ -65,11 +68,16 @@ void MeshContactSearch::find_on_border(SupportProbe& probe, int f, int side, con
   Arc turned_arc = arc;
   turned_arc.from = turned(top.normal, face.normal, weight);
   turned_arc.towards = (arc.towards - arc.towards.dot(turned_arc.from) * turned_arc.from).normalized();
-  const Vector3 lowest =
-      lowest_over_edge(probe, turned_arc, turned_arc.sample(0, probe), arc_tolerance(), settings_.max_evaluations);
+  SupportProbe body(*body_, probe.rotation());
+  const std::optional<Vector3> found =
+      lowest_over_edge(body, turned_arc, turned_arc.sample(0, body), arc_tolerance(), settings_.max_evaluations);
+  probe.count(body.evaluations());
+  if (!found) return;
+  const Vector3& lowest = *found;
   const Vector3 edge = face.vertices[at(next_corner(side))] - arc.edge_point;
   const double share = edge.dot(lowest - arc.edge_point) / edge.squaredNorm();
-  SurfaceContact contact = contact_at(f, turned_arc.from, turned_arc.from.dot(lowest - arc.edge_point), lowest);
+  const double gap = turned_arc.from.dot(lowest - arc.edge_point) - swept_;
+  SurfaceContact contact = contact_at(f, turned_arc.from, gap, lowest - swept_ * turned_arc.from);
   contact.surface_point = contact.feature_point = arc.edge_point + share * edge;
   contact.crease = surface_.corner_count() + 3 * f + side;
   contact.error = arc_tolerance();
@@ -88,19 +96,23 @@ void MeshContactSearch::find_on_border(SupportProbe& probe, int f, int side, con
   if (touches_surface(probe, contact)) found_.add(contact);
 }
 
-// Sets the depth of the contact to the depth of the body below its place, along its normal. Returns false if the body is not there.
+// Sets the gap of the contact to that between its place and the body, along its normal. Returns false if the body is not there, or
+// not near.
 bool MeshContactSearch::drop_below(SupportProbe& probe, SurfaceContact& contact) const {
   constexpr double kEndless = std::numeric_limits<double>::infinity();
   const Pose pose{Vector3::Zero(), probe.rotation()};
-  const RayHit below = find_ray_hit(probe.shape(), pose, contact.feature_point, -contact.normal, kEndless, settings_);
-  probe.count(below.evaluations);
-  if (!below.hit || !below.from_inside) return false;
-  contact.gap = -below.distance;
-  contact.error = below.distance_error;
-  contact.body_point = contact.place = below.point;
+  SupportProbe body(*body_, probe.rotation());
+  const double depth = contact.normal.dot(contact.feature_point) - body.deepest(contact.normal).height;
+  const RayHit lowest =
+      find_ray_hit(*body_, pose, contact.feature_point - depth * contact.normal, contact.normal, kEndless, settings_);
+  probe.count(body.evaluations() + lowest.evaluations);
+  if (!lowest.hit) return false;
+  contact.gap = lowest.distance - depth - swept_;
+  contact.body_point = contact.place = lowest.point - swept_ * contact.normal;
+  contact.error = lowest.distance_error;
   contact.surface_point = contact.feature_point;
-  contact.status = below.status;
-  return true;
+  contact.status = lowest.status;
+  return contact.gap <= 0;
 }
 
 // Rotates the normal of a contact at a border vertex towards the normals of the faces there. A search along an inner edge led to

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <numbers>
 
 #include "base/usable_pose.hpp"
 #include "contact/mesh/arc.hpp"
 #include "contact/mesh/triangle_proximity.hpp"
+#include "supernormal/shapes/rounded.hpp"
 
 namespace supernormal {
 namespace {
@@ -25,8 +27,8 @@ constexpr double kBoxMargin = 1e-9;  // of the length unit
 
 }  // namespace
 
-std::span<const MeshContact> MeshContactSearch::find(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
-                                                     const Settings& settings) {
+std::span<const MeshContact> MeshContactSearch::find(const Shape& body, const Pose& pose, std::span<const MeshTriangle> triangles,
+                                                     const Settings& settings, double near) {
   contacts_.clear();
   continued_.clear();
   evaluations_ = 0;
@@ -34,6 +36,19 @@ std::span<const MeshContact> MeshContactSearch::find(const Shape& shape, const P
   settings_ = settings;
   settings_.solver = Solver::Hybrid;
   settings_.stop_when_apart = true;
+  body_ = &body;
+  swept_ = near;
+  if (near > 0) {
+    // The swept body refers to the shape without owning it.
+    find_for(Rounded(std::shared_ptr<const Shape>(std::shared_ptr<const Shape>(), &body), near), pose, triangles);
+  } else {
+    find_for(body, pose, triangles);
+  }
+  for (const SurfaceContact& found : found_.contacts()) contacts_.push_back(to_world(found));
+  return contacts_;
+}
+
+void MeshContactSearch::find_for(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles) {
   prepare(shape, pose, triangles);
   SupportProbe probe(shape, pose.rotation);
   look_at_patches(probe);
@@ -48,8 +63,6 @@ std::span<const MeshContact> MeshContactSearch::find(const Shape& shape, const P
   if (found_.contacts().empty()) find_shortest_exit(probe);
   found_.keep_shortest_separations();
   evaluations_ = probe.evaluations();
-  for (const SurfaceContact& found : found_.contacts()) contacts_.push_back(to_world(found));
-  return contacts_;
 }
 
 void MeshContactSearch::prepare(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles) {
@@ -281,12 +294,12 @@ bool MeshContactSearch::has_normal(const Vector3& normal, const Vector3& point) 
 
 MeshContact MeshContactSearch::to_world(const SurfaceContact& found) const {
   Proximity out;
-  out.gap = found.gap;
+  out.gap = found.gap + swept_;
   out.error = found.error;
   out.normal = -found.normal;
-  out.point1 = origin_ + found.body_point;
-  out.point2 = out.point1 - found.gap * found.normal;
-  out.contact = origin_ + found.place;
+  out.point1 = origin_ + found.body_point + swept_ * found.normal;
+  out.point2 = out.point1 - out.gap * found.normal;
+  out.contact = origin_ + found.place + swept_ * found.normal;
   out.evaluations = found.evaluations;
   out.status = found.status;
   return {out, surface_.faces()[at(found.face)].triangle};

@@ -20,8 +20,10 @@ namespace supernormal {
 /// Implements MeshContacts; see there for the contract (supernormal/contact/mesh_contacts.hpp).
 class MeshContactSearch {
  public:
-  std::span<const MeshContact> find(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
-                                    const Settings& settings);
+  /// The contacts with gaps up to `near` (m). The search is one of overlaps, for the body swept by a ball of this radius: its
+  /// normals are the same, and its gaps are less by the radius. At a border the rule for tiles asks the body itself.
+  std::span<const MeshContact> find(const Shape& body, const Pose& pose, std::span<const MeshTriangle> triangles,
+                                    const Settings& settings, double near);
 
   std::span<const MeshContact> continued() const { return continued_; }
   bool has_normal(const Vector3& normal, const Vector3& point) const;
@@ -42,6 +44,7 @@ class MeshContactSearch {
     Proximity found;
   };
 
+  void find_for(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles);
   void prepare(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles);
   void look_at_patches(SupportProbe& probe);
   SurfaceContact contact_at(int face, const Vector3& normal, double gap, const Vector3& body_point) const;
@@ -79,6 +82,8 @@ class MeshContactSearch {
   void find_shortest_exit(SupportProbe& probe);
   MeshContact to_world(const SurfaceContact& found) const;
 
+  const Shape* body_ = nullptr;
+  double swept_ = 0;                  // m; the radius of the ball
   Vector3 origin_ = Vector3::Zero();  // of the frame of the surface, m
   BodyBox box_;
   std::vector<MeshTriangle> near_;

@@ -11,7 +11,12 @@ MeshContacts& MeshContacts::operator=(MeshContacts&&) noexcept = default;
 
 std::span<const MeshContact> MeshContacts::find(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
                                                 const Settings& settings) {
-  return search_->find(shape, pose, triangles, settings);
+  return search_->find(shape, pose, triangles, settings, 0);
+}
+
+std::span<const MeshContact> MeshContacts::find_within(double distance, const Shape& shape, const Pose& pose,
+                                                       std::span<const MeshTriangle> triangles, const Settings& settings) {
+  return search_->find(shape, pose, triangles, settings, distance);
 }
 
 std::span<const MeshContact> MeshContacts::continued() const { return search_->continued(); }

@@ -234,6 +234,47 @@ TEST_CASE("places of contacts are on the body, also where they move to limit its
   CHECK(moved > draws(30));
 }
 
+TEST_CASE("a ball beside a tile has the tile's normal, on its surface, and rolls on over the border") {
+  const std::vector<MeshTriangle> tile = {{{Vector3(-1, -1, 0), Vector3(0, -1, 0), Vector3(0, 1, 0)}, 0},
+                                          {{Vector3(-1, -1, 0), Vector3(0, 1, 0), Vector3(-1, 1, 0)}, 1}};
+  constexpr double kRadius = 0.01;
+  constexpr double kLong = 0.02;  // s; the ball would fall by 0.4 radii
+  const Ellipsoid ball(Vector3(kRadius, kRadius, kRadius));
+  MeshContactsAhead ahead;
+  Draw draw(58);
+  for (int i = 0; i < draws(1000); ++i) {
+    CAPTURE(i);
+    // The next tile bears the ball.
+    const Vector3 centre(draw.uniform(0, 0.5) * kRadius, draw.uniform(-0.9, 0.9), kRadius);
+    const double heading = draw.uniform(0, 6.28);
+    BodyAhead rolling =
+        flying(ball, centre, draw.uniform(0, 0.3) * kRadius / kLong * Vector3(std::cos(heading), std::sin(heading), 0));
+    rolling.motion.arm = kRadius;
+    if (i % 2 == 0) rolling.motion.angular_velocity = Vector3::UnitZ().cross(rolling.motion.velocity) / kRadius;
+    rolling.motion.acceleration = Vector3(0, 0, -9.81);
+    for (const MeshManifold& found : ahead.find(rolling, {}, kLong, tile)) {
+      const Proximity& contact = found.manifold.deepest;
+      const Vector3 arm = contact.contact - centre;
+      CHECK((contact.normal + Vector3::UnitZ()).norm() < 1e-9);
+      CHECK(std::abs(arm.norm() - kRadius) < 1e-6 * kRadius);
+      const Vector3 at_place = rolling.motion.velocity + rolling.motion.angular_velocity.cross(arm);
+      CHECK(contact.normal.dot(at_place) * kLong <= contact.gap + 1e-9 * kRadius);
+    }
+  }
+}
+
+TEST_CASE("a body that would fall past the border of a sheet has no contact with its back") {
+  const std::vector<MeshTriangle> tile = {{{Vector3(-1, -1, 0), Vector3(0, -1, 0), Vector3(0, 1, 0)}, 0},
+                                          {{Vector3(-1, -1, 0), Vector3(0, 1, 0), Vector3(-1, 1, 0)}, 1}};
+  const Ellipsoid ball(Vector3(0.001, 0.001, 0.001));
+  MeshContactsAhead ahead;
+  for (const double beyond : {0.0015, 0.005, 0.01}) {
+    BodyAhead falling = flying(ball, Vector3(beyond, 0, 0.001), Vector3::Zero());
+    falling.motion.acceleration = Vector3(0, 0, -9.81);
+    for (const MeshManifold& found : ahead.find(falling, {}, 0.05, tile)) CHECK(found.manifold.deepest.normal.z() <= 0);
+  }
+}
+
 TEST_CASE("a body that rolls over rough ground has normals of its faces, edges and vertices alone") {
   TriangleMesh ground = floor_mesh(12, 0.13);
   Draw draw(57);

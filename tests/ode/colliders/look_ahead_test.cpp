@@ -3,8 +3,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ode/mesh_fixture.hpp"
 #include "support/ode_world.hpp"
@@ -446,6 +449,35 @@ TEST_CASE("bodies dropped on a plane, a box and a sheet rest at their height at 
         CHECK(norm(to_vec(dBodyGetLinearVel(body))) < within_rounding(1e-4, 1));
       }
     }
+  }
+}
+
+TEST_CASE("a ball that looks ahead slides and rolls straight on over tiles, at steps in which it falls by 0.4 radii") {
+  constexpr double kRadius = 0.01;
+  constexpr double kTile = 2.7 * kRadius;
+  constexpr double kLong = 0.02;  // s
+  const OdeSession session;
+  for (int i = 0; i < 4; ++i) {
+    CAPTURE(i);
+    World world;
+    dWorldSetQuickStepNumIterations(world.id(), 60);
+    std::vector<std::unique_ptr<MeshGeom>> tiles;
+    for (int k = 0; k < 25; ++k) {
+      tiles.push_back(std::make_unique<MeshGeom>(floor_arrays(1, 1, kTile), world.space()));
+      place(*tiles.back(), {(k % 5 - 2.5) * kTile, (k / 5 - 2.5) * kTile, 0});
+    }
+    const dGeomID ball = body_of(world.space(), {kRadius, kRadius, kRadius}, 2, 2);
+    snGeomSetLookAhead(ball, dReal(kLong));
+    const dBodyID body = world.add(ball, 1000);
+    place(ball, {1e-3 * i, 0, kRadius});
+    const Vec velocity = 0.1 * kRadius / kLong * Vec{std::cos(0.7 * i), std::sin(0.7 * i), 0};
+    dBodySetLinearVel(body, dReal(velocity[0]), dReal(velocity[1]), 0);
+    if (i % 2 == 0) dBodySetAngularVel(body, dReal(-velocity[1] / kRadius), dReal(velocity[0] / kRadius), 0);
+    for (int step = 0; step < 40; ++step) world.quick_step(kLong);
+    const Vec change = to_vec(dBodyGetLinearVel(body)) - velocity;
+    CHECK(std::hypot(change[0], change[1]) < 1e-6 * norm(velocity));
+    CHECK(std::abs(double{dBodyGetPosition(body)[2]} - kRadius) < 0.01 * kRadius);
+    for (const std::unique_ptr<MeshGeom>& tile : tiles) dSpaceRemove(world.space(), *tile);
   }
 }
 
