@@ -145,9 +145,7 @@ enum class Way {
 };
 constexpr std::array kWays = {Way::FaceOnFace, Way::LeaningFaceOnFace, Way::OnFace, Way::Anywhere};
 
-/// For these max_contacts the places must be within both bodies. With more there are manifold points, which may be in the air
-/// beside a rounded face.
-constexpr std::array kMaxContacts = {1};
+constexpr std::array kMaxContacts = {1, 2, 3, 4, 8};
 
 struct PlacedPair {
   std::shared_ptr<const Shape> large, small;
@@ -245,16 +243,21 @@ double largest_excess(const PlacedPair& pair, const Proximity& proximity, int ma
   return largest;
 }
 
+/// Of the pairs of kinds, sizes, gaps and ways one is asked about in so many; 1 at length. A prime number: all of each take part.
+const int kStride = at_length() ? 1 : 41;
+
 /// Asks about every pair of kinds, in every way; `check` is called with a pair, its answer and a name.
 template <typename Check>
 void for_all_pairs(unsigned seed, const Check& check) {
   Placing placing(seed);
+  int count = 0;
   for (const Kind& one : kinds()) {
     for (const Kind& other : kinds()) {
       for (const double ratio : kRatios) {
         const std::shared_ptr<const Shape> large = one.make(ratio), small = other.make(1);
         for (const double gap : kGaps) {
           for (const Way way : kWays) {
+            if (count++ % kStride != 0) continue;
             const PlacedPair pair = placing.draw(large, small, gap, way);
             check(pair, pair.query(), [&] {
               return std::string(one.name) + " and " + other.name + ", ratio " + std::to_string(ratio) + ", gap " +
@@ -273,6 +276,12 @@ constexpr double kShallow = 0.2;
 // Of the smallest half-extent.
 constexpr double kTolerance = 1e-6;
 
+/// How far outside of a body a contact may be, in units of the smallest half-extent. With max_contacts above 1 there are manifold
+/// points. Both faces may be round there, and each leaves the plane by up to the reach: 0.07 units, or the depth if that is larger.
+double largest_allowed(int max_contacts, double gap, double unit) {
+  return max_contacts == 1 ? kTolerance : 2 * std::max(0.07, -gap / unit);
+}
+
 }  // namespace
 
 TEST_CASE("all kinds of bodies and sizes: a contact acts within the overlap of both bodies") {
@@ -289,10 +298,11 @@ TEST_CASE("all kinds of bodies and sizes: a contact acts within the overlap of b
     if (!(beside <= kTolerance)) FAIL_CHECK(name(), ": ", beside, " outside");
     for (const int max_contacts : kMaxContacts) {
       const double of_manifold = largest_excess(pair, out, max_contacts);
-      if (!(of_manifold <= kTolerance)) FAIL_CHECK(name(), ", max_contacts ", max_contacts, ": ", of_manifold, " outside");
+      if (!(of_manifold <= largest_allowed(max_contacts, out.gap, pair.unit)))
+        FAIL_CHECK(name(), ", max_contacts ", max_contacts, ": ", of_manifold, " outside");
     }
   });
-  CHECK(queries == 24 * 24 * 5 * 9 * 4);
+  CHECK(queries >= 24 * 24 * 5 * 9 * 4 / kStride);
   CHECK(shallow >= queries / 2);
   CHECK(unconverged <= shallow / 150);
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -128,8 +129,20 @@ inline snStatistics statistics() {
   return out;
 }
 
+inline snProximity proximity_of(dGeomID g1, dGeomID g2) {
+  snProximity answer{};
+  if (snGeomProximity(g1, g2, &answer) != 1) throw std::runtime_error(snLastError());
+  return answer;
+}
+
 /// Whether the last refusal contains this text.
 inline bool refused_with(const std::string& text) { return std::string(snLastError()).find(text) != std::string::npos; }
+
+/// Whether a call returned 0 or NULL, with this text.
+template <typename Result>
+bool refused(Result result, const std::string& text) {
+  return result == Result{} && refused_with(text);
+}
 
 /// The exponent of an ellipsoid, of a brick, or in between.
 inline double any_exponent(Random& random) {

@@ -119,8 +119,7 @@ TEST_CASE("description: a geom of every shape of the core has the core's answers
         const ColliderGeom other(kind, random);
         random.turn(geom);
         place(geom, random.uniform(0, 1.5) * random.direction());
-        snProximity found;
-        REQUIRE(snGeomProximity(geom, other, &found) == 1);
+        const snProximity found = proximity_of(geom, other);
         CHECK(found.converged == 1);
         CHECK(norm(to_vec(found.normal)) == doctest::Approx(1).epsilon(within_rounding(1e-12)));
         if (kind == ColliderKind::Body) {
@@ -259,14 +258,12 @@ TEST_CASE("description and copy: what cannot be is refused") {
   CHECK(refused_with("text = NULL"));
   CHECK(snGeomDescribe(ellipsoid, text, -1) == -1);
   CHECK(refused_with("capacity = -1, but must be at least 0"));
-  CHECK(snGeomCopy(nullptr, sphere) == nullptr);
-  CHECK(refused_with("snGeomCopy: geom is a dSphere"));
+  CHECK(refused(snGeomCopy(nullptr, sphere), "snGeomCopy: geom is a dSphere"));
   CHECK(snGeomCopy(nullptr, nullptr) == nullptr);
-  CHECK(snCreateFromDescription(nullptr, nullptr) == nullptr);
-  CHECK(refused_with("text = NULL"));
-  CHECK(snCreateFromDescription(nullptr, "Ellipsoid(half_axes=(1, 2))") == nullptr);
-  CHECK(refused_with("snCreateFromDescription: text at character 26 is \"))\", but must be \",\""));
-  CHECK(snCreateFromDescription(nullptr, "Polytope(points=[(0, 0, 0), (1, 0, 0), (0, 1, 0)])") == nullptr);
-  CHECK(refused_with("the half-width of the shape along z = 0 m is outside [1e-30, 1e+30] m"));
+  CHECK(refused(snCreateFromDescription(nullptr, nullptr), "text = NULL"));
+  CHECK(refused(snCreateFromDescription(nullptr, "Ellipsoid(half_axes=(1, 2))"),
+                "snCreateFromDescription: text at character 26 is \"))\", but must be \",\""));
+  CHECK(refused(snCreateFromDescription(nullptr, "Polytope(points=[(0, 0, 0), (1, 0, 0), (0, 1, 0)])"),
+                "the half-width of the shape along z = 0 m is outside [1e-30, 1e+30] m"));
   CHECK(snCreateFromDescription(nullptr, "Sphere(radius=0)") == nullptr);
 }

@@ -33,18 +33,15 @@ TEST_CASE("an invalid look-ahead time is refused, with its value and the range, 
   const Geom geom(snCreateEllipsoid(nullptr, 1, 1, 1));
   const Vec before = size_of_box(geom);
   for (const dReal time : {dReal(-1), kNoTime, kEternity, dReal(2e6)}) {
-    CHECK(snGeomSetLookAhead(geom, time) == 0);
-    CHECK(refused_with("snGeomSetLookAhead: time = "));
+    CHECK(refused(snGeomSetLookAhead(geom, time), "snGeomSetLookAhead: time = "));
     CHECK(refused_with("is outside [0, 1e+06] s"));
-    CHECK(snSetDefaultLookAhead(time) == 0);
-    CHECK(refused_with("snSetDefaultLookAhead: time = "));
+    CHECK(refused(snSetDefaultLookAhead(time), "snSetDefaultLookAhead: time = "));
   }
   CHECK(size_of_box(geom) == before);
   const Geom other(snCreateEllipsoid(nullptr, 1, 1, 1));
   CHECK(size_of_box(other) == before);
   const Geom sphere(dCreateSphere(nullptr, 1));
-  CHECK(snGeomSetLookAhead(sphere, dReal(0.01)) == 0);
-  CHECK(refused_with("a dSphere"));
+  CHECK(refused(snGeomSetLookAhead(sphere, dReal(0.01)), "a dSphere"));
   CHECK(snGeomSetLookAhead(nullptr, dReal(0.01)) == 0);
 }
 

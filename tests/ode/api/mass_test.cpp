@@ -64,17 +64,6 @@ TEST_CASE("mass: a total mass scales the inertia") {
     CHECK(by_total.I[i] / by_total.mass == relative(by_density.I[i] / by_density.mass).epsilon(within_rounding(1e-14)));
 }
 
-TEST_CASE("mass: a sphere with a rounding is a larger sphere") {
-  OdeSession session;
-  const Geom geom(snCreateSuperellipsoid(nullptr, 1, 1, 1, 2, 2));
-  REQUIRE(snGeomSetRounding(geom, dReal(0.5)) == 1);
-  dMass mass, reference;
-  dMassSetSphere(&reference, 3, dReal(1.5));
-  REQUIRE(snMassSet(&mass, 3, geom) == 1);
-  CHECK(mass.mass == relative(reference.mass).epsilon(within_rounding(1e-9)));
-  for (const int i : {0, 5, 10}) CHECK(mass.I[i] == relative(reference.I[i]).epsilon(within_rounding(1e-9)));
-}
-
 TEST_CASE("mass: a sphere off the origin has the inertia of dMassTranslate") {
   OdeSession session;
   const snShape shape = {ball_support, ball_point, nullptr, nullptr, nullptr};

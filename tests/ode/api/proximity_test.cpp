@@ -8,12 +8,6 @@ using namespace supernormal::test;
 
 namespace {
 
-snProximity proximity_of(dGeomID g1, dGeomID g2) {
-  snProximity answer;
-  REQUIRE(snGeomProximity(g1, g2, &answer) == 1);
-  return answer;
-}
-
 // Checks conditions that every answer must satisfy.
 void check_consistent(const snProximity& p, double rounding) {
   CHECK(norm(to_vec(p.normal)) == relative(1).epsilon(within_rounding(1e-14)));

@@ -54,8 +54,7 @@ TEST_CASE("a domed heightfield: moved out by 0.96 of the depth a body still touc
     dVector3 above;
     dGeomGetRelPointPos(heightfield, dReal(random.uniform(-3, 3)), 3, dReal(random.uniform(-3, 3)), above);
     place(body, to_vec(above));
-    snProximity apart;
-    REQUIRE(snGeomProximity(body, heightfield, &apart) == 1);
+    const snProximity apart = proximity_of(body, heightfield);
     move(body, (apart.gap + random.uniform(0, 0.3) * size_of(body)) * to_vec(apart.normal));
     touching += check_separation(body, heightfield, i % 2 == 0);
   }

@@ -1,5 +1,4 @@
-// The checks of ODE's own demo_collision.cpp for every pair of its classes. Here they run for our bodies with every convex collider
-// and with each other, 10 000 repetitions each.
+// The depth of points, as ODE's demo_collision.cpp checks it for its own classes.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,33 +18,6 @@ constexpr double kMissedShare = 0.001;
 constexpr double kMissedMost = 0.01;
 
 }  // namespace
-
-TEST_CASE("out of an overlap: moved by 0.96 of the depth bodies still touch, and by another 0.08 they are apart") {
-  OdeSession session;
-  for (const ColliderKind kind : kColliderKinds) {
-    CAPTURE(name_of(kind));
-    Random random(40);
-    int touching = 0;
-    for (int i = 0; i < kRepetitions; ++i) {
-      CAPTURE(i);
-      const Geom body(draw_body(random));
-      const ColliderGeom collider = kind == ColliderKind::Body ? ColliderGeom(draw_body(random)) : ColliderGeom(kind, random);
-      overlap(body, collider, random.uniform(within_rounding(0, 30), 0.3) * size_of(body), random);
-      const bool body_first = i % 2 == 0;
-      const dGeomID g1 = body_first ? body : collider;
-      const dGeomID g2 = body_first ? collider : body;
-      const auto contacts = collide(g1, g2);
-      if (contacts.empty()) continue;
-      ++touching;
-      const Vec out = (body_first ? 1.0 : -1.0) * double{contacts[0].depth} * to_vec(contacts[0].normal);
-      move(body, 0.96 * out);
-      CHECK(!collide(g1, g2).empty());
-      move(body, 0.08 * out);
-      CHECK(collide(g1, g2).empty());
-    }
-    CHECK(touching > 0.98 * kRepetitions);
-  }
-}
 
 TEST_CASE("the depth of points is right at the centre, on the surface and in between") {
   OdeSession session;

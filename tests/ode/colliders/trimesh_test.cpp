@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
 
 #include "ode/mesh_fixture.hpp"
 #include "support/ode_world.hpp"
@@ -55,8 +54,7 @@ TEST_CASE("a floor of triangles gives the contacts of a dPlane, in both orders")
       const dQuaternion upright = {1, 0, 0, 0};
       dGeomSetQuaternion(body, upright);
     }
-    snProximity lowest;
-    REQUIRE(snGeomProximity(body, plane, &lowest) == 1);
+    const snProximity lowest = proximity_of(body, plane);
     move(body, {0, 0, random.uniform(-0.12, 0.02) - lowest.gap});
     const auto on_floor = collide(body, floor);
     check_same_but_for_side(on_floor, collide(body, plane));
@@ -67,141 +65,10 @@ TEST_CASE("a floor of triangles gives the contacts of a dPlane, in both orders")
       CHECK(contact.side2 >= 0);
       CHECK(contact.side2 < 7200);
     }
-    snProximity of_plane;
-    snProximity of_floor;
-    REQUIRE(snGeomProximity(body, plane, &of_plane) == 1);
-    REQUIRE(snGeomProximity(body, floor, &of_floor) == 1);
+    const snProximity of_plane = proximity_of(body, plane), of_floor = proximity_of(body, floor);
     CHECK(std::abs(of_plane.gap - of_floor.gap) < 1e-9);
   }
   CHECK(contacts > 1500);
-}
-
-namespace {
-
-/// The body of a geom that begins to slide.
-dBodyID start_slide(World& world, dGeomID geom, const Vec& position, const Vec& velocity, double mu) {
-  world.surface.mode = dContactApprox1;
-  world.surface.mu = dReal(mu);
-  const dBodyID body = world.add(geom, 1000);
-  set_position(body, position);
-  dBodySetLinearVel(body, dReal(velocity[0]), dReal(velocity[1]), dReal(velocity[2]));
-  return body;
-}
-
-dGeomID make_slider(const std::string& kind) {
-  if (kind == "ellipsoid") return snCreateEllipsoid(nullptr, dReal(0.4), dReal(0.3), dReal(0.2));
-  if (kind == "wheel") return snCreateEllipsoid(nullptr, dReal(0.3), dReal(0.2), dReal(0.3));
-  return snCreateSuperellipsoid(nullptr, dReal(0.4), dReal(0.3), dReal(0.2), 4, 4);
-}
-
-}  // namespace
-
-// In single precision the spacing of numbers over 10 m is micrometres.
-TEST_CASE("10 m across 20 000 triangles a body slides as on a plane" * doctest::skip(kIsSinglePrecision)) {
-  OdeSession session;
-  struct Case {
-    const char* kind;
-    double mu;
-    double height;
-  };
-  for (const Case& slider : {Case{"ellipsoid", 0, 0.2}, Case{"wheel", 0.5, 0.3}, Case{"superellipsoid", 0, 0.2}}) {
-    CAPTURE(slider.kind);
-    dRandSetSeed(1);
-    const MeshGeom floor(floor_arrays(100, 100, 0.125));
-    const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
-    const Geom on_mesh(make_slider(slider.kind));
-    const Geom on_plane(make_slider(slider.kind));
-    World with_mesh, with_plane;
-    const Vec start = {1, 1.03, slider.height};
-    const Vec velocity = {4, slider.mu > 0 ? 0 : 0.9, 0};
-    const dBodyID mesh_slider = start_slide(with_mesh, on_mesh, start, velocity, slider.mu);
-    const dBodyID plane_slider = start_slide(with_plane, on_plane, start, velocity, slider.mu);
-    double difference = 0;
-    double vertical = 0;
-    double travelled = 0;
-    for (int step = 0; step < 4000 && travelled < 10; ++step) {
-      REQUIRE(with_mesh.quick_step_of(on_mesh, floor, 1e-3) == with_plane.quick_step_of(on_plane, plane, 1e-3));
-      const Vec position = to_vec(dBodyGetPosition(mesh_slider));
-      difference = std::max(difference, norm(position - to_vec(dBodyGetPosition(plane_slider))));
-      vertical = std::max(vertical, std::abs(double{dBodyGetLinearVel(mesh_slider)[2]}));
-      travelled = norm(position - start);
-    }
-    CHECK(travelled >= 10);
-    CHECK(difference < 1e-6);
-    CHECK(vertical < within_rounding(1e-6));
-  }
-}
-
-TEST_CASE("10 m across a rotated and moved floor with rounded vertices a body slides as on a plane" *
-          doctest::skip(kIsSinglePrecision)) {
-  OdeSession session;
-  Random random(32);
-  const MeshGeom floor(floor_arrays(100, 100, 0.1));  // 0.1 is not a float
-  dQuaternion turn = {dReal(0.8), dReal(0.1), dReal(-0.3), dReal(0.5)};
-  dNormalize4(turn);
-  dGeomSetQuaternion(floor, turn);
-  place(floor, {100, -50, 20});
-  const dReal* const R = dGeomGetRotation(floor);
-  const Vec up = {R[2], R[6], R[10]};
-  const Vec along = {R[0], R[4], R[8]};
-  const Vec across = {R[1], R[5], R[9]};
-  const Geom body(make_slider("wheel"));
-  dGeomSetQuaternion(body, turn);
-  World world;
-  set_gravity(world, -kGravity * up);
-  const Vec start = Vec{100, -50, 20} + 0.5 * along + 4.03 * across + 0.3 * up;
-  const dBodyID slider = start_slide(world, body, start, 4.0 * along, 0);
-  dBodySetQuaternion(slider, turn);
-  double vertical = 0;
-  double off_line = 0;
-  for (int step = 0; step < 2200; ++step) {
-    REQUIRE(world.quick_step_of(body, floor, 1e-3) == 1);
-    const Vec way = to_vec(dBodyGetPosition(slider)) - start;
-    vertical = std::max(vertical, std::abs(dot(up, to_vec(dBodyGetLinearVel(slider)))));
-    off_line = std::max({off_line, std::abs(dot(up, way)), std::abs(dot(across, way))});
-    if (dot(along, way) > 9) break;
-  }
-  CHECK(vertical < 1e-6);
-  CHECK(off_line < 1e-6);
-}
-
-TEST_CASE("a spherical body has the same contacts with a rotated and moved block of triangles as with a dBox") {
-  OdeSession session;
-  Random random(33);
-  const MeshGeom block(box_arrays(1, 0.75, 0.5));
-  const Geom box(dCreateBox(nullptr, 2, dReal(1.5), 1));
-  std::size_t contacts = 0;
-  for (int i = 0; i < 2000; ++i) {
-    CAPTURE(i);
-    random.turn(block);
-    dGeomSetRotation(box, dGeomGetRotation(block));
-    const Vec where = 10.0 * random.direction();
-    for (const dGeomID geom : {dGeomID(block), dGeomID(box)}) place(geom, where);
-    const auto radius = dReal(random.uniform(0.2, 0.6));
-    const Geom ours(snCreateEllipsoid(nullptr, radius, radius, radius));
-    const Geom sphere(dCreateSphere(nullptr, radius));
-    const Vec there = where + random.uniform(0.9, 1.6) * random.direction();
-    place(ours, there);
-    place(sphere, there);
-    random.turn(ours);
-    const auto reference = collide(sphere, box);
-    if (!reference.empty() && reference[0].depth > 0.9 * radius) continue;  // the centre is in the box, or almost
-    const auto found = collide(ours, block);
-    snProximity proximity;
-    REQUIRE(snGeomProximity(ours, block, &proximity) == 1);
-    if (reference.empty()) {
-      CHECK(found.empty());
-      CHECK(proximity.gap > -1e-9);
-      continue;
-    }
-    if (reference[0].depth < 1e-9) continue;
-    ++contacts;
-    REQUIRE(found.size() == 1);
-    CHECK(std::abs(found[0].depth - reference[0].depth) < within_rounding(1e-9));
-    CHECK(norm(to_vec(found[0].normal) - to_vec(reference[0].normal)) < within_rounding(1e-6, 4));
-    CHECK(std::abs(proximity.gap + found[0].depth) < 1e-12);
-  }
-  CHECK(contacts > 500);
 }
 
 TEST_CASE("the distance of a mesh is the distance of its nearest triangle, at any distance") {
@@ -215,10 +82,7 @@ TEST_CASE("the distance of a mesh is the distance of its nearest triangle, at an
     const Vec where = std::pow(10.0, random.uniform(0.3, 4)) * random.direction();
     place(ball, where);
     const Vec nearest = {std::clamp(where[0], -1.0, 1.0), std::clamp(where[1], -0.75, 0.75), std::clamp(where[2], -0.5, 0.5)};
-    snProximity one;
-    snProximity other;
-    REQUIRE(snGeomProximity(ball, block, &one) == 1);
-    REQUIRE(snGeomProximity(block, ball, &other) == 1);
+    const snProximity one = proximity_of(ball, block), other = proximity_of(block, ball);
     CHECK(std::abs(one.gap - (norm(where - nearest) - radius)) < within_rounding(1e-9, norm(where)));
     CHECK(norm(to_vec(one.point2) - nearest) < 1e-4);
     CHECK(one.gap == other.gap);
@@ -236,8 +100,7 @@ TEST_CASE("the distance of a mesh is the distance of its nearest triangle, at an
   for (const double x : {20.0, 40.0, 49.0, 51.0, 80.0}) {
     CAPTURE(x);
     place(body, {x, 0, 0});
-    snProximity proximity;
-    REQUIRE(snGeomProximity(body, blocks, &proximity) == 1);
+    const snProximity proximity = proximity_of(body, blocks);
     const double to_first = x - 1.5;
     if (x < 50) {
       CHECK(proximity.gap == relative(to_first).epsilon(1e-9));
@@ -319,41 +182,6 @@ TEST_CASE("a query of a body that looks ahead at a mesh is counted") {
   dWorldDestroy(world);
 }
 
-TEST_CASE("meshes of one triangle, without a usable triangle and with repeated triangles have the right contacts") {
-  OdeSession session;
-  const Geom body(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.7), dReal(0.3)));
-  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
-  place(body, {0.1, 0.2, 0.28});
-
-  MeshArrays one;
-  one.triangles.push_back({one.add(-2, -2, 0), one.add(2, -2, 0), one.add(0, 3, 0)});
-  const MeshGeom triangle(one);
-  check_same_but_for_side(collide(body, triangle), collide(body, plane));
-  place(body, {0.1, 0.2, -0.28});  // from behind, the contact is as deep as the body
-  check_same_but_for_side(collide(body, triangle), collide(body, plane));
-  place(body, {0.1, 0.2, -0.31});
-  CHECK(collide(body, triangle).empty());
-  place(body, {0.1, 0.2, 0.28});
-
-  MeshArrays degenerate;
-  const dTriIndex a = degenerate.add(0, 0, 0);
-  const dTriIndex b = degenerate.add(1, 0, 0);
-  const dTriIndex c = degenerate.add(0.5, 0, 0);
-  degenerate.triangles = {{a, a, a}, {a, b, a}, {a, b, c}};
-  const MeshGeom flat(degenerate);
-  CHECK(collide(body, flat).empty());
-  snProximity proximity;
-  CHECK(snGeomProximity(body, flat, &proximity) == 1);
-
-  MeshArrays repeated = floor_arrays(4, 4, 0.25);
-  const auto once = repeated.triangles;
-  for (int i = 0; i < 3; ++i) repeated.triangles.insert(repeated.triangles.end(), once.begin(), once.end());
-  for (const auto& t : degenerate.triangles) repeated.triangles.push_back(t);
-  const MeshGeom floor(repeated);
-  place(body, {0.5, 0.5, 0.28});
-  check_same_but_for_side(collide(body, floor), collide(body, plane));
-}
-
 namespace {
 
 struct Told {
@@ -397,8 +225,7 @@ TEST_CASE("the callbacks of a mesh are called and stay set") {
   CHECK(even > 20);
   // A query of the distance is not a collision, so no callback is called.
   told = {};
-  snProximity proximity;
-  REQUIRE(snGeomProximity(body, floor, &proximity) == 1);
+  CHECK(proximity_of(body, floor).converged == 1);
   CHECK(told.by == nullptr);
 }
 

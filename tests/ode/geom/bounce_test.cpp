@@ -157,7 +157,7 @@ TEST_CASE("a stack of bricks that look ahead rests with a restitution of 1 as wi
       bricks.at(k) = add_body(world, true, 0.01, {0, 0, kHalfExtent * (2 * static_cast<double>(k) + 1)});
     for (int k = 0; k < 100; ++k) world.quick_step(0.01);
     std::array<double, 4> result;
-    std::ranges::transform(bricks, result.begin(), height_of);
+    std::ranges::transform(bricks, result.begin(), [](dBodyID body) { return height_of(body); });
     return result;
   };
   CHECK(heights(1) == heights(0.5));

@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <limits>
 
 #include "ode/geom/convert.hpp"
@@ -43,7 +42,7 @@ TEST_CASE("rotations that ODE computes in double precision are used unchanged") 
     return;  // rotations in single precision are not orthonormal to double precision
   RotationDraw draw;
   const Geom geom(dCreateSphere(nullptr, 1));
-  for (int k = 0; k < 100000; ++k) {
+  for (int k = 0; k < test::draws(100000); ++k) {
     dMatrix3 R;
     if (k % 2 == 0) {
       dRFromAxisAndAngle(R, draw(), draw(), draw(), 3 * draw());
