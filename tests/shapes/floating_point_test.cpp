@@ -3,6 +3,7 @@
 
 #include <cfenv>
 #include <memory>
+#include <string>
 
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
@@ -45,7 +46,8 @@ void check_quiet(const Shape& shape, const Vector3& n, const std::string& name) 
 
 TEST_CASE("superellipsoids of every exponent are finite everywhere and raise nothing") {
   for (const Superellipsoid& shape : superellipsoids(1.01, 1000)) {
-    for (const Vector3& n : all_normals(50, 51)) check_quiet(shape, n, text(shape));
+    const std::string name = text(shape);
+    for (const Vector3& n : all_normals(50, 51)) check_quiet(shape, n, name);
   }
 }
 
@@ -54,9 +56,11 @@ TEST_CASE("the smallest, largest and thinnest bodies are finite everywhere and r
        {Vector3(1e-30, 1e-30, 1e-30), Vector3(1e30, 1e30, 1e30), Vector3(1e30, 1, 1e-30), Vector3(1, 1e4, 1e-4)}) {
     for (const double exponent : {1.01, 1.5, 2.0, 5.0, 1000.0}) {
       const Superellipsoid shape(half_axes, exponent, exponent);
-      for (const Vector3& n : all_normals(50, 51)) check_quiet(shape, n, text(shape));
+      const std::string name = text(shape);
+      for (const Vector3& n : all_normals(50, 51)) check_quiet(shape, n, name);
     }
-    for (const Vector3& n : all_normals(50, 51)) check_quiet(Ellipsoid(half_axes), n, "ellipsoid " + text(half_axes));
+    const std::string name = "ellipsoid " + text(half_axes);
+    for (const Vector3& n : all_normals(50, 51)) check_quiet(Ellipsoid(half_axes), n, name);
   }
 }
 

@@ -52,7 +52,7 @@ double farthest_beyond(const Shape& shape, const Tessellation& mesh) {
   std::mt19937_64 engine(5);
   std::normal_distribution<double> gauss;
   double farthest = 0;
-  for (int k = 0; k < 3000; ++k) {
+  for (int k = 0; k < test::draws(3000); ++k) {
     const Vector3 n = Vector3(gauss(engine), gauss(engine), gauss(engine)).normalized();
     double reach = -1e300;
     for (const Vector3& point : mesh.points) reach = std::max(reach, n.dot(point));
