@@ -5,12 +5,13 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
+import types
 import unittest
 
 import sweep_files  # noqa: F401  (the path)
 
-from sweeps.collect import mean_and_interval
-from sweeps.figure import SCRIPT
+from sweeps.collect import confidence_column, mean_and_interval
+from sweeps.figure import SCRIPT, figure_data
 from sweeps.latin_hypercube import latin_hypercube
 from sweeps.student import central_probability, t_quantile
 
@@ -66,6 +67,18 @@ class Means(unittest.TestCase):
 
     def test_one_number_has_no_interval(self):
         self.assertEqual(mean_and_interval([2.5], 0.95), (2.5, None, None))
+
+
+class Labels(unittest.TestCase):
+    def test_they_stand_for_the_keys_of_lines_and_quantities(self):
+        figure = {"x": "time.duration", "y": "volume_fraction"}
+        sweep = types.SimpleNamespace(figure=figure, confidence=0.95)
+        means = [{"time.duration": "2", "c.damping": "0.1", "volume_fraction_mean": "0.6", confidence_column(sweep, "volume_fraction"): ""}]
+        self.assertIn('"volume_fraction"', figure_data(sweep, means))
+        figure["y_label"] = "volume fraction"
+        self.assertIn('"volume fraction"', figure_data(sweep, means))
+        figure.update(lines="c.damping", lines_label="damping")
+        self.assertEqual(figure_data(sweep, means), '"damping = 0.1"\n2.0 0.6 0\n')
 
 
 @unittest.skipUnless(shutil.which("gnuplot"), "gnuplot is missing")

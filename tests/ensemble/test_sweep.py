@@ -117,6 +117,7 @@ class Mistakes(SweepTest):
             ("[latin_hypercube]\npoints = 2\nseed = 1\nranges = {a = {from = 0, to = 1, scale = \"log\"}}", "scale = 'log'", "from 0"),
             ("[latin_hypercube]\npoints = 2\nseed = 1\nranges = {a = {form = 0, to = 1}}", 'unknown key "form"; did you mean "from"?'),
             ("[grid]\na = [1]\n[figure]\nx = \"b\"\ny = \"steps\"", "[figure]: x is 'b'; allowed: a"),
+            ('[grid]\na = [1]\n[figure]\nx = "a"\ny = "steps"\nx_label = 1', '[figure]: x_label is 1; allowed: a text, such as "time, s"'),
             ("start = 1", "start is 1; allowed: a table with scene and set"),
             ("[start]\nsets = {}", 'unknown key "sets"; did you mean "set"?'),
             ('[start]\nscene = "none.toml"', "[start] scene: there is no file", "allowed: a scene file, its path relative to the sweep file"),

@@ -13,10 +13,10 @@ SCRIPT = pathlib.Path(__file__).parent.parent / "figure.gp"
 def figure_data(sweep, means):
     """Blocks for gnuplot's `index`, each with its title in quotes as the first line, then x, mean and half-width."""
     figure = sweep.figure
-    lines = figure.get("lines")
+    lines, label = figure.get("lines"), figure.get("lines_label", figure.get("lines"))
     blocks = {}
     for line in means:
-        title = f"{lines} = {line[lines]}" if lines else figure["y"]
+        title = f"{label} = {line[lines]}" if lines else figure.get("y_label", figure["y"])
         half_width = line[confidence_column(sweep, figure["y"])] or "0"
         blocks.setdefault(title, []).append((float(line[figure["x"]]), line[f"{figure['y']}_mean"], half_width))
     texts = []
@@ -38,7 +38,8 @@ def draw_figure(sweep, store, means):
     except ValueError:
         return f"no figure: {sweep.figure['x']} is not a number everywhere"
     write_text(store.folder / "figure.dat", data)
-    labels = [sweep.figure["x"], sweep.figure["y"], sweep.figure.get("scale", "linear"), f"{100 * sweep.confidence:g}"]
+    labels = [sweep.figure.get(f"{axis}_label", sweep.figure[axis]) for axis in ("x", "y")]
+    labels += [sweep.figure.get("scale", "linear"), f"{100 * sweep.confidence:g}"]
     drawn = subprocess.run(
         ["gnuplot", "-c", str(SCRIPT), str((store.folder / "figure.dat").absolute()), *labels], capture_output=True, text=True, check=False
     )

@@ -11,6 +11,7 @@ from .latin_hypercube import latin_hypercube
 from .quantity import read_quantities
 from .toml_text import WHOLE_NUMBERS, toml_text
 
+FIGURE_LABELS = ["x_label", "y_label", "lines_label"]
 KEYS = ["scene", "seeds", "arguments", "keep", "confidence", "set", "grid", "list", "latin_hypercube", "start", "collect", "figure", "slurm"]
 MOST_POINTS = 1_000_000
 LEAST_DIGITS = 6  # of the numbers of a Latin hypercube
@@ -308,8 +309,10 @@ def _figure(table, parameters, quantities, path):
     if "figure" not in table:
         return None
     where = f"{path}: [figure]"
-    figure = _read(table, "figure", dict, "a table with x, y, lines and scale", path)
-    refuse_unknown_keys(figure, ["x", "y", "lines", "scale"], where)
+    figure = _read(table, "figure", dict, "a table with x, y, lines, scale and labels", path)
+    refuse_unknown_keys(figure, ["x", "y", "lines", "scale", *FIGURE_LABELS], where)
+    for key in filter(figure.__contains__, FIGURE_LABELS):
+        _read(figure, key, str, "a text, such as \"time, s\"", where)
     names = [quantity.name for quantity in quantities]
     for key, words in (("x", parameters), ("y", names), ("lines", [*parameters, None]), ("scale", ["linear", "log", None])):
         if figure.get(key) not in words:
