@@ -47,6 +47,10 @@ plots_of_every_table() {
       [ "$(grep -c '<path' "$plot")" -gt 10 ] || fail "$plot is empty"
     done
   done
+  printf 'time_s,pressure_Pa,shear_rate_per_s\n0,1,2\n1,2,3\n' >"$work/plots/stress.csv"
+  gnuplot -c "$samples/falling_particles/plots/measurement.gp" "$work/plots/stress.csv" "stress, Pa" pressure_Pa >"$work/plots/titles" ||
+    fail "measurement.gp fails"
+  grep -q '<text>pressure<' "$work/plots/titles" || fail "the key names a raw column: $(grep '<text>p' "$work/plots/titles")"
   [ "$(cd "$work/plots" && echo */*.svg)" = "hopper/discharge.svg hopper/energies.svg hopper/state.svg\
  packing_spheres/compression.svg packing_spheres/energies.svg packing_spheres/state.svg short/energies.svg short/state.svg" ] ||
     fail "wrong plots: $(cd "$work/plots" && echo */*.svg)"
