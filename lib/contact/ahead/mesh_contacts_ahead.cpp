@@ -426,7 +426,7 @@ double MeshContactsAhead::approach_in_excess(const Search& search, const Proximi
   ++evaluations_;
   const double extent = shape.support(pose.rotation.transpose() * normal) + normal.dot(pose.position);
   const double above = extent - normal.dot(there.contact);
-  if (above <= search.settings.tolerance * search.size + search.rounding) return 0;
+  if (above <= search.settings.tolerance * search.size) return 0;
   const RayHit hit = find_ray_hit(shape, pose, there.contact + above * normal, -normal, above + search.size, search.settings);
   evaluations_ += hit.evaluations;
   const double cosine = hit.normal.dot(normal);
