@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,21 +12,29 @@
 #include "scene_text.hpp"
 #include "support/temporary_folder.hpp"
 
+/// The message with which a call refuses its input; "" if it does not.
+inline std::string refusal_by(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const falling_particles::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+inline std::string without_folder(std::string text, const TemporaryFolder& folder) {
+  const std::string prefix = folder.path().string() + "/";
+  for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) text.erase(at, prefix.size());
+  return text;
+}
+
 /// The message from loading the scene, without the name of the temporary folder; "" if it is accepted.
 inline std::string complaint(const std::string& scene, const std::string& catalogue = kCatalogueText,
                              const std::vector<std::string>& overrides = {}) {
   const TemporaryFolder folder;
   folder.write("grains.toml", catalogue);
   const std::string path = folder.write("scene.toml", scene);
-  try {
-    falling_particles::load_scene(path, overrides);
-  } catch (const falling_particles::InputError& error) {
-    std::string text = error.what();
-    const std::string prefix = folder.path().string() + "/";
-    for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) text.erase(at, prefix.size());
-    return text;
-  }
-  return "";
+  return without_folder(refusal_by([&] { falling_particles::load_scene(path, overrides); }), folder);
 }
 
 struct Mistake {

@@ -52,12 +52,7 @@ bool says_one_of(const Scene& scene, const std::string& words) {
 }
 
 std::string refused_for(const Scene& scene) {
-  try {
-    refuse_bad_start(scene);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_by([&] { refuse_bad_start(scene); });
 }
 
 /// A box without a lid around the scene's start, whose triangles are seen from inside or from outside.

@@ -32,12 +32,7 @@ Scene with_state(const TemporaryFolder& folder, const std::string& grains, std::
 std::string refusal_of_start(const std::string& grains, const std::vector<std::string>& overrides = {}) {
   const TemporaryFolder folder;
   const Scene scene = with_state(folder, grains, overrides);
-  try {
-    refuse_bad_start(scene);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_by([&] { refuse_bad_start(scene); });
 }
 
 std::string pea_at(double x, double y, double z) {

@@ -72,14 +72,7 @@ TEST_CASE("a pipe, a device and a folder in the place of a file are named, and n
   const TemporaryFolder folder;
   const std::string pipe = (folder.path() / "pipe.toml").string();
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
-  const auto refusal = [](const std::string& path) {
-    try {
-      falling_particles::load_scene(path);
-    } catch (const falling_particles::InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
+  const auto refusal = [](const std::string& path) { return refusal_by([&] { falling_particles::load_scene(path); }); };
   check_says(refusal(pipe), {"cannot read scene file", "pipe.toml\": it is a pipe or a socket; allowed: a file"});
   check_says(refusal("/dev/zero"), {"\"/dev/zero\": it is a device; allowed: a file"});
   check_says(refusal(folder.path().string()), {"it is a folder; allowed: a file"});

@@ -51,13 +51,7 @@ struct Loaded {
     folder.write("state", state);
     const std::string path = folder.write("scene.toml", kSceneText);
     overrides.insert(overrides.begin(), "start.file=\"state\"");
-    try {
-      scene = load_scene(path, overrides);
-    } catch (const InputError& error) {
-      text = error.what();
-      const std::string prefix = folder.path().string() + '/';
-      for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) text.erase(at, prefix.size());
-    }
+    text = without_folder(refusal_by([&] { scene = load_scene(path, overrides); }), folder);
   }
   Scene scene{};
   std::string text;

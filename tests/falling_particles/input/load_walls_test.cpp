@@ -242,12 +242,7 @@ TEST_CASE("a mesh is read in its unit, and a bad file is refused with the reason
         "scene.toml", with_part("[[part]]\nname = \"m\"\nshape = \"mesh\"\nfile = \"" + file + "\"\nunit = \"" + unit + "\"\n")));
   };
   const auto refusal = [&](const std::string& file, const std::string& unit) -> std::string {
-    try {
-      load(file, unit);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return refusal_by([&] { load(file, unit); });
   };
   const auto mesh = std::get<MeshShape>(load("t.stl", "mm").walls.back().shape);
   CHECK(mesh.vertices.size() == 4);

@@ -281,36 +281,6 @@ TEST_CASE("capsules: mass, size and rest heights") {
   CHECK(lying == relative(9.81 * expected.mass).epsilon(1e-3));
 }
 
-TEST_CASE("capsules: the gap of two capsules is the distance of their axes minus both radii") {
-  const Scene scene = scene_with(compounds()[3]);
-  const double s = std::sqrt(0.5);
-  const std::array<double, 4> along_x = {s, 0, s, 0};
-  const std::array<double, 4> along_y = {s, s, 0, 0};
-  const std::array<double, 4> along_z = {1, 0, 0, 0};
-  struct Pair {
-    std::array<double, 4> attitude1, attitude2;
-    Point offset;
-    double gap;
-  };
-  const std::vector<Pair> pairs = {
-      {along_x, along_y, {0, 0, 4.1e-3}, 0.1e-3},                                    // crossed
-      {along_x, along_y, {0, 0, 3.9e-3}, -0.1e-3},                                   // crossed, overlapping
-      {along_z, along_z, {3.9e-3, 0, 2e-3}, -0.1e-3},                                // side by side
-      {along_z, along_z, {0, 0, 12.1e-3}, 0.1e-3},                                   // end to end
-      {along_z, along_x, {9e-3, 0, 5e-3}, std::hypot(5e-3, 1e-3) - 4e-3},            // end beside end
-      {along_z, along_z, {3e-3, 4e-3, 11e-3}, std::hypot(3e-3, 4e-3, 3e-3) - 4e-3},  // cap beside cap
-  };
-  for (const Pair& pair : pairs) {
-    CAPTURE(pair.gap);
-    const World world(scene, {{0, {0.05, 0.05, 0.05}, pair.attitude1},
-                              {0, {0.05 + pair.offset[0], 0.05 + pair.offset[1], 0.05 + pair.offset[2]}, pair.attitude2}});
-    snProximity proximity;
-    REQUIRE(snGeomProximity(world.grains()[0].geom, world.grains()[1].geom, &proximity) != 0);
-    CHECK(std::abs(proximity.gap - pair.gap) < 1e-9 * 2e-3);
-    CHECK(proximity.converged != 0);
-  }
-}
-
 TEST_CASE("compounds: every mistake in a catalogue ends with one line") {
   const std::vector<Mistake> mistakes = {
       {"radius = 2e-3", "radius = 0", {"grains.toml:25: rod.radius is 0", "(0, 1] m"}},

@@ -152,21 +152,3 @@ TEST_CASE("the contacts of a frame carry the weight of the grains, and measuring
     CHECK((*contact.force)[2] == doctest::Approx(sign * weight).epsilon(1e-3));
   }
 }
-
-TEST_CASE("friction stops a sliding grain and without friction it slides on") {
-  for (const bool rough : {true, false}) {
-    CAPTURE(rough);
-    Scene scene = scene_of(GrainKind{"puck", {0.02, 0.02, 0.002}, 2, 2, 0, 1000, "typical"}, 1);
-    if (rough) scene.effects.emplace_back(fx::Friction{0.5, {}});
-    const World world(scene, {upright(0.06, 0.1, 0.002)});
-    Stepper stepper(world, scene);
-    dBodySetLinearVel(world.grains()[0].body, 0.2, 0, 0);
-    for (int i = 0; i < 200; ++i) stepper.step();
-    const double x = dBodyGetPosition(world.grains()[0].body)[0];
-    if (rough) {
-      CHECK(x - 0.06 < 0.2 * 0.2);  // it has stopped; v^2 / (2 mu g) is 4 mm without rocking
-    } else {
-      CHECK(x - 0.06 == supernormal::test::relative(0.2 * 0.2).epsilon(1e-6));
-    }
-  }
-}

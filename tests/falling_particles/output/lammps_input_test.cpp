@@ -13,6 +13,7 @@
 
 #include "common/input_error.hpp"
 #include "common/random.hpp"
+#include "complaint.hpp"
 #include "model/container_walls.hpp"
 #include "model/material.hpp"
 #include "support/relative.hpp"
@@ -41,12 +42,7 @@ double number_after(const std::string& text, const std::string& word) {
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string refusal(const Scene& scene) {
-  try {
-    lammps_input(scene);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_by([&] { lammps_input(scene); });
 }
 
 }  // namespace

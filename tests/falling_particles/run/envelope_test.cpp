@@ -9,6 +9,7 @@
 
 #include "base/files.hpp"
 #include "common/input_error.hpp"
+#include "complaint.hpp"
 #include "scene_text.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -21,24 +22,14 @@ Checkpoint sample() {
           std::string("state\0of a run", 14)};
 }
 
-/// The complaint of what throws an InputError; empty when it does not.
-std::string complaint(const std::function<void()>& read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 std::string complaint_about(const std::string& bytes) {
-  return complaint([&bytes] { unseal(bytes, "out/box/checkpoint"); });
+  return refusal_by([&bytes] { unseal(bytes, "out/box/checkpoint"); });
 }
 
 void check_refused(const std::function<void(Origin&)>& change, const std::string& text) {
   Origin here = sample().origin;
   change(here);
-  const std::string got = complaint([&here] { refuse_other(sample().origin, here, "out/box/checkpoint"); });
+  const std::string got = refusal_by([&here] { refuse_other(sample().origin, here, "out/box/checkpoint"); });
   CHECK(got == "checkpoint \"out/box/checkpoint\" is of " + text + kStartAnew);
 }
 
@@ -87,7 +78,7 @@ TEST_CASE("checkpoint: a byte that has changed is noticed, wherever it is") {
 }
 
 TEST_CASE("checkpoint: one of another run is refused, and it is told why") {
-  CHECK(complaint([] { refuse_other(sample().origin, sample().origin, "checkpoint"); }) == "");
+  CHECK(refusal_by([] { refuse_other(sample().origin, sample().origin, "checkpoint"); }) == "");
   check_refused([](Origin& here) { here.program = "1.2.4"; }, "version 1.2.3 of the program; allowed: 1.2.4, this one");
   check_refused([](Origin& here) { here.bytes_of_a_real = 4; },
                 "ODE with double precision; allowed: single precision, that of this program");
@@ -102,7 +93,7 @@ TEST_CASE("checkpoint: one of another run is refused, and it is told why") {
       "a run with --checkpoint-every 100; allowed: the same, or none, and not 50, with which the results would be others");
   Origin any = sample().origin;
   any.every = 0;
-  CHECK(complaint([&any] { refuse_other(sample().origin, any, "checkpoint"); }) == "");
+  CHECK(refusal_by([&any] { refuse_other(sample().origin, any, "checkpoint"); }) == "");
 }
 
 TEST_CASE("checkpoint: a scene is known by its text and that of its catalogue, wherever they are") {
@@ -115,9 +106,10 @@ TEST_CASE("checkpoint: a scene is known by its text and that of its catalogue, w
   CHECK(origin.bytes_of_a_real == sizeof(dReal));
   CHECK(origin.files.size() == 2);
   CHECK(origin.files[0].name == "box.toml");
-  CHECK(complaint([&] { refuse_other(origin, origin_in(kSceneText, kCatalogueText), "c"); }) == "");
+  CHECK(refusal_by([&] { refuse_other(origin, origin_in(kSceneText, kCatalogueText), "c"); }) == "");
   const std::string other_seed = replaced(kSceneText, "seed = 7", "seed = 8");
-  CHECK(complaint([&] { refuse_other(origin, origin_in(other_seed, kCatalogueText), "c"); }).find("box.toml") != std::string::npos);
+  CHECK(refusal_by([&] { refuse_other(origin, origin_in(other_seed, kCatalogueText), "c"); }).find("box.toml") !=
+        std::string::npos);
   const std::string other_pea = replaced(kCatalogueText, "density = 1200", "density = 1201");
-  CHECK(complaint([&] { refuse_other(origin, origin_in(kSceneText, other_pea), "c"); }).find("grains.toml") != std::string::npos);
+  CHECK(refusal_by([&] { refuse_other(origin, origin_in(kSceneText, other_pea), "c"); }).find("grains.toml") != std::string::npos);
 }

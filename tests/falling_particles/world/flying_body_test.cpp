@@ -242,12 +242,7 @@ TEST_CASE("free walls: a start within another wall is refused, and one that touc
       scene.start->overlap = overlap;
       scene.start->grains.push_back({.position = {5, 5, 5}});
     }
-    try {
-      refuse_bad_start(scene);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return refusal_by([&] { refuse_bad_start(scene); });
   };
   CHECK(said(0).empty());
   CHECK(said(0.1).empty());

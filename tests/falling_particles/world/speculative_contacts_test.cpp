@@ -1,17 +1,16 @@
 // Scenes with contacts before overlap.
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include "advise/doubts.hpp"
 #include "complaint.hpp"
 #include "observe/leaks.hpp"
-#include "observe/simulation.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"
+#include "world/stepper.hpp"
+#include "world/world.hpp"
 
 using namespace falling_particles;
 using supernormal::test::relative;
@@ -103,26 +102,6 @@ TEST_CASE("speculative contacts: a ball bounces as high on a periodic boundary a
       CHECK(contacts_ahead(world) > 0);
     }
   }
-}
-
-TEST_CASE("speculative contacts: a bed has less than a tenth of the overlap on average") {
-  Scene scene = scene_of(Box{{0.04, 0.04}}, {{ball(), 60}});
-  const auto mean_overlap = [](const Scene& of, double until) {
-    Simulation simulation(of, 1);
-    double sum = 0;
-    std::size_t count = 0;
-    for (int k = 1; k * of.time.step <= until; ++k) {
-      simulation.stepper.step();
-      if (k * of.time.step < 0.75 * until) continue;
-      for (const dContactGeom& contact : simulation.stepper.contact_geoms()) {
-        sum += std::max<double>(contact.depth, 0);
-        ++count;
-      }
-    }
-    return sum / static_cast<double>(count);
-  };
-  scene.time.step = 1e-3;
-  CHECK(mean_overlap(ahead(scene), 2) < mean_overlap(scene, 2) / 10);
 }
 
 TEST_CASE("speculative contacts: there are no doubts about fast grains") {
