@@ -105,7 +105,7 @@ TEST_CASE("find_clearance: a lower bound of the gap, better with more evaluation
   std::array<int, 3> better{};
   for (const RandomKind& kind : random_kinds()) {
     RandomBodies bodies(kind, 72);
-    for (int k = 0; k < 100; ++k) {
+    for (int k = 0; k < draws(200); ++k) {
       const RandomPair pair = bodies.draw(bodies.uniform(-0.3, 2));
       Settings settings;
       settings.certify_depth = true;

@@ -17,7 +17,7 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr int kPairsPerClass = 2000;
+const int kPairsPerClass = draws(4000);
 constexpr double kMissedGap = 1e-6;  // of the smallest half-axis
 constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 

@@ -5,8 +5,6 @@
 
 #include <cfenv>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 
 #include "ray_samples.hpp"
 #include "supernormal/proximity/solve.hpp"
@@ -24,7 +22,7 @@ using namespace supernormal::test;
 
 namespace {
 
-const int kRaysPerClass = draws(2000);
+const int kRaysPerClass = at_length() ? 2000 : 300;
 
 /// Checks the conditions on every hit of a superellipsoid, against the implicit equation.
 void check_hit(const Superellipsoid& shape, const Ray& ray, const RayHit& hit, double expected, double normal_tolerance,
@@ -225,7 +223,7 @@ TEST_CASE("rays at shapes without a Hessian have the same hits") {
     RandomRays random(++seed);
     long evaluations = 0;
     int unsure = 0;
-    constexpr int kRays = 300;
+    const int kRays = draws(600);
     for (int k = 0; k < kRays; ++k) {
       const std::string name = std::string(kind.name) + " " + std::to_string(k);
       CAPTURE(name);

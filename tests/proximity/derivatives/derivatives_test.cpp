@@ -24,6 +24,7 @@
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/shapes/superovoid.hpp"
+#include "support/draw.hpp"
 #include "support/rotation_between.hpp"
 #include "support/traps.hpp"
 #include "support/without_hessian.hpp"
@@ -55,12 +56,12 @@ constexpr std::array<int, 12> kSwapped = {6, 7, 8, 9, 10, 11, 0, 1, 2, 3, 4, 5};
 TEST_CASE("derivatives: random pairs of all classes agree with differences in long double") {
   DerivativePairs pairs(5);
   Tally tally;
-  for (int k = 0; k < 64; ++k) compare(pairs.draw(), std::to_string(k), tally);
+  for (int k = 0; k < draws(64); ++k) compare(pairs.draw(), std::to_string(k), tally);
   CHECK_MESSAGE(tally.first_wrong.empty(), tally.first_wrong);
   CHECK(tally.not_finite == 0);
-  CHECK(tally.unreferenced <= 3);
+  CHECK(tally.unreferenced <= draws(3));
   for (const Tally::Figures& figures : tally.figures) {
-    CHECK(figures.compared >= 55);
+    CHECK(figures.compared >= draws(55));
     CHECK(figures.wrong == 0);
   }
 }

@@ -17,9 +17,10 @@ namespace {
 
 /// The largest gain in the disc: at the stationary point if that is a maximum inside, or on the circle.
 double largest_sampled(const QuadraticModel& model, double radius) {
+  const int spokes = draws(20000);
   double largest = 0;
-  for (int spoke = 0; spoke < 20000; ++spoke) {
-    const double angle = 2 * std::numbers::pi * spoke / 20000;
+  for (int spoke = 0; spoke < spokes; ++spoke) {
+    const double angle = 2 * std::numbers::pi * spoke / spokes;
     const Vector2 direction(std::cos(angle), std::sin(angle));
     largest = std::max(largest, model.gain(radius * direction));
     // Along a ray: the vertex of the parabola if it lies inside.
