@@ -273,6 +273,9 @@ void for_all_pairs(unsigned seed, const Check& check) {
 // Of the smallest half-extent: below, hardly an answer does not converge.
 constexpr double kShallow = 0.2;
 
+// Of the smallest half-extent: the overlaps whose manifold points are asked for.
+constexpr double kManifold = 0.03;
+
 // Of the smallest half-extent.
 constexpr double kTolerance = 1e-6;
 
@@ -297,6 +300,7 @@ TEST_CASE("all kinds of bodies and sizes: a contact acts within the overlap of b
     const double beside = excess(pair, out, out.contact);
     if (!(beside <= kTolerance)) FAIL_CHECK(name(), ": ", beside, " outside");
     for (const int max_contacts : kMaxContacts) {
+      if (max_contacts > 1 && out.gap < -kManifold * pair.unit) continue;
       const double of_manifold = largest_excess(pair, out, max_contacts);
       if (!(of_manifold <= largest_allowed(max_contacts, out.gap, pair.unit)))
         FAIL_CHECK(name(), ", max_contacts ", max_contacts, ": ", of_manifold, " outside");
