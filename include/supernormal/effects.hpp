@@ -255,10 +255,11 @@ SUPERNORMAL_ODE_API std::span<const Description> descriptions();
 
 /// A parameter that read_effect() asks for.
 struct Parameter {
-  enum class Kind { Number, Whole, Vector };  ///< a whole number; three numbers
-  const char* name;                           ///< as in Description::parameters
-  Kind kind;                                  ///< what it is
-  bool has_default;                           ///< whether it may be left out
+  /// A number, a whole number, or three numbers.
+  enum class Kind { Number, Whole, Vector };
+  const char* name;  ///< as in Description::parameters
+  Kind kind;         ///< what it is
+  bool has_default;  ///< whether it may be left out
 };
 /// Makes an effect for all contacts, whose name is one of descriptions(). `read` returns the numbers of each parameter, or none,
 /// which leaves the default. The constructor of Effects checks the ranges. Throws std::invalid_argument for another name, or
