@@ -9,6 +9,7 @@
 #include "proximity/gap/usable_settings.hpp"
 #include "proximity/lanes/lane_query.hpp"
 #include "proximity/local/first_guess.hpp"
+#include "proximity/search/answer.hpp"
 #include "proximity/search/solvers.hpp"
 
 namespace supernormal {

@@ -84,7 +84,7 @@ class Points(SweepTest):
         path.write_text(text)
         sweep = load_sweep(path)
         self.assertEqual(len(sweep.points), 2048)
-        self.assertIn("16 × 2 × 16 × 4 = 2048 runs", page)
+        self.assertIn("16 × 2 × 16 × 4 = 2048 runs", " ".join(page.split()))
         self.assertEqual(sweep.slurm_options, ["--partition=long"])
 
 

@@ -223,8 +223,8 @@ TEST_CASE("rays at shapes without a Hessian have the same hits") {
     RandomRays random(++seed);
     long evaluations = 0;
     int unsure = 0;
-    const int kRays = draws(600);
-    for (int k = 0; k < kRays; ++k) {
+    const int rays = draws(600);
+    for (int k = 0; k < rays; ++k) {
       const std::string name = std::string(kind.name) + " " + std::to_string(k);
       CAPTURE(name);
       const Superellipsoid surface = random.shape(kind);
@@ -240,8 +240,8 @@ TEST_CASE("rays at shapes without a Hessian have the same hits") {
       const Ray outer = random.past(surface, 1 + 1e-9);
       CHECK_FALSE(find_ray_hit(WithoutHessian(surface), {}, outer.origin, outer.direction, kInfinity).hit);
     }
-    MESSAGE(std::string(kind.name), ": evaluations ", double(evaluations) / kRays, " on average, ", unsure, " unsure");
-    CHECK(unsure <= kRays / 30);
+    MESSAGE(std::string(kind.name), ": evaluations ", double(evaluations) / rays, " on average, ", unsure, " unsure");
+    CHECK(unsure <= rays / 30);
   }
 }
 

@@ -218,7 +218,7 @@ TEST_CASE("list: walls and populations are listed with every key that a section 
   const std::string part = "[[part]]\nname = \"p\"\nshape = \"plane\"\n";
   for (const std::string kind : {"velocity", "rotation", "vibration", "conveyor"}) {
     CHECK(walls.find("[[part.motion]] kind = \"" + kind + '"') != std::string::npos);
-    check_listed(walls, part + "[[part.motion]]\nkind = \"" + kind + "\"\n");
+    check_listed(walls, std::string(part).append("[[part.motion]]\nkind = \"").append(kind).append("\"\n"));
   }
   check_listed(walls, part + "[part.drive]\n");
   check_listed(population, "[[feeder]]\n");
