@@ -1,6 +1,7 @@
 // The styles as a plugin of LAMMPS. LAMMPS calls lammpsplugin_init() when it loads the file.
 #include "lammps.h"
 #include "lammpsplugin.h"
+#include "styles/fix_contact_history.hpp"
 #include "styles/fix_nve_supernormal.hpp"
 #include "styles/fix_rigid_supernormal.hpp"
 #include "styles/fix_wall_supernormal.hpp"
@@ -63,6 +64,7 @@ extern "C" [[gnu::visibility("default")]] void lammpsplugin_init(void* lammps, v
   using namespace granular;
   for (lammpsplugin_t style :
        {pair_style(&create_pair<PairSupernormal>, "supernormal", "contacts of superellipsoids", handle),
+        fix_style(&create_fix<FixContactHistory>, "SUPERNORMAL_HISTORY", "histories of contacts", handle),
         fix_style(&create_fix<FixNveSupernormal>, "nve/supernormal", "motion of superellipsoids", handle),
         fix_style(&create_fix<FixWallSupernormal>, "wall/supernormal", "walls of superellipsoids", handle),
         fix_style(&create_fix<FixRigidSupernormal<FixRigid>>, "rigid/supernormal", kClusters, handle),

@@ -39,6 +39,15 @@ def check_restart(driver, bed):
         yield f"{kind}, {ranks} ranks: restarted run differs", 1 if differ else 0, 0
 
 
+def check_restart_between_runs(driver, bed):
+    """A restart file that is written between two runs leaves the springs as they are, also across a periodic side."""
+    for ranks in (1, 2):
+        for name, between in (("printed", "print between"), ("written", "write_restart between.restart")):
+            driver.run("dense_restart", ranks, bed=bed, until=4400, every=200, out=f"{name}_{ranks}", pause=50, between=between)
+        differ = driver.do_restarts_differ(f"printed_{ranks}.4400.restart", f"written_{ranks}.4400.restart")
+        yield f"{ranks} ranks: a restart file between two runs changes the run", 1 if differ else 0, 0
+
+
 def check_particle_exponents(driver):
     """Exponents of particles: as exponents of their types, and in restart files."""
     reference = driver.dump(f"forces_{BED.split('.')[0]}_1_on.dump")
@@ -65,4 +74,5 @@ def check(driver):
     for bed, *options in ((BED, 1e-10, 1e-10, ("on", "off")), (BRICKS, 1e-12, 1e-6, ("on",)), (CANS, 1e-12, 1e-6, ("on",))):
         yield from check_forces(driver, bed, *options)
         yield from check_restart(driver, bed)
+    yield from check_restart_between_runs(driver, BED)
     yield from check_particle_exponents(driver)

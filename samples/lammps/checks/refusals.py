@@ -22,6 +22,7 @@ REFUSED = [
     ("more", f"{DRIVE} force 1 mass 0", "mass = 0 is outside (0, inf)"),
     ("more", f"{DRIVE} force 1 mass 1 travel 1e-9 1", "travel = 1e-09 is outside (-inf, 0]"),
     ("more", f"{DRIVE} force 1 mass 1 from 1e-3 until 1e-9", "until = 1e-09 is outside (from, inf)"),
+    ("more", "comm_style tiled", "comm_style tiled with newton off"),
     ("more", "timestep 0", "timestep = 0 is outside (0, inf)"),
     ("more", "run_style respa 2 2 pair 1", "takes run_style verlet"),
     ("periodic", "p", "atoms 2 and 3 are neighbors twice"),

@@ -223,6 +223,8 @@ class Pressure {
       const double normal = std::max(0.0, one.force + damping * one.stiffness * velocity.dot(one.normal));
       const Vector3 force = (one.pull - normal) * one.normal + (one.pull - one.force) * one.lateral;
       found.normal += normal;
+      found.elastic += one.force;
+      found.adhesion += one.pull;
       found.force += force;
       found.torque += (one.point - centre).cross(force);
     }
@@ -250,6 +252,8 @@ ContactForce contact_force(const Contact& contact, const NormalForce& elastic, c
   const double damped = damped_stiffness(material, elastic.stiffness);
   ContactForce found;
   found.normal = std::max(0.0, elastic.force + damper(material, damped, mobility.normal) * approach);
+  found.elastic = elastic.force;
+  found.adhesion = material.adhesion;
   found.force = (material.adhesion - found.normal) * n;
   found.energy = elastic.energy - material.adhesion * contact.depth;
   add_sliders(contact, {elastic.stiffness, 0, mobility}, material, body1, body2, step, history, found);

@@ -81,6 +81,8 @@ struct ContactForce {
   Vector3 force = Vector3::Zero();   ///< N; on body 1, at the contact point; the opposite acts on body 2
   Vector3 torque = Vector3::Zero();  ///< N m; on body 1, in addition to the force's; the opposite acts on body 2
   double normal = 0;                 ///< N; >= 0; without adhesion
+  double elastic = 0;                ///< N; of the springs along the normal; the dampers have the rest of `normal`
+  double adhesion = 0;               ///< N; the pull of adhesion
   double energy = 0;                 ///< J; in the springs
   bool slips = false;                ///< whether friction is at its limit
 };

@@ -34,8 +34,11 @@ PairContact contact_of(const supernormal::Proximity& found, const supernormal::C
   const double gap = found.gap;
   const std::optional<FaceContact> faces =
       gap < body1.bulge + body2.bulge ? find_face_contact(body1, body2, found.normal) : std::nullopt;
-  pair.do_faces_meet = faces && faces->count > 0;
-  if (gap >= 0 && !pair.do_faces_meet) {
+  if (faces) {
+    pair.share_of_faces = faces->share;
+    pair.corners = faces->count;
+  }
+  if (gap >= 0 && pair.corners == 0) {
     if (step > 0) {
       history.release_springs();
       // A normal that still proves the separation stays as it is, to the bit. So queries may be skipped while it does.

@@ -16,10 +16,11 @@ enum class PairState {
 /// The result for a pair.
 struct PairContact {
   PairState state = PairState::Apart;
-  Contact contact;             ///< undefined unless they touch
-  ContactForce force;          ///< on body 1
-  bool do_faces_meet = false;  ///< whether corners of faces share the force
-  int evaluations = 0;         ///< evaluations of the gap function
+  Contact contact;            ///< undefined unless they touch
+  ContactForce force;         ///< on body 1
+  double share_of_faces = 0;  ///< in [0, 1]: FaceContact::share
+  int corners = 0;            ///< the corners of faces that share the force
+  int evaluations = 0;        ///< evaluations of the gap function
 
   /// Torque about the centre of body 1, and of body 2, N m.
   Vector3 torque1() const { return contact.arm1.cross(force.force) + force.torque; }

@@ -158,6 +158,9 @@ void PairSupernormal::init_style() {
   if (comm->ghost_velocity == 0) error->all(FLERR, "pair_style supernormal takes: comm_modify vel yes");
   if (force->ftm2v != 1)
     error->all(FLERR, "pair_style supernormal takes units in which force is mass times acceleration: si, cgs, lj");
+  constexpr int kTiled = 1;
+  if (comm->style == kTiled && force->newton_pair != 0)
+    error->all(FLERR, "pair_style supernormal takes comm_style tiled with newton off only: histories of pairs go back from ghosts");
   if (atom->tag_enable == 0) error->all(FLERR, "pair_style supernormal takes atoms with tags");
   if (domain->dimension != 3)
     error->all(FLERR, fmt::format("pair_style supernormal: dimension = {} is outside [3, 3]", domain->dimension));
@@ -169,7 +172,7 @@ void PairSupernormal::init_style() {
   request_history(*neighbor, *this, instance_me);
   if (history_ == nullptr) {
     const std::string number = std::to_string(instance_me);
-    const std::string made = "SUPERNORMAL_HISTORY_" + number + " all NEIGH_HISTORY " + std::to_string(ContactHistory::kSize);
+    const std::string made = "SUPERNORMAL_HISTORY_" + number + " all SUPERNORMAL_HISTORY " + std::to_string(ContactHistory::kSize);
     history_ = dynamic_cast<FixNeighHistory*>(modify->replace_fix("SUPERNORMAL_PLACE_" + number, made, 1));
     history_->pair = this;
     report_volumes();
@@ -391,7 +394,7 @@ void PairSupernormal::count_and_apply(int i, int j, const PairContact& pair) {
   }
   sums_[Contacts] += part;
   sums_[Slipping] += pair.force.slips ? part : 0;
-  sums_[Faces] += pair.do_faces_meet ? part : 0;
+  sums_[Faces] += pair.corners > 0 ? part : 0;
   apply(i, j, pair);
 }
 
@@ -462,6 +465,12 @@ double PairSupernormal::single(int i, int j, int /*itype*/, int /*jtype*/, doubl
   singles_[9] = pair.contact.depth;
   singles_[10] = pair.force.normal;
   singles_[11] = pair.force.slips ? 1 : 0;
+  singles_[12] = pair.share_of_faces;
+  singles_[13] = pair.corners;
+  singles_[14] = pair.force.elastic;
+  singles_[15] = pair.force.normal - pair.force.elastic;
+  singles_[16] = pair.force.adhesion;
+  singles_[17] = (history.sliding - history.sliding.dot(history.normal) * history.normal).norm();
   force_over_distance = force_i.dot(Vector3::Map(atom->x[i]) - Vector3::Map(atom->x[j])) / square;
   return pair.force.energy;
 }

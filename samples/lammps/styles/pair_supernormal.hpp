@@ -56,7 +56,7 @@ class PairSupernormal : public LAMMPS_NS::Pair {
 
  private:
   enum Sum { Contacts, Slipping, Queries, Evaluations, Faces, SumCount };  // compute pair
-  static constexpr int kSingles = 12;                                      // compute pair/local
+  static constexpr int kSingles = 18;                                      // compute pair/local
 
   static void copy_history(const double* from, double* to) { std::copy_n(from, ContactHistory::kSize, to); }
   void allocate();
