@@ -39,6 +39,24 @@ TEST_CASE("two ellipsoids that overlap are fitted by two, and one by one") {
   CHECK(fit_union(scatter_union({truth[0]}, 250, 0, 1), 2, settings).size() == 1);
 }
 
+TEST_CASE("a union whose points hide a quarter of it is the whole union") {
+  const auto ellipsoid = [](const Vector3& position, const Vector3& half_axes) {
+    return Body{Family::Ellipsoid, position, Eigen::Quaterniond::Identity(), half_axes};
+  };
+  const std::vector<Body> truth = {ellipsoid({-4, 0, 0}, {9, 7, 6}), ellipsoid({8, 1, 0}, {6, 5, 4})};
+  Cloud seen;
+  for (const Vector3& x : scatter_union(truth, 500, 0.04, 1).points) {
+    if (x.dot(Vector3(0.5, 0.3, 0.81)) < 2) seen.points.push_back(x);
+  }
+  const std::vector<FittedBody> fitted = fit_union(seen, 2, {.family = Family::Ellipsoid});
+  REQUIRE(fitted.size() == 2);
+  CHECK_FALSE(fitted[0].is_bounded_by_data);
+  FitError error = find_error(std::vector{fitted[0].body, fitted[1].body}, {seen, {}, ""});
+  add_uncertainty(error, fitted);
+  CHECK(error.volume_error < 0.05 * error.body.volume);
+  CHECK(std::abs(error.body.volume - integrate_union(truth).solid.volume) < 3 * error.volume_error);
+}
+
 TEST_CASE("the six bodies of an animal end with its points") {
   const auto ball = [](const Vector3& position, const Vector3& half_axes) {
     return Body{Family::Ellipsoid, position, Eigen::Quaterniond::Identity(), half_axes};
@@ -96,6 +114,9 @@ TEST_CASE("the bound keeps a ball within the largest reach beyond a rounded cube
   CHECK(before > 1.5 * most);
   CHECK(after.reach < 1.02 * most);
   CHECK(fitted.bodies[0].body.half_axes.isApproxToConstant(1 + most, 0.01));
+  CHECK(fitted.bodies[0].is_bounded_by_data);
+  const Body cube{Family::Superellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Ones(), 3, 3};
+  CHECK_FALSE(refine_body(cube, cloud, settings).is_bounded_by_data);
 }
 
 TEST_CASE("a cube is fitted by one body, with and without noise") {

@@ -227,7 +227,7 @@ FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& clo
   fitted.uncertainty.covariance.middleCols<3>(kPosition) *= extent.size;
   fitted.uncertainty.standard_error.segment<3>(kLogAxes) *= extent.size;
   fitted.is_at_largest_size = descent.body.half_axes.maxCoeff() > 0.999 * settings.largest_over_radius * radius_of(cloud.points);
-  fitted.is_bounded_by_data = settings.empty.grid != nullptr;
+  fitted.is_bounded_by_data = settings.empty.grid != nullptr && !is_within_noise(fitted.uncertainty, 1);
   fitted.body = moved(descent.body, extent.size, extent.centre);
   return fitted;
 }
@@ -333,6 +333,10 @@ void require_three_dimensions(const Cloud& data) {
 }
 
 }  // namespace
+
+bool is_within_noise(const Uncertainty& uncertainty, double size) {
+  return !uncertainty.is_significant || uncertainty.sigma < kSharpestEdge * size;
+}
 
 std::size_t least_points(Family family) { return static_cast<std::size_t>(parameter_count(family)) + 1; }
 
@@ -447,8 +451,7 @@ FittedBody fit_kept(const Cloud& cloud, const FitSettings& settings) {
   if (settings.sides != Sides::All) {
     // Half of a body's surface determines the rest, but only if it is a body of the families.
     const FittedBody fitted = fit_normalized(data, extent, of_data);
-    const bool fits = !fitted.uncertainty.is_significant || fitted.uncertainty.sigma < kSharpestEdge * extent.size;
-    if (settings.sides == Sides::Some || fits) return fitted;
+    if (settings.sides == Sides::Some || is_within_noise(fitted.uncertainty, extent.size)) return fitted;
     if (settings.progress) settings.progress("no body fits within the noise: searching for one that ends with the data");
   }
   of_data.is_whole = true;

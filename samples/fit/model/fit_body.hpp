@@ -73,8 +73,13 @@ struct FittedBody {
   bool is_edge_below_noise = false;
   /// Whether a half-axis ended at its limit, several times the extent of the data.
   bool is_at_largest_size = false;
-  bool is_bounded_by_data = false;  ///< whether the body was kept from extending beyond the data (Sides)
+  /// Whether the body was kept from extending beyond the data (Sides). A body that fits within the noise is not: its hidden sides
+  /// follow from those that the data show.
+  bool is_bounded_by_data = false;
 };
+
+/// Whether a body fits data of the extent `size` within their noise.
+bool is_within_noise(const Uncertainty& uncertainty, double size);
 
 /// The smallest number of points for a family: one more than its parameters, for error bars.
 std::size_t least_points(Family family);

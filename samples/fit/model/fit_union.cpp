@@ -388,9 +388,7 @@ std::vector<Body> bodies_of(const std::vector<FittedBody>& fitted) {
 
 /// Whether each body fits its points within the noise. Then the data bound the union, as in fit_body().
 bool are_well_fitted(const std::vector<FittedBody>& fitted, double size) {
-  return std::ranges::all_of(fitted, [&](const FittedBody& each) {
-    return !each.uncertainty.is_significant || each.uncertainty.sigma < kSharpestEdge * size;
-  });
+  return std::ranges::all_of(fitted, [&](const FittedBody& each) { return is_within_noise(each.uncertainty, size); });
 }
 
 }  // namespace
@@ -431,6 +429,21 @@ Union bounded(std::vector<FittedBody> fitted, const Cloud& cloud, FitSettings se
 }
 
 namespace {
+
+/// The union without the bounds of the empty space, if it then fits within the noise. Half of a body's surface determines the rest,
+/// but which points are a body's is known only after the search, which no body without bounds would survive.
+std::optional<std::vector<FittedBody>> released(const Union& found, const Cloud& cloud, FitSettings settings) {
+  const Extent extent = extent_of(cloud.points);
+  settings.empty = {};
+  std::vector<Body> bodies = bodies_of(found.bodies);
+  for (Body& body : bodies) body = moved(body, 1 / extent.size, -extent.centre / extent.size);
+  const Cloud some = thinned(normalized(cloud, extent), 3000);
+  bodies = alternate(bodies, some, moved(settings, 1 / extent.size, -extent.centre / extent.size), Distance::Union, 20).bodies;
+  if (bodies.empty()) return std::nullopt;
+  for (Body& body : bodies) body = moved(body, extent.size, extent.centre);
+  std::vector<FittedBody> fitted = finish(bodies, cloud, settings);
+  return are_well_fitted(fitted, extent.size) ? std::optional(fitted) : std::nullopt;
+}
 
 std::vector<FittedBody> unite(const Cloud& cloud, int largest_count, const FitSettings& settings, const Progress& progress) {
   require_points(cloud, least_points(settings.family.value_or(Family::Ellipsoid)));
@@ -473,7 +486,8 @@ std::vector<FittedBody> unite(const Cloud& cloud, int largest_count, const FitSe
     if (tried.size() == 1 || other.excess < nearest.excess) nearest = other;
     if (nearest.excess.is_within()) break;
   }
-  return nearest.bodies;
+  const bool may_be_hidden = settings.sides == Sides::Auto && of_part.empty.grid && !settings.is_whole;
+  return may_be_hidden ? released(nearest, cloud, of_part).value_or(nearest.bodies) : nearest.bodies;
 }
 
 }  // namespace
