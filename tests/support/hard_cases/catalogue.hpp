@@ -35,16 +35,6 @@ HardCase moved(const HardCase& original, const Pose& motion);
 /// The case with lengths in units of `unit` m. Throws std::invalid_argument when a length leaves the range of its shape.
 HardCase scaled(const HardCase& original, double unit);
 
-/// A case, body 1 at the origin, with a normal that a search may miss.
-struct KnownNormal {
-  HardCase bodies;
-  Vector3 higher;    ///< unit; the gap is no smaller than the gap function here
-  double tolerance;  ///< of the search
-};
-
-/// Pairs whose highest normal is hard to find. hard_cases() does not have them.
-std::vector<KnownNormal> known_normals();
-
 /// An input that must be refused with std::invalid_argument.
 struct Refusal {
   std::string name;
