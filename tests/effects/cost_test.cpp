@@ -11,11 +11,9 @@ namespace {
 
 /// The rank of the wrenches of a contact about its point, over many states of motion. It equals the number of live rows.
 int live_rows(const std::vector<fx::Effect>& list) {
-  OdeSession session;
   std::vector<fx::Effect> with_gravity = list;
   with_gravity.emplace_back(earth());
-  EffectsWorld scene(with_gravity, kLongStep);
-  scene.world.add_plane();
+  OnPlane scene(with_gravity, kLongStep);
   const dBodyID ball = scene.add_ball(0.05, 1000, {0, 0, 0});
   Random random(9);
   Eigen::MatrixXd wrenches(6, 60);
@@ -45,10 +43,8 @@ unsigned long long rows_of(const fx::Effects& effects) {
 
 /// Lets a few bodies fall on one another and returns their velocities at the end.
 std::vector<double> tumble(const std::vector<fx::Effect>& list, const std::function<fx::Material(dGeomID)>& material_of) {
-  OdeSession session;
-  EffectsWorld scene(list, kLongStep);
+  OnPlane scene(list, kLongStep);
   scene.material_of = material_of;
-  scene.world.add_plane();
   std::vector<dBodyID> bodies;
   Random random(4);
   for (int i = 0; i < 4; ++i) {
@@ -122,7 +118,6 @@ TEST_CASE("contacts for a stepper keep their gaps and the whole circle of fricti
 }
 
 TEST_CASE("a list without forces visits no body and stores none") {
-  OdeSession session;
   EffectsWorld scene({earth(), fx::Friction{0.5, {}}, fx::Damping{1, 1}, fx::SurfaceLayer{1e-4}}, kLongStep);
   CHECK_FALSE(scene.effects.visits_bodies());
   scene.effects.add_body(nullptr);  // it is not read

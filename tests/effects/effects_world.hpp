@@ -1,4 +1,4 @@
-// A world with effects, stepped as in a program.
+// A session of ODE, and a world with effects, stepped as in a program.
 #pragma once
 
 #include <deque>
@@ -28,6 +28,8 @@ struct Load {
 };
 
 class EffectsWorld {
+  OdeSession session_;  // outlives the world
+
  public:
   static constexpr int kRoom = 8;
 
@@ -53,8 +55,12 @@ class EffectsWorld {
     effects.add_body(body);
     return body;
   }
-  dBodyID add_ball(double radius, double density, const Vec& at) {
-    return add(snCreateEllipsoid(world.space(), dReal(radius), dReal(radius), dReal(radius)), density, at);
+  dBodyID add_ball(double radius, double density, const Vec& at) { return add_body({radius, radius, radius}, 2, density, at); }
+  /// A superellipsoid with equal exponents.
+  dBodyID add_body(const Vec& half_axes, double exponent, double density, const Vec& at) {
+    const auto a = dReal(half_axes[0]), b = dReal(half_axes[1]), c = dReal(half_axes[2]), e = dReal(exponent);
+    return add(exponent == 2 ? snCreateEllipsoid(world.space(), a, b, c) : snCreateSuperellipsoid(world.space(), a, b, c, e, e),
+               density, at);
   }
 
   void step() {
@@ -143,6 +149,24 @@ class EffectsWorld {
   dJointGroupID joints_;
   std::deque<Attached> feedback_;  // ODE keeps pointers to its elements
 };
+
+/// A world with the plane z = 0.
+struct OnPlane : EffectsWorld {
+  OnPlane(const std::vector<fx::Effect>& list, double step) : EffectsWorld(list, step) { world.add_plane(); }
+};
+
+/// Gives the body a velocity before a step, which its look-ahead has to know.
+inline void throw_body(dBodyID body, const Vec& velocity) {
+  dBodySetLinearVel(body, dReal(velocity[0]), dReal(velocity[1]), dReal(velocity[2]));
+  dGeomMoved(dBodyGetFirstGeom(body));
+}
+
+/// The sum of a quantity of bodies.
+inline double sum_of(const std::vector<dBodyID>& bodies, double (*quantity)(dBodyID)) {
+  double sum = 0;
+  for (const dBodyID body : bodies) sum += quantity(body);
+  return sum;
+}
 
 inline fx::Cost cost_of(const fx::Effects& effects, const std::string& name) {
   for (const fx::Cost& cost : effects.costs()) {

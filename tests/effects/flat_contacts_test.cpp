@@ -90,7 +90,6 @@ class Ball {
 }  // namespace
 
 TEST_CASE("adhesion acts in the middle of a flat contact, at any tilt within the depth, with any collider") {
-  OdeSession session;
   EffectsWorld scene({fx::Adhesion{kPullOff, {}}}, kLongStep);
   const dSpaceID space = scene.world.space();
   const std::array grounds = {dCreatePlane(space, 0, 0, 1, 0), dCreateBox(space, 1, 1, 1),
@@ -121,9 +120,7 @@ TEST_CASE("adhesion acts in the middle of a flat contact, at any tilt within the
 }
 
 TEST_CASE("adhesion of a body that stands on an edge acts at the edge") {
-  OdeSession session;
-  EffectsWorld scene({fx::Adhesion{kPullOff, {}}}, kLongStep);
-  scene.world.add_plane();
+  OnPlane scene({fx::Adhesion{kPullOff, {}}}, kLongStep);
   const dGeomID ground = dSpaceGetGeom(scene.world.space(), 0);
   for (const dGeomID geom : {snCreateSuperellipsoid(scene.world.space(), dReal(0.02), dReal(0.02), dReal(0.02), 60, 60),
                              dCreateBox(scene.world.space(), dReal(0.04), dReal(0.04), dReal(0.04))}) {
@@ -245,7 +242,6 @@ class Valley {
 }  // namespace
 
 TEST_CASE("each slope of a mesh sticks once, at any number of triangles and order of contacts") {
-  OdeSession session;
   EffectsWorld scene({fx::Adhesion{kPullOff, {}}}, kLongStep);
   const Valley valley(scene.world.space());
   const dGeomID brick = snCreateSuperellipsoid(scene.world.space(), dReal(0.05), dReal(0.05), dReal(0.05), 60, 60);

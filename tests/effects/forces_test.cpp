@@ -22,13 +22,11 @@ TEST_CASE("the terminal velocity under quadratic drag has the projected area of 
   const double b = 0.02;
   const double c = 0.01;
   const double mass = 1000 * 4.0 / 3 * std::numbers::pi * a * b * c;
-  OdeSession session;
   EffectsWorld scene({earth(), fx::QuadraticDrag{density, coefficient}}, 0.02);
-  const dBodyID flat = scene.add(snCreateEllipsoid(scene.world.space(), dReal(a), dReal(b), dReal(c)), 1000, {0, 0, 0});
-  const dBodyID tall = scene.add(snCreateEllipsoid(scene.world.space(), dReal(a), dReal(b), dReal(c)), 1000, {1, 0, 0});
+  const dBodyID flat = scene.add_body({a, b, c}, 2, 1000, {0, 0, 0});
+  const dBodyID tall = scene.add_body({a, b, c}, 2, 1000, {1, 0, 0});
   turn(tall, {0, 1, 0}, 90 * kDegree);
-  const dBodyID box =
-      scene.add(snCreateSuperellipsoid(scene.world.space(), dReal(a), dReal(b), dReal(c), 400, 400), 1000, {2, 0, 0});
+  const dBodyID box = scene.add_body({a, b, c}, 400, 1000, {2, 0, 0});
   const auto terminal = [&](double m, double area) { return std::sqrt(2 * m * kGravity / (density * coefficient * area)); };
   scene.run_until(40);
   CHECK(-dBodyGetLinearVel(flat)[2] == relative(terminal(mass, std::numbers::pi * a * b)).epsilon(1e-3));
@@ -39,7 +37,6 @@ TEST_CASE("the terminal velocity under quadratic drag has the projected area of 
 TEST_CASE("the terminal velocity under Stokes drag is right, also in a thick fluid at a long step") {
   const double radius = 1e-3;
   for (const double viscosity : {1.0, 1e4}) {  // the second value stops a ball within a millionth of the step
-    OdeSession session;
     EffectsWorld scene({earth(), fx::StokesDrag{viscosity}}, kLongStep);
     const dBodyID ball = scene.add_ball(radius, 2500, {0, 0, 0});
     dBodySetLinearVel(ball, 1, 0, 0);
@@ -76,10 +73,8 @@ TEST_CASE("the Stokes drag of spheroids is within 4 % of Oberbeck's at aspect ra
   for (const Spheroid& s : spheroids) {
     CAPTURE(s.aspect);
     CAPTURE(s.along);
-    OdeSession session;
     EffectsWorld scene({earth(), fx::StokesDrag{10}}, kLongStep);
-    const dGeomID geom = snCreateEllipsoid(scene.world.space(), dReal(radius), dReal(radius), dReal(radius * s.aspect));
-    const dBodyID body = scene.add(geom, 2500, {0, 0, 0});
+    const dBodyID body = scene.add_body({radius, radius, radius * s.aspect}, 2, 2500, {0, 0, 0});
     if (!s.along) turn(body, {1, 0, 0}, 90 * kDegree);
     const double drag = mass_of(body) * kGravity / falling_speed(scene, body, 0.1);
     CHECK(drag / (6 * std::numbers::pi * 10 * radius) == relative(s.ratio).epsilon(s.aspect == 2 || s.aspect == 0.5 ? 0.04 : 0.1));
@@ -97,11 +92,9 @@ TEST_CASE("an ellipsoid floats at the depth of its density") {
       const double t = 0.5 * (low + high);
       (3 * t * t - 2 * t * t * t < ratio ? low : high) = t;
     }
-    OdeSession session;
     const double level = 0.4;
     EffectsWorld scene({earth(), fx::Buoyancy{1000, level}, fx::Damping{5, 5}}, 2e-3);
-    const dBodyID body =
-        scene.add(snCreateEllipsoid(scene.world.space(), dReal(0.06), dReal(0.05), dReal(c)), 1000 * ratio, {0, 0, level + 0.05});
+    const dBodyID body = scene.add_body({0.06, 0.05, c}, 2, 1000 * ratio, {0, 0, level + 0.05});
     turn(body, {1, 1, 0}, 20 * kDegree);  // it rights itself
     scene.run_until(6);
     const double draught = level - (dBodyGetPosition(body)[2] - c);
@@ -111,10 +104,8 @@ TEST_CASE("an ellipsoid floats at the depth of its density") {
 }
 
 TEST_CASE("a submerged body weighs less by the displaced fluid, and a body above it has its whole weight") {
-  OdeSession session;
   EffectsWorld scene({earth(), fx::Buoyancy{1000, 0}}, kLongStep);
-  const dBodyID under =
-      scene.add(snCreateSuperellipsoid(scene.world.space(), dReal(0.1), dReal(0.1), dReal(0.1), 6, 6), 4000, {0, 0, -1});
+  const dBodyID under = scene.add_body({0.1, 0.1, 0.1}, 6, 4000, {0, 0, -1});
   const dBodyID above = scene.add_ball(0.1, 4000, {1, 0, 5});
   scene.step();
   CHECK(dBodyGetLinearVel(under)[2] == relative(-0.75 * kGravity * kLongStep).epsilon(1e-6));
@@ -123,7 +114,6 @@ TEST_CASE("a submerged body weighs less by the displaced fluid, and a body above
 
 TEST_CASE("damped velocities decay exponentially at any step") {
   for (const double step : {1e-3, 0.05}) {
-    OdeSession session;
     EffectsWorld scene({fx::Damping{2, 3}}, step);
     const dBodyID ball = scene.add_ball(0.1, 1000, {0, 0, 0});
     dBodySetLinearVel(ball, 1, 0, 0);
@@ -148,9 +138,7 @@ TEST_CASE("adhesion holds against a pull below the pull-off force and not above"
         CAPTURE(sticky.exponent);
         CAPTURE(part);
         CAPTURE(start);
-        OdeSession session;
-        EffectsWorld scene({earth(), fx::Adhesion{pull_off, {}}, sticky.contact}, kLongStep);
-        scene.world.add_plane();
+        OnPlane scene({earth(), fx::Adhesion{pull_off, {}}, sticky.contact}, kLongStep);
         const auto e = dReal(sticky.exponent);
         const dGeomID geom = snCreateSuperellipsoid(scene.world.space(), dReal(0.02), dReal(0.02), dReal(0.02), e, e);
         const dBodyID body = scene.add(geom, 1000, {0, 0, 0.02 + 1e-9 * start});
@@ -170,11 +158,8 @@ TEST_CASE("adhesion holds against a pull below the pull-off force and not above"
 TEST_CASE("adhesion adds to the normal force of friction") {
   // The body sticks to a wall. Its weight hangs on mu times the adhesion.
   for (const double part : {0.95, 1.05}) {
-    OdeSession session;
-    EffectsWorld scene({fx::Friction{0.5, {}}, fx::Adhesion{4, {}}}, kLongStep);
-    scene.world.add_plane();
-    const dBodyID body =
-        scene.add(snCreateSuperellipsoid(scene.world.space(), dReal(0.02), dReal(0.02), dReal(0.02), 20, 20), 1000, {0, 0, 0.02});
+    OnPlane scene({fx::Friction{0.5, {}}, fx::Adhesion{4, {}}}, kLongStep);
+    const dBodyID body = scene.add_body({0.02, 0.02, 0.02}, 20, 1000, {0, 0, 0.02});
     scene.run_until(0.1);
     scene.run_until(0.5, [&] {
       dBodyAddForceAtRelPos(body, dReal(part * 0.5 * 4), 0, 0, 0, 0, dReal(-0.02));

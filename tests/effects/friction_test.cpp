@@ -12,10 +12,7 @@ constexpr double kSpeed = 1;  // m/s
 constexpr double kHeight = 0.02;
 
 /// Adds a puck that slides flat: it neither tips nor rolls.
-dBodyID add_puck(EffectsWorld& scene) {
-  return scene.add(snCreateSuperellipsoid(scene.world.space(), dReal(0.1), dReal(0.1), dReal(kHeight), 20, 20), 1000,
-                   {0, 0, kHeight});
-}
+dBodyID add_puck(EffectsWorld& scene) { return scene.add_body({0.1, 0.1, kHeight}, 20, 1000, {0, 0, kHeight}); }
 
 /// Lets the puck lie, then pushes it in a direction, and returns its position when it has stopped.
 Vec slide(EffectsWorld& scene, dBodyID puck, double angle) {
@@ -45,9 +42,7 @@ TEST_CASE("a puck slides straight by v^2 / (2 mu g) in every direction") {
     for (const double angle : {0.0, 0.4, 45 * kDegree, 2.0}) {
       CAPTURE(coefficient);
       CAPTURE(angle);
-      OdeSession session;
-      EffectsWorld scene({earth(), fx::Friction{coefficient, {}}}, kStep);
-      scene.world.add_plane();
+      OnPlane scene({earth(), fx::Friction{coefficient, {}}}, kStep);
       const Vec way = slide(scene, add_puck(scene), angle);
       CHECK(std::hypot(way[0], way[1]) == relative(kSpeed * kSpeed / (2 * coefficient * kGravity)).epsilon(0.01));
       CHECK(std::abs(std::remainder(heading_of(way) - angle, 2 * std::numbers::pi)) < 0.02);
@@ -61,13 +56,11 @@ TEST_CASE("on an incline a puck stays up to the angle of friction and slides abo
   for (const double beyond : {-0.3 * kDegree, 0.3 * kDegree}) {
     for (const double turn : {0.0, 30 * kDegree}) {
       CAPTURE(beyond);
-      OdeSession session;
       const double angle = limit + beyond;
       // Gravity is tilted instead of the plane, so the incline can have any direction.
       const double across = kGravity * std::sin(angle);
       const fx::Gravity leaning{{across * std::cos(turn), across * std::sin(turn), -kGravity * std::cos(angle)}};
-      EffectsWorld scene({leaning, fx::Friction{coefficient, {}}}, kStep);
-      scene.world.add_plane();
+      OnPlane scene({leaning, fx::Friction{coefficient, {}}}, kStep);
       const dBodyID puck = add_puck(scene);
       scene.run_until(1);
       const double speed = norm(to_vec(dBodyGetLinearVel(puck)));
@@ -90,11 +83,9 @@ TEST_CASE("no friction force exceeds Coulomb's cone") {
   };
   for (const Case& c : {Case{4, 1e-6}, Case{8, 1e-5}}) {
     CAPTURE(c.exponent);
-    OdeSession session;
     const double coefficient = 0.4;
-    EffectsWorld scene({earth(), fx::Friction{coefficient, {}}}, kStep);
+    OnPlane scene({earth(), fx::Friction{coefficient, {}}}, kStep);
     dWorldSetQuickStepNumIterations(scene.id(), 400);
-    scene.world.add_plane();
     Random random(5);
     for (int i = 0; i < 8; ++i) {
       const dGeomID geom =
@@ -129,10 +120,8 @@ TEST_CASE("materials combine by the geometric mean, unless the pair is listed") 
       {{earth(), fx::Friction{0.2, fx::MaterialSelector::of(1)}}, 0},
   };
   for (const Case& c : cases) {
-    OdeSession session;
-    EffectsWorld scene(c.list, kStep);
+    OnPlane scene(c.list, kStep);
     scene.material_of = [](dGeomID geom) { return dGeomGetBody(geom) != nullptr ? 1 : 2; };
-    scene.world.add_plane();
     const dBodyID puck = add_puck(scene);
     scene.run_until(0.05);
     dBodySetLinearVel(puck, dReal(kSpeed), 0, 0);
@@ -148,10 +137,8 @@ TEST_CASE("anisotropic friction has its coefficient along each axis, and the mos
   const fx::AnisotropicFriction grain{along, across, {1, 1, 0}, {}};
   for (const double turn : {0.0, 0.7}) {  // angle of the puck and of its axes of friction
     CAPTURE(turn);
-    OdeSession session;
-    EffectsWorld scene({earth(), grain}, kStep);
+    OnPlane scene({earth(), grain}, kStep);
     dWorldSetQuickStepNumIterations(scene.id(), 200);  // the loads of four contacts of one face are redundant
-    scene.world.add_plane();
     const dBodyID puck = add_puck(scene);
     const double axes_angle = 45 * kDegree + turn;
     const auto decelerate = [&](double angle) {

@@ -81,10 +81,8 @@ class Cuboid {
 
 TEST_CASE("a ball that falls from h bounces to e^2 h") {
   for (const double e : {0.5, 0.9}) {
-    OdeSession session;
     const double height = 0.5;
-    EffectsWorld scene({earth(), fx::Restitution{e, 0.05, {}}}, 1e-4);
-    scene.world.add_plane();
+    OnPlane scene({earth(), fx::Restitution{e, 0.05, {}}}, 1e-4);
     const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, kRadius + height});
     const auto velocity = [&] { return double{dBodyGetLinearVel(ball)[2]}; };
     double top = height;
@@ -99,9 +97,7 @@ TEST_CASE("a ball that falls from h bounces to e^2 h") {
 }
 
 TEST_CASE("a body slower than the threshold does not bounce") {
-  OdeSession session;
-  EffectsWorld scene({fx::Restitution{0.8, 0.2, {}}}, 1e-3);
-  scene.world.add_plane();
+  OnPlane scene({fx::Restitution{0.8, 0.2, {}}}, 1e-3);
   const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, kRadius});
   dBodySetLinearVel(ball, 0, 0, dReal(-0.19));
   scene.run_until(0.01);
@@ -116,9 +112,7 @@ TEST_CASE("energy never grows at restitution up to 1") {
   // In free flight ODE's steps keep v^2/2 + g z up to a term that depends on the velocity alone. So energies are compared after
   // whole bounces.
   for (const double e : {0.7, 1.0}) {
-    OdeSession session;
-    EffectsWorld scene({earth(), fx::Restitution{e, 0, {}}}, 5e-4);
-    scene.world.add_plane();
+    OnPlane scene({earth(), fx::Restitution{e, 0, {}}}, 5e-4);
     Random random(3);
     const dGeomID geom = snCreateEllipsoid(scene.world.space(), dReal(0.05), dReal(0.04), dReal(0.02));
     random.turn(geom);
@@ -142,9 +136,7 @@ TEST_CASE("a spring and damper give the contact time, overlap and rebound of the
   for (const double ratio : {0.0, 0.1, 0.3}) {  // relative to the critical damping
     CAPTURE(ratio);
     const double step = std::numbers::pi / w / 100;
-    OdeSession session;
-    EffectsWorld scene({fx::Compliance{k, 2 * ratio * mass * w, {}}}, step);
-    scene.world.add_plane();
+    OnPlane scene({fx::Compliance{k, 2 * ratio * mass * w, {}}}, step);
     const Impact found = impact(scene, scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 1e-5}), v, step);
     // The contact lasts until the force vanishes (Schwager and Poeschel, Granular Matter 9, 2007).
     const double beta = ratio * w;
@@ -180,10 +172,8 @@ TEST_CASE("springs of two materials are in series, also of equal materials; a li
   const double mass = kDensity * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3);
   const double step = std::numbers::pi / std::sqrt(k / mass) / 100;
   for (const Case& c : cases) {
-    OdeSession session;
-    EffectsWorld scene(c.list, step);
+    OnPlane scene(c.list, step);
     scene.material_of = [&](dGeomID geom) { return dGeomGetBody(geom) != nullptr ? 1 : c.of_plane; };
-    scene.world.add_plane();
     const Impact found = impact(scene, scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 1e-5}), v, step);
     CHECK(found.overlap == relative(v / std::sqrt(c.stiffness / mass)).epsilon(0.005));
   }
@@ -196,10 +186,8 @@ TEST_CASE("Hertz: a ball on a plane has the contact time and overlap of the clos
   for (const double steps : {200.0, 25.0}) {  // the contact lasts this many steps
     CAPTURE(steps);
     const double step = hertz_time(mass, k, v) / steps;
-    OdeSession session;
-    EffectsWorld scene({fx::Hertz{kModulus, kPoisson, 1, fx::MaterialSelector::of(1)}}, step);
+    OnPlane scene({fx::Hertz{kModulus, kPoisson, 1, fx::MaterialSelector::of(1)}}, step);
     scene.material_of = [](dGeomID geom) { return dGeomGetBody(geom) != nullptr ? 1 : 0; };
-    scene.world.add_plane();
     const Impact found = impact(scene, scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 0.3 * v * step}), v, step);
     CHECK(found.overlap == relative(hertz_overlap(mass, k, v)).epsilon(0.01));
     CHECK(std::abs(found.time - hertz_time(mass, k, v)) < 0.01 * hertz_time(mass, k, v) + step);
@@ -220,17 +208,14 @@ TEST_CASE("Hertz: an ellipsoid on a plane and two balls have the force of the ex
   const double k = 4.0 / 3 * kStar * std::sqrt(a * b / c) * std::pow(correction, -1.5);  // radii a^2/c, b^2/c
   const double step = hertz_time(mass, k, v) / 100;
   {
-    OdeSession session;
     EffectsWorld scene({fx::Hertz{2 * kModulus, kPoisson, 1, {}}}, step);  // two materials of twice the modulus
     scene.world.add_plane();
-    const dGeomID geom = snCreateEllipsoid(scene.world.space(), dReal(a), dReal(b), dReal(c));
-    const Impact found = impact(scene, scene.add(geom, kDensity, {0, 0, c + 1e-6}), v, step);
+    const Impact found = impact(scene, scene.add_body({a, b, c}, 2, kDensity, {0, 0, c + 1e-6}), v, step);
     CHECK(found.overlap == relative(hertz_overlap(mass, k, v)).epsilon(0.005));
     CHECK(found.time == relative(hertz_time(mass, k, v)).epsilon(0.02));
     CHECK(found.out == relative(v).epsilon(0.01));
   }
   {
-    OdeSession session;
     const double ball_mass = kDensity * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3);
     const double pair_k = 4.0 / 3 * kStar * std::sqrt(kRadius / 2);
     EffectsWorld scene({fx::Hertz{2 * kModulus, kPoisson, 1, {}}}, step);
@@ -252,9 +237,7 @@ TEST_CASE("Hertz: a flat body sinks as a punch as wide as the mean of its half-e
     for (const double heading : {0.0, 0.7853981633974483}) {
       CAPTURE(kind);
       CAPTURE(heading);
-      OdeSession session;
-      EffectsWorld scene({earth(), fx::Hertz{2 * kModulus, kPoisson, 0.3, {}}}, kStep);
-      scene.world.add_plane();
+      OnPlane scene({earth(), fx::Hertz{2 * kModulus, kPoisson, 0.3, {}}}, kStep);
       dMass inertia;
       dMassSetBoxTotal(&inertia, dReal(mass), dReal(2 * half[0]), dReal(2 * half[1]), dReal(2 * half[2]));
       const dBodyID body = scene.world.add(cuboid.create(kind, scene.world.space()), inertia);
@@ -274,9 +257,7 @@ TEST_CASE("Hertz: an impact rebounds with the given restitution at every velocit
       CAPTURE(v);
       const double mass = kDensity * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3);
       const double step = hertz_time(mass, 4.0 / 3 * kStar * std::sqrt(kRadius), v) / 200;
-      OdeSession session;
-      EffectsWorld scene({fx::Hertz{2 * kModulus, kPoisson, e, {}}}, step);
-      scene.world.add_plane();
+      OnPlane scene({fx::Hertz{2 * kModulus, kPoisson, e, {}}}, step);
       const Impact found = impact(scene, scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 0.1 * v * step}), v, step);
       CHECK(found.out == relative(e * v).epsilon(0.02));
     }
@@ -284,9 +265,7 @@ TEST_CASE("Hertz: an impact rebounds with the given restitution at every velocit
 }
 
 TEST_CASE("a compliant contact that is too stiff for the step is counted and gains no energy") {
-  OdeSession session;
-  EffectsWorld scene({earth(), fx::Compliance{1e9, 0, {}}}, 1e-3);
-  scene.world.add_plane();
+  OnPlane scene({earth(), fx::Compliance{1e9, 0, {}}}, 1e-3);
   const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, 0.1});
   const double start = energy(ball);
   double most = 0;
@@ -299,12 +278,9 @@ TEST_CASE("a compliant contact that is too stiff for the step is counted and gai
 }
 
 TEST_CASE("a flat body rests on springs at the depth where they carry its weight") {
-  OdeSession session;
   const double k = 1e5;
-  EffectsWorld scene({earth(), fx::Friction{0.5, {}}, fx::Compliance{k, 300, {}}}, 5e-4);
-  scene.world.add_plane();
-  const dGeomID geom = snCreateSuperellipsoid(scene.world.space(), dReal(0.1), dReal(0.07), dReal(0.05), 8, 8);
-  const dBodyID body = scene.add(geom, 1000, {0, 0, 0.055});
+  OnPlane scene({earth(), fx::Friction{0.5, {}}, fx::Compliance{k, 300, {}}}, 5e-4);
+  const dBodyID body = scene.add_body({0.1, 0.07, 0.05}, 8, 1000, {0, 0, 0.055});
   turn(body, {1, 0.5, 0}, 2 * kDegree);
   scene.run_until(3);
   CHECK(scene.depth == relative(mass_of(body) * kGravity / k).epsilon(0.02));

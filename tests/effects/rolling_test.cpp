@@ -17,11 +17,9 @@ TEST_CASE("a ball rolls by (7/10) v^2 R / (g rho) in every direction") {
     const double angle = both.first, step = both.second;
     CAPTURE(angle);
     CAPTURE(step);
-    OdeSession session;
     std::vector<fx::Effect> list = {earth(), fx::Friction{0.5, {}}, fx::RollingResistance{rho, 0, {}}};
     if (step > kStep) list.emplace_back(fx::SpeculativeContacts{});
-    EffectsWorld scene(list, step);
-    scene.world.add_plane();
+    OnPlane scene(list, step);
     const dBodyID ball = scene.add_ball(kBallRadius, 1000, {0, 0, kBallRadius});
     scene.run_until(0.05);
     const Vec start = to_vec(dBodyGetPosition(ball));
@@ -41,12 +39,10 @@ TEST_CASE("a ball rests on an incline up to tan = rho / R in every direction") {
     for (const double turn : {0.0, 0.3}) {
       CAPTURE(part);
       CAPTURE(turn);
-      OdeSession session;
       const double angle = std::atan(part * rho / kBallRadius);
       const double across = kGravity * std::sin(angle);
       const fx::Gravity leaning{{across * std::cos(turn), across * std::sin(turn), -kGravity * std::cos(angle)}};
-      EffectsWorld scene({leaning, fx::Friction{0.5, {}}, fx::RollingResistance{rho, 0, {}}}, kStep);
-      scene.world.add_plane();
+      OnPlane scene({leaning, fx::Friction{0.5, {}}, fx::RollingResistance{rho, 0, {}}}, kStep);
       const dBodyID ball = scene.add_ball(kBallRadius, 1000, {0, 0, kBallRadius});
       scene.run_until(1);
       const double speed = norm(to_vec(dBodyGetLinearVel(ball)));
@@ -60,11 +56,9 @@ TEST_CASE("a spinning ball stops after (2/5) R^2 w / (g rho)") {
   const double rho = 1e-3;
   const double spin = 20;
   for (const bool rough : {true, false}) {
-    OdeSession session;
     std::vector<fx::Effect> list = {earth(), fx::RollingResistance{0, rho, {}}};
     if (rough) list.emplace_back(fx::Friction{0.5, {}});
-    EffectsWorld scene(list, kStep);
-    scene.world.add_plane();
+    OnPlane scene(list, kStep);
     const dBodyID ball = scene.add_ball(kBallRadius, 1000, {0, 0, kBallRadius});
     scene.run_until(0.05);
     dBodySetAngularVel(ball, 0, 0, dReal(spin));

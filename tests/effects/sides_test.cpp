@@ -26,7 +26,6 @@ void step(EffectsWorld& scene, dBodyID belt) {
 
 /// The velocity of a ball after it has hit a plane that moves towards it.
 double rebound(const std::vector<fx::Effect>& effects, double approach, double rise) {
-  OdeSession session;
   EffectsWorld scene(effects, kStep / 10);
   const dBodyID wall = add_belt(scene, {0, 0, rise});
   const dBodyID ball = scene.add_ball(kBallRadius, 1000, {0, 0, kBallRadius + 1e-3});
@@ -43,11 +42,9 @@ double rebound(const std::vector<fx::Effect>& effects, double approach, double r
 TEST_CASE("a puck on a belt has its velocity after v / (mu g), and a wall without velocity does not carry it") {
   constexpr double kSpeed = 0.5;
   for (const double mu : {0.2, 0.5}) {
-    OdeSession session;
     EffectsWorld scene({earth(), fx::Friction{mu, {}}}, kStep);
     const dBodyID belt = add_belt(scene, {kSpeed, 0, 0});
-    const dBodyID puck =
-        scene.add(snCreateSuperellipsoid(scene.world.space(), dReal(0.1), dReal(0.1), dReal(0.02), 20, 20), 1000, {0, 0, 0.02});
+    const dBodyID puck = scene.add_body({0.1, 0.1, 0.02}, 20, 1000, {0, 0, 0.02});
     double time = 0;
     while (dBodyGetLinearVel(puck)[0] < 0.999 * kSpeed && time < 2) {
       step(scene, belt);
@@ -62,7 +59,6 @@ TEST_CASE("a puck on a belt has its velocity after v / (mu g), and a wall withou
 TEST_CASE("a ball on a belt ends rolling at 2/7 of the belt's velocity") {
   for (const double length : {kStep, 1e-3, 1e-2, 5e-2}) {  // s; the long steps with contacts before overlap
     CAPTURE(length);
-    OdeSession session;
     std::vector<fx::Effect> list = {earth(), fx::Friction{0.3, {}}};
     if (length > kStep) list.emplace_back(fx::SpeculativeContacts{});
     EffectsWorld scene(list, length);
@@ -76,7 +72,6 @@ TEST_CASE("a ball on a belt ends rolling at 2/7 of the belt's velocity") {
 }
 
 TEST_CASE("spinning resistance sets a ball at the axis of a turntable spinning") {
-  OdeSession session;
   EffectsWorld scene({earth(), fx::Friction{0.3, {}}, fx::RollingResistance{0, 1e-3, {}}}, kStep);
   const dBodyID table = add_belt(scene, {0, 0, 0}, {0, 0, 3});
   const dBodyID ball = scene.add_ball(kBallRadius, 1000, {0, 0, kBallRadius});
@@ -100,7 +95,6 @@ TEST_CASE("restitution applies to the velocity relative to the wall") {
 }
 
 TEST_CASE("sides with the bodies of the geoms give the same contacts as materials alone") {
-  OdeSession session;
   EffectsWorld scene({earth(), fx::Friction{0.3, {}}, fx::RollingResistance{1e-3, 1e-3, {}}, fx::Hertz{1e7, 0.3, 0.6, {}}}, kStep);
   const dBodyID ball = scene.add_ball(kBallRadius, 1000, {0, 0, 0});
   const dBodyID other = scene.add_ball(kBallRadius, 1000, {0.06, 0.07, 0});

@@ -28,9 +28,7 @@ std::vector<dReal> state_of(dBodyID body) {
 
 /// A ball that falls onto a plane, step by step.
 std::vector<std::vector<dReal>> falling_ball(const std::vector<fx::Effect>& list, double step, double look_ahead = 0) {
-  OdeSession session;
-  EffectsWorld scene(list, step);
-  scene.world.add_plane();
+  OnPlane scene(list, step);
   const dGeomID geom = snCreateEllipsoid(scene.world.space(), dReal(kRadius), dReal(kRadius), dReal(kRadius));
   const dBodyID ball = scene.add(geom, kDensity, {0, 0, 0.05});
   if (look_ahead > 0) REQUIRE(snGeomSetLookAhead(geom, dReal(look_ahead)) == 1);
@@ -51,9 +49,7 @@ TEST_CASE("speculative contacts: a ball bounces to e^2 h at steps of 1 to 20 ms"
         CAPTURE(e);
         CAPTURE(step);
         CAPTURE(height);
-        OdeSession session;
-        EffectsWorld scene({earth(), fx::Restitution{e, 0.05, {}}, fx::SpeculativeContacts{}}, step);
-        scene.world.add_plane();
+        OnPlane scene({earth(), fx::Restitution{e, 0.05, {}}, fx::SpeculativeContacts{}}, step);
         const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, kRadius + height});
         double top = height;
         // A step of this length cannot resolve a flight of fewer than five steps.
@@ -77,13 +73,11 @@ TEST_CASE("speculative contacts: a fast body leaves a wall with e times its velo
         CAPTURE(speed);
         CAPTURE(step);
         CAPTURE(part);
-        OdeSession session;
         EffectsWorld scene({fx::Restitution{0.6, 0, {}}, fx::MaxCorrectingVelocity{0.05}, fx::SpeculativeContacts{}}, step);
         dWorldSetCFM(scene.id(), 0);
         place(dCreateBox(scene.world.space(), 1, 1, dReal(0.01)), {0, 0, -0.005});
         const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, kRadius + part * step * speed});
-        dBodySetLinearVel(ball, 0, 0, dReal(-speed));
-        dGeomMoved(dBodyGetFirstGeom(ball));
+        throw_body(ball, {0, 0, -speed});
         scene.step();
         CHECK(speed_up(ball) == relative(0.6 * speed).epsilon(within_rounding(1e-9, 100)));
         CHECK(height_of(ball) == relative(kRadius + 0.6 * speed * step).epsilon(within_rounding(1e-6, 10)));
@@ -96,7 +90,6 @@ TEST_CASE("speculative contacts: two bodies part with e times their approach vel
   Random random(5);
   for (int pair = 0; pair < 100; ++pair) {
     CAPTURE(pair);
-    OdeSession session;
     const double step = random.uniform(1e-3, 20e-3);
     const double e = random.uniform(0.2, 1);
     EffectsWorld scene({fx::Restitution{e, 0, {}}, fx::SpeculativeContacts{}}, step);
@@ -127,7 +120,6 @@ namespace {
 /// Balls in a row that rest, and one that comes from below at 1 m/s, with all gaps alike. `order`: of their creation, and so of the
 /// pairs.
 std::vector<double> cradle(double gap, double step, double e, std::vector<int> order, bool has_wall = false) {
-  OdeSession session;
   EffectsWorld scene({fx::Restitution{e, 0, {}}, fx::SpeculativeContacts{}}, step);
   dWorldSetQuickStepNumIterations(scene.id(), 60);
   const double pitch = 2 * kRadius + gap;
@@ -171,15 +163,12 @@ TEST_CASE("speculative contacts: Newton's cradle passes the velocity on, whateve
 }
 
 TEST_CASE("speculative contacts: the forces of a chain of impacts are those that the program measures") {
-  OdeSession session;
   const double step = 5e-3;
-  EffectsWorld scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, step);
+  OnPlane scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, step);
   dWorldSetQuickStepNumIterations(scene.id(), 60);
-  scene.world.add_plane();
   const dBodyID low = scene.add_ball(kRadius, kDensity, {0, 0, kRadius});
   const dBodyID high = scene.add_ball(kRadius, kDensity, {0, 0, 3 * kRadius + 2e-3});
-  dBodySetLinearVel(high, 0, 0, -1);
-  dGeomMoved(dBodyGetFirstGeom(high));
+  throw_body(high, {0, 0, -1});
   scene.step();
   CHECK(speed_up(high) == relative(1).epsilon(1e-3));
   double from_plane = 0;
@@ -196,7 +185,6 @@ TEST_CASE("speculative contacts: the forces of a chain of impacts are those that
 }
 
 TEST_CASE("speculative contacts: a program that attaches contacts of its own keeps all of them") {
-  OdeSession session;
   EffectsWorld scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, 5e-3);
   dWorldSetQuickStepNumIterations(scene.id(), 60);
   std::vector<dBodyID> balls;
@@ -222,7 +210,6 @@ TEST_CASE("speculative contacts: an elastic gas of balls and bricks keeps its en
     for (const double step : {1e-3, 2e-3, 5e-3, 10e-3}) {
       CAPTURE(exponent);
       CAPTURE(step);
-      OdeSession session;
       EffectsWorld scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, step);
       for (int axis = 0; axis < 3; ++axis) {
         const std::array<double, 3> n = {axis == 0 ? 1.0 : 0, axis == 1 ? 1.0 : 0, axis == 2 ? 1.0 : 0};
@@ -243,15 +230,10 @@ TEST_CASE("speculative contacts: an elastic gas of balls and bricks keeps its en
         dBodySetLinearVel(bodies.back(), dReal(v[0]), dReal(v[1]), dReal(v[2]));
         dGeomMoved(geom);
       }
-      const auto total = [&] {
-        double sum = 0;
-        for (const dBodyID body : bodies) sum += kinetic_energy(body);
-        return sum;
-      };
-      const double start = total();
+      const double start = sum_of(bodies, kinetic_energy);
       for (int k = 0; k * step < 1; ++k) {
         scene.step();
-        CHECK(total() == relative(start).epsilon(0.01));
+        CHECK(sum_of(bodies, kinetic_energy) == relative(start).epsilon(0.01));
       }
       for (const dBodyID body : bodies) {
         for (int axis = 0; axis < 3; ++axis) CHECK(std::abs(dBodyGetPosition(body)[axis] - 0.15) < 0.15);
@@ -334,7 +316,6 @@ TEST_CASE("speculative contacts: added bodies lose four fifths of an overlap in 
 }
 
 TEST_CASE("speculative contacts: adhesion pulls from touch on and holds the body") {
-  OdeSession session;
   const double step = 5e-3;
   EffectsWorld scene({earth(), fx::Adhesion{10, {}}, fx::SpeculativeContacts{}}, step);
   dCreatePlane(scene.world.space(), 0, 0, -1, 0);  // a ceiling
@@ -352,7 +333,6 @@ TEST_CASE("speculative contacts: restitution and friction use the velocity relat
     for (const double step : {1e-3, 10e-3}) {
       CAPTURE(wall_speed);
       CAPTURE(step);
-      OdeSession session;
       EffectsWorld scene({fx::Restitution{0.5, 0, {}}, fx::SpeculativeContacts{}}, step);
       const dGeomID wall = dCreateBox(scene.world.space(), 1, 1, 1);
       const dBodyID carrier = dBodyCreate(scene.id());
@@ -367,7 +347,6 @@ TEST_CASE("speculative contacts: restitution and friction use the velocity relat
     }
   }
   // The velocity of the side counts, even if the geom has no body.
-  OdeSession session;
   const double step = 10e-3;
   EffectsWorld scene({fx::Friction{0.5, {}}, fx::SpeculativeContacts{}}, step);
   const dBodyID carrier = dBodyCreate(scene.id());
@@ -375,8 +354,7 @@ TEST_CASE("speculative contacts: restitution and friction use the velocity relat
   dBodySetLinearVel(carrier, 0, 0, -1);
   scene.other_body[dCreatePlane(scene.world.space(), 0, 0, 1, 0)] = carrier;
   const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 1e-3});
-  dBodySetLinearVel(ball, 0, 0, -1);
-  dGeomMoved(dBodyGetFirstGeom(ball));
+  throw_body(ball, {0, 0, -1});
   scene.step();
   CHECK(speed_up(ball) == relative(-1).epsilon(1e-6));
 }
@@ -384,11 +362,8 @@ TEST_CASE("speculative contacts: restitution and friction use the velocity relat
 TEST_CASE("speculative contacts: bodies with restitution come to rest") {
   for (const double step : {2e-3, 10e-3, 30e-3}) {
     CAPTURE(step);
-    OdeSession session;
-    EffectsWorld scene({earth(), fx::Friction{0.5, {}}, fx::Restitution{0.5, 0, {}}, fx::SpeculativeContacts{}}, step);
-    scene.world.add_plane();
-    const dGeomID geom = snCreateSuperellipsoid(scene.world.space(), dReal(0.1), dReal(0.07), dReal(0.05), 20, 20);
-    const dBodyID brick = scene.add(geom, kDensity, {0, 0, 0.1});
+    OnPlane scene({earth(), fx::Friction{0.5, {}}, fx::Restitution{0.5, 0, {}}, fx::SpeculativeContacts{}}, step);
+    const dBodyID brick = scene.add_body({0.1, 0.07, 0.05}, 20, kDensity, {0, 0, 0.1});
     turn(brick, {1, 1, 0}, 5 * kDegree);
     scene.run_until(4);
     CHECK(height_of(brick) == relative(0.05).epsilon(0.01));
@@ -402,15 +377,12 @@ TEST_CASE("speculative contacts: a stack with restitution stays at rest, and sta
     for (const double step : {2e-3, 10e-3}) {
       CAPTURE(e);
       CAPTURE(step);
-      OdeSession session;
-      EffectsWorld scene({earth(), fx::Friction{0.5, {}}, fx::Restitution{e, 0, {}}, fx::SpeculativeContacts{}}, step);
+      OnPlane scene({earth(), fx::Friction{0.5, {}}, fx::Restitution{e, 0, {}}, fx::SpeculativeContacts{}}, step);
       dWorldSetQuickStepNumIterations(scene.id(), 40);
-      scene.world.add_plane();
       constexpr double kHalf = 0.05;  // m
       std::vector<dBodyID> bricks;
       for (int k = 0; k < 4; ++k) {
-        const dGeomID geom = snCreateSuperellipsoid(scene.world.space(), dReal(0.1), dReal(0.1), dReal(kHalf), 20, 20);
-        bricks.push_back(scene.add(geom, kDensity, {0, 0, (2 * k + 1) * kHalf}));
+        bricks.push_back(scene.add_body({0.1, 0.1, kHalf}, 20, kDensity, {0, 0, (2 * k + 1) * kHalf}));
       }
       const auto check_stands = [&] {
         for (std::size_t k = 0; k < bricks.size(); ++k) {
@@ -448,7 +420,6 @@ TEST_CASE("speculative contacts: a heap that a heavy body hits stays above the f
     for (const double exponent : {2.0, 20.0}) {
       CAPTURE(e);
       CAPTURE(exponent);
-      OdeSession session;
       EffectsWorld scene({earth(), fx::Friction{0.4, {}}, fx::Restitution{e, 0, {}}, fx::SpeculativeContacts{}}, 5e-3);
       place(dCreateBox(scene.world.space(), 40, 40, dReal(0.02)), {0, 0, -0.01});
       Random random(3);
@@ -464,16 +435,11 @@ TEST_CASE("speculative contacts: a heap that a heavy body hits stays above the f
       add(2, {0.07, 0.07, 0.8});
       dBodySetLinearVel(bodies.back(), 0, 0, -5);
       dGeomMoved(dBodyGetFirstGeom(bodies.back()));
-      const auto total = [&] {
-        double sum = 0;
-        for (const dBodyID body : bodies) sum += energy(body);
-        return sum;
-      };
-      const double start = total();
+      const double start = sum_of(bodies, energy);
       double most = 0;
       double lowest = 1;
       scene.run_until(1, [&] {
-        most = std::max(most, total());
+        most = std::max(most, sum_of(bodies, energy));
         for (const dBodyID body : bodies) lowest = std::min(lowest, height_of(body));
         return false;
       });
@@ -487,9 +453,7 @@ TEST_CASE("speculative contacts: bricks thrown at a wall keep their energy at re
   Random random(11);
   for (int body = 0; body < 60; ++body) {
     CAPTURE(body);
-    OdeSession session;
-    EffectsWorld scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, random.uniform(1e-3, 20e-3));
-    scene.world.add_plane();
+    OnPlane scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, random.uniform(1e-3, 20e-3));
     const auto exponent = dReal(random.uniform(2, 20));
     const dGeomID geom = snCreateSuperellipsoid(scene.world.space(), dReal(0.05), dReal(0.04), dReal(0.03), exponent, exponent);
     const dBodyID brick = scene.add(geom, kDensity, {0, 0, 0.1});
@@ -508,10 +472,8 @@ TEST_CASE("speculative contacts: bricks thrown at a wall keep their energy at re
 
 TEST_CASE("speculative contacts: a ball joint with ERP 0 ties velocities only: its bodies are moved to touch, others are not") {
   for (const bool holds_place : {false, true}) {
-    OdeSession session;
     const double step = 10e-3;
-    EffectsWorld scene({fx::Restitution{0.5, 0, {}}, fx::SpeculativeContacts{}}, step);
-    scene.world.add_plane();
+    OnPlane scene({fx::Restitution{0.5, 0, {}}, fx::SpeculativeContacts{}}, step);
     constexpr double kGap = 4e-3;  // m
     const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, kRadius + kGap});
     const dBodyID image = scene.add_ball(kRadius, kDensity, {1, 0, kRadius + 1});
@@ -534,12 +496,10 @@ TEST_CASE("speculative contacts: a ball joint with ERP 0 ties velocities only: i
 TEST_CASE("speculative contacts: a bounce violates a joint no more than without them") {
   // Two balls on the ends of a fixed joint fall on a plane. Returns the largest error of their distance, m.
   const auto error_of = [](double restitution, double step, double angle, bool is_speculative) {
-    OdeSession session;
     std::vector<fx::Effect> list = {earth(), fx::Restitution{restitution, 0, {}}};
     if (is_speculative) list.emplace_back(fx::SpeculativeContacts{});
-    EffectsWorld scene(list, step);
+    OnPlane scene(list, step);
     dWorldSetQuickStepNumIterations(scene.id(), 100);
-    scene.world.add_plane();
     constexpr double kDistance = 4 * kRadius;
     const dBodyID low = scene.add_ball(kRadius, kDensity, {0, 0, 0.1});
     const dBodyID high = scene.add_ball(kRadius, kDensity, {kDistance * std::cos(angle), 0, 0.1 + kDistance * std::sin(angle)});
@@ -572,10 +532,8 @@ TEST_CASE("speculative contacts: a bounce violates a joint no more than without 
 TEST_CASE("speculative contacts: a body on a spring is not moved to touch before it bounces, one whose velocity is tied is") {
   for (const bool is_spring : {true, false}) {
     CAPTURE(is_spring);
-    OdeSession session;
     constexpr double kStep = 1e-3;
-    EffectsWorld scene({earth(), fx::Restitution{0.5, 0, {}}, fx::SpeculativeContacts{}}, kStep);
-    scene.world.add_plane();
+    OnPlane scene({earth(), fx::Restitution{0.5, 0, {}}, fx::SpeculativeContacts{}}, kStep);
     const dBodyID one = scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 0.05});
     const dBodyID other = scene.add_ball(kRadius, kDensity, {4 * kRadius, 0, kRadius + 0.3});
     const dJointID joint = dJointCreateBall(scene.id(), nullptr);
@@ -596,7 +554,6 @@ TEST_CASE("speculative contacts: a body on a spring is not moved to touch before
 }
 
 TEST_CASE("speculative contacts: bodies without a geom of ours are refused") {
-  OdeSession session;
   EffectsWorld scene({fx::SpeculativeContacts{}}, 1e-2);
   const dBodyID body = dBodyCreate(scene.id());
   CHECK_THROWS_WITH_AS(scene.effects.add_body(body), doctest::Contains("no geom made by snCreate"), std::invalid_argument);
