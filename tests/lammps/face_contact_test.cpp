@@ -67,26 +67,7 @@ TEST_CASE("lammps: bodies have faces where they are flat along two axes") {
   }
 }
 
-TEST_CASE("lammps: forces and torques of faces are the derivatives of the energy") {
-  Random random{std::mt19937(3)};
-  int meeting = 0, fading = 0;
-  for (int i = 0; i < 400; ++i) {
-    TwoBodies pair = facing(random, 0.1, {.stiffness = 1e5, .adhesion = i % 2 == 0 ? 0 : 3.0});
-    const PairContact contact = pair.find(0);
-    const auto faces = find_face_contact(pair.first.body, pair.second.body, contact.contact.normal);
-    if (!faces) continue;
-    ++meeting;
-    fading += faces->share < 1 ? 1 : 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double scale = contact.force.normal + pair.material.adhesion;
-      const TwoBodies::EnergySlopes slopes = pair.energy_slopes(axis, 1e-9, 1e-7);
-      CHECK(slopes.along.miss(contact.force.force[axis]) < 1e-4 * scale);
-      CHECK(slopes.about.miss(-contact.torque2()[axis]) < 1e-4 * scale * 0.02);
-    }
-  }
-  CHECK(meeting > 100);
-  CHECK(fading > 20);
-}
+TEST_CASE("lammps: forces and torques of faces are the derivatives of the energy") { check_pair_slopes(facing, 3, 0.1, 0); }
 
 TEST_CASE("lammps: face contacts change neither momentum nor angular momentum") {
   constexpr double kStiffness = 1e5;  // N/m
@@ -103,17 +84,7 @@ TEST_CASE("lammps: face contacts change neither momentum nor angular momentum") 
   }
 }
 
-TEST_CASE("lammps: exchanging two bodies exchanges their face forces") {
-  Random random{std::mt19937(5)};
-  for (int i = 0; i < 100; ++i) {
-    TwoBodies pair = facing(random, 0.05, {.stiffness = 1e5});
-    const PairContact there = pair.find(0);
-    TwoBodies other{pair.second, pair.first, pair.material};
-    const PairContact back = other.find(0);
-    CHECK(back.force.energy == relative(there.force.energy).epsilon(1e-6));
-    CHECK((back.force.force + there.force.force).norm() < 1e-5 * there.force.force.norm());
-  }
-}
+TEST_CASE("lammps: exchanging two bodies exchanges their face forces") { check_exchange(facing, 5, 1e-6); }
 
 TEST_CASE("lammps: a level brick has the whole stiffness, and one on an edge half of it") {
   Floor floor;
@@ -168,18 +139,7 @@ TEST_CASE("lammps: adhesion pulls a level brick in its middle, without a torque,
   CHECK(slides.force.x() == relative(-0.5 * 1).epsilon(1e-9));
 }
 
-TEST_CASE("lammps: tumbling bricks keep their energy through an impact") {
-  Random random{std::mt19937(7)};
-  for (int i = 0; i < 10; ++i) {
-    TwoBodies pair = facing(random, 0.03, {.stiffness = 1e5});
-    pair.first.set_velocity(Vector3::Zero(), random.vector(1));
-    PairContact last = pair.find(0);
-    const auto energy = [&] { return pair.first.kinetic_energy() + pair.second.kinetic_energy() + last.force.energy; };
-    const double start = energy();
-    for (int step = 0; step < 20000; ++step) pair.advance(5e-7, last);
-    CHECK(energy() == relative(start).epsilon(1e-4));
-  }
-}
+TEST_CASE("lammps: tumbling bricks keep their energy through an impact") { check_energy(facing, 7); }
 
 TEST_CASE("lammps: a dropped brick comes to rest on its face") {
   for (const double e : {8.0, 12.0, 20.0, 60.0}) {

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -10,8 +11,10 @@
 #include <vector>
 
 #include "common/motion.hpp"
+#include "kernel/face_contact.hpp"
 #include "kernel/walls/plane_wall.hpp"
 #include "kernel/walls/wall_contacts.hpp"
+#include "support/relative.hpp"
 #include "two_bodies.hpp"
 
 namespace granular::test {
@@ -104,5 +107,62 @@ inline void check_slopes(Particle& body, Eigen::Quaterniond attitude, const Cont
 }
 
 inline ContactMaterial sticky(int i) { return prepared({.stiffness = 1e5, .adhesion = i % 2 == 0 ? 0 : 3.0}); }
+
+/// Draws two bodies that touch, tilted by up to `tilt` (rad).
+using Setup = TwoBodies (*)(Random& random, double tilt, const ContactMaterial& material);
+
+/// Compares forces and torques of faces and sides with the slopes of the energy. `slack`: N, added to the force that differences
+/// are compared with.
+inline void check_pair_slopes(Setup setup, unsigned seed, double tilt, double slack) {
+  Random random{std::mt19937(seed)};
+  int meeting = 0, fading = 0;
+  for (int i = 0; i < 400; ++i) {
+    TwoBodies pair = setup(random, tilt, {.stiffness = 1e5, .adhesion = i % 2 == 0 ? 0 : 3.0});
+    const PairContact contact = pair.find(0);
+    const auto found = find_face_contact(pair.first.body, pair.second.body, contact.contact.normal);
+    if (!found) continue;
+    ++meeting;
+    fading += found->share < 1 ? 1 : 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double scale = contact.force.normal + pair.material.adhesion + slack;
+      const TwoBodies::EnergySlopes slopes = pair.energy_slopes(axis, 1e-9, 1e-7);
+      CAPTURE(i);
+      CAPTURE(found->share);
+      CHECK(slopes.along.miss(contact.force.force[axis]) < 1e-4 * scale);
+      CHECK(slopes.about.miss(-contact.torque2()[axis]) < 1e-4 * scale * 0.02);
+    }
+  }
+  CHECK(meeting > 100);
+  CHECK(fading > 20);
+}
+
+/// The exchanged pair has the same energy, to within `tolerance` of it, the opposite force, and as a whole no moment.
+inline void check_exchange(Setup setup, unsigned seed, double tolerance) {
+  Random random{std::mt19937(seed)};
+  for (int i = 0; i < 100; ++i) {
+    TwoBodies pair = setup(random, 0.05, {.stiffness = 1e5});
+    TwoBodies other{pair.second, pair.first, pair.material};
+    const PairContact there = pair.find(0), back = other.find(0);
+    CHECK(back.force.energy == supernormal::test::relative(there.force.energy).epsilon(tolerance));
+    CHECK((back.force.force + there.force.force).norm() < std::max(1e-6, 10 * tolerance) * there.force.force.norm());
+    const Vector3 moment = there.torque1() + there.torque2() +
+                           (pair.first.body.pose.position - pair.second.body.pose.position).cross(there.force.force);
+    CHECK(moment.norm() <= 1e-14 * there.force.force.norm());
+  }
+}
+
+/// Bodies that tumble keep their energy through an impact without damping.
+inline void check_energy(Setup setup, unsigned seed) {
+  Random random{std::mt19937(seed)};
+  for (int i = 0; i < 10; ++i) {
+    TwoBodies pair = setup(random, 0.03, {.stiffness = 1e5});
+    pair.first.set_velocity(Vector3::Zero(), random.vector(1));
+    PairContact last = pair.find(0);
+    const auto energy = [&] { return pair.first.kinetic_energy() + pair.second.kinetic_energy() + last.force.energy; };
+    const double start = energy();
+    for (int step = 0; step < 20000; ++step) pair.advance(5e-7, last);
+    CHECK(energy() == supernormal::test::relative(start).epsilon(1e-4));
+  }
+}
 
 }  // namespace granular::test
