@@ -46,7 +46,7 @@ constexpr const char* kFooter =
 
 void list() {
   std::puts("A scene has these sections and keys, and those below. Where no default is named, a key is needed.\n");
-  std::fputs(falling_particles::list_sections().c_str(), stdout);
+  std::fputs(falling_particles::kSectionsList, stdout);
   std::puts(
       "\nA scene runs with the effects whose sections it has, and with nothing else. With `enabled = false` in its section an "
       "effect "
@@ -60,14 +60,14 @@ void list() {
   std::puts("  from, until: s, of the first and the last sample, the whole run without them\n");
   std::fputs(falling_particles::list_measurements().c_str(), stdout);
   std::puts("\nWalls besides those of its container, which stand, move or are driven, are its sections [[part]].\n");
-  std::fputs(falling_particles::list_walls().c_str(), stdout);
+  std::fputs(falling_particles::kWallsList, stdout);
   std::puts(
       "\nThese tables are on by default. A section [[measurement]] with a kind of their names writes one more, with its own "
       "interval.");
   std::puts("--tables SCENE prints the columns of a scene's tables.\n");
   std::fputs(falling_particles::list_tables().c_str(), stdout);
   std::puts("\nGrains come from its sections [[feeder]], and go into its sections [[sink]].\n");
-  std::fputs(falling_particles::list_population().c_str(), stdout);
+  std::fputs(falling_particles::kPopulationList, stdout);
 }
 
 void print_tables(const std::string& scene_path, const std::vector<std::string>& overrides) {

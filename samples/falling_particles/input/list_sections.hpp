@@ -1,18 +1,19 @@
-// The keys of a scene file, as text for users. Effects and measurements list their own.
+// The keys of a scene file, as texts for users (lists/). Effects and measurements list their own.
 #pragma once
-
-#include <string>
 
 namespace falling_particles {
 
+extern "C" {
+
 /// The sections besides parts, feeders and sinks. Below each section, or each kind of it, every key has a line with its unit, range
 /// and default. A test compares the keys with those that the loader accepts.
-std::string list_sections();
+extern const char kSectionsList[];
 
 /// The shapes, motions and drives of [[part]] with their parameters, units and ranges.
-std::string list_walls();
+extern const char kWallsList[];
 
 /// The parameters of [[feeder]] and [[sink]] with units and ranges.
-std::string list_population();
+extern const char kPopulationList[];
+}
 
 }  // namespace falling_particles

@@ -21,7 +21,7 @@ using Keys = std::map<std::string, std::string>;  // what is said of each
 /// The lines of the list by the line of their section. Keys that share a line, "x, y", have its text each.
 std::map<std::string, Keys> listed() {
   std::map<std::string, Keys> sections;
-  std::istringstream stream(falling_particles::list_sections());
+  std::istringstream stream(falling_particles::kSectionsList);
   std::string section;
   for (std::string line; std::getline(stream, line);) {
     if (!line.starts_with("  ")) {
@@ -210,7 +210,7 @@ TEST_CASE("list: walls and populations are listed with every key that a section 
       CHECK(is_listed);
     }
   };
-  const std::string walls = falling_particles::list_walls(), population = falling_particles::list_population();
+  const std::string walls = falling_particles::kWallsList, population = falling_particles::kPopulationList;
   for (const std::string shape : {"plane", "box", "cylinder", "mesh", "ellipsoid", "superellipsoid", "superovoid"}) {
     CHECK(walls.find("[[part]] shape = \"" + shape + '"') != std::string::npos);
     check_listed(walls, "[[part]]\nname = \"p\"\nshape = \"" + shape + "\"\n");
