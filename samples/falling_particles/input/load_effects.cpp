@@ -16,26 +16,29 @@ namespace {
 
 namespace fx = supernormal::effects;
 
-/// What a scene may say of an effect beyond the library's parameters.
-struct Extra {
+/// Its depth is relative to the grains in scenes, which the library does not know.
+constexpr std::string_view kSurfaceLayer = "surface_layer";
+
+/// The key `walls` of a section.
+struct WallsKey {
   const char* effect;
-  const char* parameter;  ///< whose value the key `walls` gives for contacts of grains and walls
+  const char* parameter;  ///< whose value it gives for contacts of grains and walls
   const char* text;
 };
-constexpr std::array<Extra, 3> kWalls = {
+constexpr std::array<WallsKey, 3> kWalls = {
     {{"friction", "coefficient", "; walls (0, 100], of grains on walls, as among grains without it"},
      {"rolling_resistance", "rolling", "; walls [0, 1e3] m, rolling on walls, as among grains without it"},
      {"restitution", "coefficient", "; walls (0, 1], of grains on walls, as among grains without it"}}};
 
-const Extra* find_walls(std::string_view effect) {
-  const auto* const found = std::ranges::find(kWalls, effect, &Extra::effect);
+const WallsKey* find_walls(std::string_view effect) {
+  const auto* const found = std::ranges::find(kWalls, effect, &WallsKey::effect);
   return found == kWalls.end() ? nullptr : found;
 }
 
 /// The keys of the section of an effect.
 std::vector<std::string> keys_of(const std::string& name) {
   std::vector<std::string> keys = {"enabled"};
-  if (name == "surface_layer") return {"enabled", "relative_depth"};
+  if (name == kSurfaceLayer) return {"enabled", "relative_depth"};
   fx::read_effect(name, [&](const fx::Parameter& parameter) {
     keys.emplace_back(parameter.name);
     return std::vector<double>();
@@ -54,10 +57,10 @@ std::optional<TomlTable> find_section(const TomlTable& root, const std::string& 
 /// Reads an effect from its section. The library checks the ranges. `instead` has another key for a parameter: {parameter, key}.
 fx::Effect read_section(const TomlTable& table, const fx::Description& effect,
                         std::pair<std::string_view, const char*> instead = {}) {
+  const Interval allowed = Interval::finite(effect.parameters);
   return fx::read_effect(effect.name, [&](const fx::Parameter& parameter) -> std::vector<double> {
     const char* const key = parameter.name == instead.first ? instead.second : parameter.name;
     if (parameter.has_default && !table.has(key)) return {};
-    const Interval allowed = Interval::finite(effect.parameters);
     switch (parameter.kind) {
       case fx::Parameter::Kind::Vector:
         return table.numbers(key, 3, allowed);
@@ -80,14 +83,14 @@ void select(fx::Effect& effect, const fx::MaterialSelector& contacts) {
 /// Appends the effects of a section.
 void read_effect(const TomlTable& table, const fx::Description& effect, double smallest_half_axis, std::vector<fx::Effect>& list) {
   const std::string name = effect.name;
-  if (name == "surface_layer") {
+  if (name == kSurfaceLayer) {
     const double relative = table.number("relative_depth", Interval::positive(0.1, "(relative to the smallest half-axis)"));
     list.emplace_back(fx::SurfaceLayer{relative * smallest_half_axis});
     return;
   }
   list.push_back(read_section(table, effect));
   if (name == "anisotropic_friction") select(list.back(), fx::MaterialSelector::of(kGrainMaterial));
-  const Extra* const walls = find_walls(name);
+  const WallsKey* const walls = find_walls(name);
   if (walls == nullptr || !table.has("walls")) return;
   list.push_back(read_section(table, effect, {walls->parameter, "walls"}));
   select(list.back(), kGrainOnWall);
@@ -106,8 +109,8 @@ std::vector<fx::Effect> read_effects(const TomlTable& root, double smallest_half
 
 std::string scene_parameters(const fx::Description& effect) {
   const std::string name = effect.name;
-  if (name == "surface_layer") return "relative_depth (0, 0.1], of the smallest half-axis of all grains";
-  const Extra* const walls = find_walls(name);
+  if (name == kSurfaceLayer) return "relative_depth (0, 0.1], of the smallest half-axis of all grains";
+  const WallsKey* const walls = find_walls(name);
   return std::string(effect.parameters) + (walls == nullptr ? "" : walls->text);
 }
 
