@@ -27,8 +27,6 @@ QUERY_METHODS = {
     "libccd GJK+EPA": "#38761d",
     "libccd MPR": "#674ea7",
     "Bullet GJK+EPA (float)": "#000000",
-    "FCL signed distance": "#999999",
-    "Simbody MPR+Newton": "#a64d79",
 }
 QUERY_CLASSES = {
     "E": "ellipsoids",
@@ -38,8 +36,6 @@ QUERY_CLASSES = {
     "N": "needles",
 }
 QUERY_POSES = {"T": "touching", "S": "1 % overlap", "D": "30 % overlap", "N": "1 % apart"}
-COLLIDERS = ["dPlane", "dBox", "dCapsule", "dTriMesh"]
-COLLIDER_METHODS = {"Supernormal": "#0b5394", "Supernormal (warm)": "#6fa8dc", "dConvex": "#38761d", "dTriMesh": "#cc0000"}
 FORMS = {"Supernormal": "#0b5394", "dConvex": "#38761d", "dTriMesh": "#cc0000", "dBox": "#e69138"}
 PHASES = {
     "broad phase": (["broad_s"], "#999999"),
@@ -55,8 +51,6 @@ def draw_figures(tables, folder):
         if tables["query"].rows:
             for body_class, name in QUERY_CLASSES.items():
                 _save(_queries(tables["query"], body_class, name), folder / f"query_{body_class}.svg")
-        if tables["colliders"].rows:
-            _save(_colliders(tables["colliders"]), folder / "colliders.svg")
         if tables["scene_outcomes"].rows:
             _save(_outcomes(tables["scene_outcomes"], tables["scene_forms"]), folder / "outcomes.svg")
         if tables["scene_growth"].rows:
@@ -94,19 +88,6 @@ def _queries(table, body_class, name):
     handles = {label: handle for axes in panels for handle, label in zip(*axes.get_legend_handles_labels())}
     named = [method for method in QUERY_METHODS if method in handles]
     panels[1].legend([handles[method] for method in named], named, loc="upper left")
-    return figure
-
-
-def _colliders(table):
-    figure, panels = _four("A superellipsoid against ODE's geoms: exact, and as a polyhedron of 32 to 1922 vertices")
-    for k, (axes, collider) in enumerate(zip(panels, COLLIDERS)):
-        for method, colour in COLLIDER_METHODS.items():
-            rows = [row for row in table.select(method=method) if row["collider"].split()[0] == collider]
-            _plot(axes, rows, "depth_error", "time_s", 1e6, method, colour)
-        axes.set(title=collider, xlim=(1e-16, 1), ylim=(0.01, 1000))
-        label = "median error of the depth / smallest half-axis"
-        axes.set(xlabel=label if k > 1 else "", ylabel="" if k % 2 else "median time of dCollide, µs")
-    panels[0].legend(loc="upper left")
     return figure
 
 

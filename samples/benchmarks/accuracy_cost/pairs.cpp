@@ -120,18 +120,6 @@ char letter(BodyClass body_class) { return "EMBON"[static_cast<int>(body_class)]
 
 char letter(Situation situation) { return "SDNFT"[static_cast<int>(situation)]; }
 
-std::vector<Pair> draw_pairs(std::size_t count, std::uint64_t seed) {
-  Random random(seed);
-  std::vector<Pair> pairs;
-  const std::size_t each = (count + kBodyClasses.size() * kSituations.size() - 1) / (kBodyClasses.size() * kSituations.size());
-  for (std::size_t i = 0; i < each; ++i) {
-    for (const BodyClass body_class : kBodyClasses) {
-      for (const Situation situation : kSituations) pairs.push_back(draw_pair(random, body_class, situation));
-    }
-  }
-  return pairs;
-}
-
 std::vector<Pair> draw_pairs_of(BodyClass body_class, Situation situation, std::size_t count, std::uint64_t seed) {
   Random random(seed);
   std::vector<Pair> pairs;

@@ -21,7 +21,6 @@ inline constexpr std::array kAllBodyClasses = {BodyClass::Ellipsoid, BodyClass::
 
 /// Relative poses. Percentages are relative to the smallest half-axis of the two bodies.
 enum class Situation { Shallow, Deep, Near, Far, Touching };  // 1 % overlap, 30 % overlap, 1 % apart, 1…5 m apart, 0
-inline constexpr std::array kSituations = {Situation::Shallow, Situation::Deep, Situation::Near, Situation::Far};
 inline constexpr std::array kAllSituations = {Situation::Touching, Situation::Shallow, Situation::Deep, Situation::Near,
                                               Situation::Far};
 
@@ -46,12 +45,8 @@ struct Pair {
 /// A random body of one class.
 std::shared_ptr<const supernormal::Shape> random_body(common::Random& random, BodyClass body_class);
 
-/// Draws about `count` pairs, equally many of each class and situation, mixed. The same seed gives the same pairs on every machine.
-/// The bodies touch along a random normal and are then moved along it by the given distance. This is their gap unless another
-/// normal is better.
-std::vector<Pair> draw_pairs(std::size_t count, std::uint64_t seed);
-
-/// Draws `count` pairs of one class and situation.
+/// Draws `count` pairs of one class and situation. The same seed gives the same pairs on every machine. The bodies touch along a
+/// random normal and are then moved along it by the given distance. This is their gap unless another normal is better.
 std::vector<Pair> draw_pairs_of(BodyClass body_class, Situation situation, std::size_t count, std::uint64_t seed);
 
 /// Ascends from a world-frame normal with tolerance 1e-14. If the maximum is higher, it becomes the reference of the pair.

@@ -32,7 +32,7 @@ void add_sweep(Methods& methods, int tightest, const std::function<std::unique_p
   for (int digits = 1; digits <= tightest; ++digits) methods.push_back(make(std::pow(10.0, -digits)));
 }
 
-Methods all_methods(BodyClass body_class) {
+Methods all_methods() {
   Methods methods;
   const auto ours = [](const char* name, Solver solver, Start start) {
     return [=](double tolerance) { return supernormal_method(name, solver, start, tolerance); };
@@ -46,10 +46,6 @@ Methods all_methods(BodyClass body_class) {
   add_sweep(methods, kEpaTightest, [](double tolerance) { return ccd_epa("libccd GJK+EPA", tolerance); });
   add_sweep(methods, kMprTightest, [](double tolerance) { return ccd_mpr("libccd MPR", tolerance); });
   add(methods, bullet_methods());
-  if (body_class == BodyClass::Ellipsoid) {  // the only common bodies of the libraries
-    add(methods, fcl_methods());
-    add(methods, simbody_methods());
-  }
   methods.push_back(evaluation_cost(supernormal::Order::Point));
   methods.push_back(evaluation_cost(supernormal::Order::Hessian));
   methods.push_back(floor_cost());
@@ -57,7 +53,7 @@ Methods all_methods(BodyClass body_class) {
 }
 
 /// All literature methods, and ours at the same tolerances.
-Methods compared_with_literature(BodyClass body_class) {
+Methods compared_with_literature() {
   if (snInit() == 0) throw std::runtime_error(snLastError());
   Methods methods;
   for (const Start start : {Start::Cold, Start::Warm}) {
@@ -72,9 +68,6 @@ Methods compared_with_literature(BodyClass body_class) {
   methods.push_back(ccd_epa("libccd GJK+EPA", 1e-6));
   methods.push_back(ccd_mpr("libccd MPR", 1e-4));
   add(methods, bullet_methods());
-  if (body_class == BodyClass::Ellipsoid) {
-    add(methods, simbody_methods());
-  }
   add(methods, literature_mesh_methods());
   return methods;
 }
@@ -94,7 +87,7 @@ std::string line(const Method& method, BodyClass body_class, Situation situation
   return text.data();
 }
 
-using MethodsOf = std::function<Methods(BodyClass)>;
+using MethodsOf = std::function<Methods()>;
 
 MeasuredTable table_of(const std::string& name, std::size_t pair_count, std::uint64_t seed, const Effort& effort,
                        const MethodsOf& methods_of) {
@@ -103,7 +96,7 @@ MeasuredTable table_of(const std::string& name, std::size_t pair_count, std::uin
     for (const Situation situation : kAllSituations) {
       table.tasks.push_back({std::string{letter(body_class), letter(situation)}, [=] {
                                std::vector<Pair> pairs = draw_pairs_of(body_class, situation, pair_count, seed);
-                               const Methods methods = methods_of(body_class);
+                               const Methods methods = methods_of();
                                const auto samples = measure(methods, pairs, effort);
                                improve_references(samples, pairs);
                                std::vector<std::string> lines;
@@ -127,16 +120,6 @@ MeasuredTable query_costs(std::size_t pairs, std::uint64_t seed, const Effort& e
 
 MeasuredTable literature_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort) {
   return table_of("literature", pairs, seed, effort, compared_with_literature);
-}
-
-MeasuredTable mesh_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort) {
-  return table_of("meshes", pairs, seed, effort, [](BodyClass /*body_class*/) {
-    if (snInit() == 0) throw std::runtime_error(snLastError());
-    Methods methods = ode_mesh_methods();
-    methods.push_back(supernormal_method("hybrid", Solver::Hybrid, Start::Cold, 1e-9));
-    methods.push_back(supernormal_method("hybrid (warm)", Solver::Hybrid, Start::Warm, 1e-9));
-    return methods;
-  });
 }
 
 }  // namespace accuracy_cost

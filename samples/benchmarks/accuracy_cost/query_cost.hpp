@@ -14,7 +14,4 @@ common::MeasuredTable query_costs(std::size_t pairs, std::uint64_t seed, const E
 /// The same for the literature methods and our solvers.
 common::MeasuredTable literature_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort);
 
-/// The same for dConvex and dTriMesh, over their number of vertices, and our solver.
-common::MeasuredTable mesh_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort);
-
 }  // namespace accuracy_cost

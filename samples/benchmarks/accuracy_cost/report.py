@@ -16,12 +16,9 @@ OTHERS = [
     ("libccd GJK+EPA", "1e-06"),
     ("libccd MPR", "1e-04"),
     ("Bullet GJK+EPA (float)", ""),
-    ("FCL signed distance", "1e-06"),
-    ("Simbody MPR+Newton", "1e-09"),
 ]
 ALGORITHM_1 = "Newton (Algorithm I)"
 COMPARED = [HYBRID, HYBRID_WARM, HYBRID_EARLY_OUT, (ALGORITHM_1, "1e-09"), ("fixed point (Algorithm II)", "1e-09"), *OTHERS]
-MESH_METHODS = ("dTriMesh", "libccd GJK+EPA on hulls")
 
 
 class Row(dict):
@@ -153,7 +150,7 @@ def ratios(tables):
         "Median time of the other over that of the hybrid at its default tolerance, cold; then warm over cold. Of bodies apart libccd\n"
         "says only that they are, and is compared with the hybrid that stops when it knows as much (early out).\n"
     )
-    head = ["class", "pose", "libccd GJK+EPA 1e-6", "libccd MPR 1e-4", "Bullet", "FCL 1e-6", "Simbody 1e-9", "cold / warm"]
+    head = ["class", "pose", "libccd GJK+EPA 1e-6", "libccd MPR 1e-4", "Bullet", "cold / warm"]
     return markdown(about, head, 2, rows)
 
 
@@ -288,49 +285,6 @@ def outcomes(tables):
     return markdown(about, head, 1, rows)
 
 
-def colliders(tables):
-    rows = [
-        [
-            row["collider"],
-            row["method"],
-            row["accuracy"],
-            microseconds(row.number("time_s")),
-            text("%.0e", row.number("depth_error")),
-            text("%.0e", row.number("depth_error_worst")),
-            text("%.3g", row.number("contacts")),
-            row["misses"],
-        ]
-        for row in tables["colliders"].rows
-        if not row["method"].startswith("Supernormal") or row["accuracy"] in ("1e-02", "1e-04", "1e-09", "1e-12")
-    ]
-    about = (
-        "## Colliders\n\n"
-        "A superellipsoid with exponents 4 that overlaps ODE's geoms by 2 %: a dCollide, over tolerance or number of vertices.\n\n"
-        "![colliders](colliders.svg)\n"
-    )
-    return markdown(about, ["collider", "method", "accuracy", "time µs", "depth error", "worst", "contacts", "misses"], 3, rows)
-
-
-def meshes(tables):
-    rows = [
-        [
-            name,
-            row["method"],
-            "–" if row["method"].startswith("hybrid") else row["accuracy"],
-            microseconds(row.number("time_s")),
-            text("%.0e", row.number("gap_error")),
-            f"{row['failures']} of {row['queries']}",
-        ]
-        for body_class, name in CLASSES.items()
-        for row in tables["meshes"].select(**{"class": body_class}, pose="S")
-    ]
-    about = (
-        "## ODE's polyhedra\n\n"
-        "At 1 % overlap: median time in µs, median error of the gap, failures, over the number of vertices.\n"
-    )
-    return markdown(about, ["class", "method", "vertices", "time", "gap", "failures"], 2, rows)
-
-
 def _precise_enough(rows):
     """The loosest accuracy with a median gap error below 1e-9. If there is none, the tightest."""
     return next((row for row in rows if row.number("gap_error") < 1e-9), rows[-1] if rows else Row())
@@ -340,7 +294,7 @@ def _comparisons(table, body_class, method):
     """The rows of a method at the accuracy that is precise enough, or at all numbers of vertices, each with that of its warm start."""
     rows = table.select(**{"class": body_class}, pose="S", method=method)
     warm = _precise_enough(table.select(**{"class": body_class}, pose="S", method=f"{method} (warm)"))
-    return [(row, warm) for row in (rows if method in MESH_METHODS else [_precise_enough(rows)])]
+    return [(row, warm) for row in (rows if method == "dTriMesh" else [_precise_enough(rows)])]
 
 
 def _cold_methods(table, body_class):
@@ -391,33 +345,6 @@ def literature(tables):
     return markdown(about, head, 3, rows) + markdown(about_beside, ["class", "cold", "warm"], 1, beside)
 
 
-def boxes(tables):
-    rows = [
-        [
-            CLASSES[row["class"]],
-            row["box"],
-            text("%.3f", 1e6 * row.number("time_s")),
-            text("%.2f", row.number("volume")),
-            text("%.2f", row.number("volume_p99")),
-            row["failures"],
-            text("%.1f", row.number("pairs")),
-            text("%.1f", row.number("apart")),
-            text("%.2f", 1e6 * row.number("narrow_s")),
-            text("%.2f", 1e6 * (row.number("time_s") + row.number("narrow_s"))),
-        ]
-        for row in tables["boxes"].rows
-    ]
-    about = (
-        "## Bounding boxes\n\n"
-        "1000 bodies of each class in random orientations, which fill 60 % of a cube. Times in µs for each body; volume over that of\n"
-        "the smallest box, median and 99th percentile; pairs of overlapping boxes for each body, and those of them whose bodies are\n"
-        "apart. The narrow phase needs the last times for these: the hybrid, which stops when it knows that they are. What it does with\n"
-        "the others is the same for all boxes. Failures: no box, or one that is too small.\n"
-    )
-    head = ["class", "box", "time", "volume", "99 %", "failures", "pairs", "apart", "their time", "box + their time"]
-    return markdown(about, head, 2, rows)
-
-
 def queries(tables):
     rows = [
         [
@@ -455,10 +382,7 @@ SECTIONS = [
     (forms, "scene_forms"),
     (growth, "scene_growth"),
     (outcomes, "scene_outcomes"),
-    (colliders, "colliders"),
-    (meshes, "meshes"),
     (literature, "literature"),
-    (boxes, "boxes"),
     (queries, "query"),
 ]
 
@@ -469,7 +393,7 @@ def read_tables(folder):
 
 def report(tables):
     """The text of report.md."""
-    measured = next((tables[name] for name in ("query", "scene_forms", "boxes", "literature") if tables[name].rows), None)
+    measured = next((tables[name] for name in ("query", "scene_forms", "literature") if tables[name].rows), None)
     environment = "".join(f"* {line}\n" for line in (measured.comments if measured else []))
     return (
         "# What accuracy costs\n\nWritten by `accuracy_cost --atlas` and `scene_cost`. Only ratios carry to another machine; all "

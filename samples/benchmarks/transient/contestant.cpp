@@ -44,14 +44,6 @@ void add_cold(std::vector<Contestant>& all, Methods methods, bool has_sizes) {
   }
 }
 
-void add_for_ellipsoids(std::vector<Contestant>& all, Methods methods, const std::string& accuracy) {
-  for (auto& method : methods) {
-    if (method->accuracy() != accuracy) continue;
-    const std::string name = method->name() + " " + accuracy;
-    all.push_back({name, "cold", std::move(method), nullptr, true});
-  }
-}
-
 }  // namespace
 
 Proximity certified_proximity(const Pair& pair) {
@@ -77,8 +69,6 @@ std::vector<Contestant> contestants() {
   }
   add_cold(all, accuracy_cost::libccd_methods(), false);
   add_cold(all, accuracy_cost::bullet_methods(), false);
-  add_for_ellipsoids(all, accuracy_cost::fcl_methods(accuracy_cost::Motion::Moves), "1e-06");
-  add_for_ellipsoids(all, accuracy_cost::simbody_methods(), "1e-09");
   add_cold(all, accuracy_cost::literature_mesh_methods(accuracy_cost::Motion::Moves), true);
   return all;
 }

@@ -14,7 +14,6 @@ struct Contestant {
   std::string start;  ///< "cold", or "warm": from the answer of the step before
   std::unique_ptr<accuracy_cost::Method> cold;
   std::unique_ptr<accuracy_cost::Method> warm;  ///< null: every query is cold
-  bool is_for_ellipsoids = false;               ///< and no other bodies
 };
 
 inline constexpr const char* kCertified = "certified";

@@ -103,11 +103,6 @@ class Study {
       const bool is_wanted =
           options_.methods.empty() || std::ranges::find(options_.methods, contestant.name) != options_.methods.end();
       if (!is_wanted) continue;
-      if (contestant.is_for_ellipsoids && trial.setup.body_class != BodyClass::Ellipsoid) {
-        if (!options_.methods.empty())
-          std::fprintf(stderr, "transient: %s has ellipsoids alone: left out\n", contestant.name.c_str());
-        continue;
-      }
       write(body_class, contacts, trial, contestant, "", watch(trial, contestant),
             transient::run(trial, contestant, false, &certified, nullptr));
     }

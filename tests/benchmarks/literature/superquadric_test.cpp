@@ -8,7 +8,6 @@
 #include <numbers>
 #include <random>
 
-#include "literature/extent.hpp"
 #include "literature/tangents.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 
@@ -107,22 +106,4 @@ TEST_CASE("tangents: they form an orthonormal frame with the normal, and their d
     }
   }
   for (const double x : {1.0, -1.0}) CHECK(tangents_of(x * Vector3::UnitX()).tangent[0].allFinite());
-}
-
-TEST_CASE("extent: Newton's method on the implicit function agrees with the support function where it converges") {
-  std::mt19937_64 engine(6);
-  std::normal_distribution<double> gauss;
-  int converged = 0, asked = 0;
-  for (const Superquadric& body : bodies()) {
-    const supernormal::Superellipsoid shape(body.half_axes, body.delta, body.epsilon);
-    for (int i = 0; i < 100; ++i) {
-      const Vector3 direction = Vector3(gauss(engine), gauss(engine), gauss(engine)).normalized();
-      const Extent extent = extent_by_newton(body, direction, 1e-9);
-      ++asked;
-      if (!extent.has_converged) continue;
-      ++converged;
-      CHECK(std::abs(extent.reach - shape.support(direction)) <= 1e-9);
-    }
-  }
-  CHECK(converged >= asked * 9 / 10);
 }

@@ -1,6 +1,8 @@
+#include <ccd/ccd.h>
+
 #include <type_traits>
 
-#include "libccd_query.hpp"
+#include "method.hpp"
 
 namespace accuracy_cost {
 namespace {
@@ -33,19 +35,32 @@ void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point)
 
 void centre(const void* object, ccd_vec3_t* point) { copy(static_cast<const CcdBody*>(object)->pose.position, point); }
 
+/// ccdGJKPenetration or ccdMPRPenetration.
+using Penetration = int (*)(const void*, const void*, const ccd_t*, ccd_real_t*, ccd_vec3_t*, ccd_vec3_t*);
+
 class Libccd final : public Method {
  public:
   Libccd(std::string name, Penetration penetration, double tolerance)
       : Method(std::move(name), power_of_ten(tolerance)), penetration_(penetration) {
-    settings_ = ccd_settings(support, centre, tolerance);
+    constexpr unsigned long kMaxIterations = 100;  // for GJK and MPR; EPA of libccd has no limit
+    CCD_INIT(&settings_);
+    settings_.support1 = settings_.support2 = support;
+    settings_.center1 = settings_.center2 = centre;
+    settings_.max_iterations = kMaxIterations;
+    settings_.epa_tolerance = settings_.mpr_tolerance = tolerance;
   }
 
   Answer query(const Pair& pair) const override {
     const CcdBody body1{*pair.shape1, pair.pose1};
     const CcdBody body2{*pair.shape2, pair.pose2};
-    Answer answer = ask_libccd(penetration_, settings_, &body1, &body2);
-    answer.evaluations = 0.5 * (body1.evaluations + body2.evaluations);
-    return answer;
+    double depth = 0;
+    ccd_vec3_t direction, position;
+    const int result = penetration_(&body1, &body2, &settings_, &depth, &direction, &position);
+    const double evaluations = 0.5 * (body1.evaluations + body2.evaluations);
+    if (result == -1) return {Answer::Kind::Apart, 0, Vector3::UnitX(), evaluations};
+    if (result != 0) return {.evaluations = evaluations};
+    return {Answer::Kind::Gap, -depth, Vector3(direction.v[0], direction.v[1], direction.v[2]), evaluations,
+            Vector3(position.v[0], position.v[1], position.v[2])};
   }
 
  private:
@@ -54,30 +69,6 @@ class Libccd final : public Method {
 };
 
 }  // namespace
-
-ccd_t ccd_settings(ccd_support_fn support_of, ccd_center_fn centre_of, double tolerance) {
-  constexpr unsigned long kMaxIterations = 100;  // for GJK and MPR; EPA of libccd has no limit
-  ccd_t settings;
-  CCD_INIT(&settings);
-  settings.support1 = support_of;
-  settings.support2 = support_of;
-  settings.center1 = centre_of;
-  settings.center2 = centre_of;
-  settings.max_iterations = kMaxIterations;
-  settings.epa_tolerance = tolerance;
-  settings.mpr_tolerance = tolerance;
-  return settings;
-}
-
-Answer ask_libccd(Penetration penetration, const ccd_t& settings, const void* body1, const void* body2) {
-  double depth = 0;
-  ccd_vec3_t direction, position;
-  const int result = penetration(body1, body2, &settings, &depth, &direction, &position);
-  if (result == -1) return {Answer::Kind::Apart, 0, Vector3::UnitX(), 0};
-  if (result != 0) return {};
-  return {Answer::Kind::Gap, -depth, Vector3(direction.v[0], direction.v[1], direction.v[2]), 0,
-          Vector3(position.v[0], position.v[1], position.v[2])};
-}
 
 std::unique_ptr<Method> ccd_epa(std::string name, double tolerance) {
   return std::make_unique<Libccd>(std::move(name), ccdGJKPenetration, tolerance);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/number_text.hpp"
 #include "common/polyhedron.hpp"
 #include "pairs.hpp"
 #include "supernormal/proximity/proximity.hpp"
@@ -44,13 +45,8 @@ class Method {
 using Methods = std::vector<std::unique_ptr<Method>>;
 
 /// Formats a tolerance: "1e-06".
-std::string power_of_ten(double tolerance);
+inline std::string power_of_ten(double tolerance) { return common::text("%.0e", tolerance); }
 
-inline constexpr const char* kHybrid = "hybrid";
-inline constexpr const char* kHybridWarm = "hybrid, warm";
-inline constexpr const char* kHybridEarlyOut = "hybrid, early out";
-inline constexpr const char* kNewton = "Newton";
-inline constexpr const char* kFixedPoint = "fixed point";
 inline constexpr const char* kCcdEpa = "libccd GJK+EPA 1e-6";
 inline constexpr const char* kCcdMpr = "libccd MPR 1e-4";
 inline constexpr const char* kPointCost = "h and r";
@@ -61,9 +57,6 @@ inline constexpr const char* kFloorCost = "logarithms and exponentials";
 inline bool is_unit_of_cost(const Method& method) {
   return method.name() == kPointCost || method.name() == kCurvatureCost || method.name() == kFloorCost;
 }
-
-/// Our solvers at the default tolerance of 1e-9, without a warm start unless named warm.
-Methods supernormal_methods();
 
 /// The methods of libccd, with our shapes as support functions.
 Methods libccd_methods();
@@ -79,37 +72,22 @@ std::unique_ptr<Method> early_out(std::string name, Start start);
 std::unique_ptr<Method> ccd_epa(std::string name, double tolerance);
 std::unique_ptr<Method> ccd_mpr(std::string name, double tolerance);
 
-/// A library, with the version of its Debian package. Its methods are measured if it was found.
-struct Library {
-  std::string name;
-  std::string version;  ///< "" if it was missing at build time
-};
-std::vector<Library> libraries();
-
-/// GJK and EPA of Bullet, with our shapes as support functions. Empty if Bullet is missing, and likewise below.
+/// GJK and EPA of Bullet, with our shapes as support functions. Empty if Bullet was missing at build time.
+#ifdef ACCURACY_COST_BULLET_VERSION
 Methods bullet_methods();
+#else
+inline Methods bullet_methods() { return {}; }
+#endif
 
 /// Whether the bodies of a pair move. A method places moving bodies again in every query. Others it places once, outside the
 /// measured time.
 enum class Motion { None, Moves };
 
-/// Signed distance and contact of ellipsoids, with the library's own shapes, at several tolerances.
-Methods fcl_methods(Motion motion = Motion::None);
-Methods simbody_methods();
-
-/// The mesh of a superellipsoid or ellipsoid.
-common::Polyhedron mesh_of(const supernormal::Shape& shape, common::MeshSize size);
-
-/// GJK and EPA of libccd for a convex hull, with a mesh of the body as support function.
-std::unique_ptr<Method> ccd_hull(common::MeshSize size);
-
-/// ODE colliders of polyhedra with vertices on the bodies. A query without contacts means that the bodies are apart.
-Methods ode_mesh_methods();
-
 /// The methods of samples/benchmarks/literature at this tolerance, started in their own way or from Pair::warm_normal.
 Methods literature_methods(Start start, double tolerance);
 
-/// Meshes of 160, 960 and 3840 triangles: as trimeshes of ODE, and as convex hulls with GJK and EPA of libccd.
+/// Trimeshes of ODE with 160, 960 and 3840 triangles, whose vertices are on the bodies. A query without contacts means that the
+/// bodies are apart.
 Methods literature_mesh_methods(Motion motion = Motion::None);
 
 /// The unit of cost: evaluates the gap function up to this order at Pair::normals.

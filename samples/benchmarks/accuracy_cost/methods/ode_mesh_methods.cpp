@@ -11,20 +11,23 @@
 namespace accuracy_cost {
 namespace {
 
-using common::GeomMaker;
 using common::MeshSize;
 using common::OdeGeom;
 using common::Polyhedron;
 using common::superellipsoid_mesh;
 using supernormal::Vector3;
 
-constexpr std::array<MeshSize, 5> kSizes = {{{6, 5}, {14, 9}, {30, 17}, {60, 34}, {128, 64}}};  // 32, 128, 512, 2042, 8194 vertices
-constexpr std::array<MeshSize, 3> kLiteratureSizes = {{{10, 8}, {24, 20}, {48, 40}}};           // 160, 960, 3840 triangles
+constexpr std::array<MeshSize, 3> kSizes = {{{10, 8}, {24, 20}, {48, 40}}};  // 160, 960, 3840 triangles
+
+Polyhedron mesh_of(const supernormal::Shape& shape, MeshSize size) {
+  const auto* const body = dynamic_cast<const supernormal::Superellipsoid*>(&shape);
+  const auto [delta, epsilon] = body == nullptr ? std::pair(2.0, 2.0) : std::pair(body->delta(), body->epsilon());
+  return superellipsoid_mesh(shape.half_extents(), delta, epsilon, 0, size);
+}
 
 class OdeMeshes final : public Method {
  public:
-  OdeMeshes(std::string name, GeomMaker (*maker)(const Polyhedron&), MeshSize size, Motion motion = Motion::None)
-      : Method(std::move(name), std::to_string(size.vertices())), maker_(maker), size_(size), motion_(motion) {}
+  OdeMeshes(MeshSize size, Motion motion) : Method("dTriMesh", std::to_string(size.vertices())), size_(size), motion_(motion) {}
 
   Answer query(const Pair& pair) const override {
     const OdePair geoms{geom(pair, pair.shape1, pair.pose1), geom(pair, pair.shape2, pair.pose2)};
@@ -46,8 +49,8 @@ class OdeMeshes final : public Method {
       if (motion_ == Motion::Moves) OdePair{known->second.geom.id(), nullptr}.move_body(pose);
       return known->second.geom.id();
     }
-    const dGeomID id =
-        geoms_.emplace(shape.get(), Kept{pair.shape1, pair.shape2, maker_(mesh_of(*shape, size_))()}).first->second.geom.id();
+    const dGeomID id = geoms_.emplace(shape.get(), Kept{pair.shape1, pair.shape2, common::trimesh_maker(mesh_of(*shape, size_))()})
+                           .first->second.geom.id();
     OdePair{id, nullptr}.move_body(pose);
     return id;
   }
@@ -56,7 +59,6 @@ class OdeMeshes final : public Method {
     std::shared_ptr<const supernormal::Shape> shape1, shape2;  // kept alive, so that no other shape gets their addresses
     OdeGeom geom;
   };
-  GeomMaker (*maker_)(const Polyhedron&);
   MeshSize size_;
   Motion motion_;
   mutable std::unordered_map<const supernormal::Shape*, Kept> geoms_;
@@ -64,26 +66,9 @@ class OdeMeshes final : public Method {
 
 }  // namespace
 
-Polyhedron mesh_of(const supernormal::Shape& shape, MeshSize size) {
-  const auto* const body = dynamic_cast<const supernormal::Superellipsoid*>(&shape);
-  const auto [delta, epsilon] = body == nullptr ? std::pair(2.0, 2.0) : std::pair(body->delta(), body->epsilon());
-  return superellipsoid_mesh(shape.half_extents(), delta, epsilon, 0, size);
-}
-
 Methods literature_mesh_methods(Motion motion) {
   Methods methods;
-  for (const MeshSize size : kLiteratureSizes) {
-    methods.push_back(std::make_unique<OdeMeshes>("dTriMesh", common::trimesh_maker, size, motion));
-  }
-  for (const MeshSize size : kLiteratureSizes) methods.push_back(ccd_hull(size));
-  return methods;
-}
-
-Methods ode_mesh_methods() {
-  Methods methods;
-  methods.reserve(2 * kSizes.size());
-  for (const MeshSize size : kSizes) methods.push_back(std::make_unique<OdeMeshes>("dConvex", common::convex_maker, size));
-  for (const MeshSize size : kSizes) methods.push_back(std::make_unique<OdeMeshes>("dTriMesh", common::trimesh_maker, size));
+  for (const MeshSize size : kSizes) methods.push_back(std::make_unique<OdeMeshes>(size, motion));
   return methods;
 }
 

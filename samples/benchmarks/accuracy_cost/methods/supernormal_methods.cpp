@@ -84,21 +84,6 @@ class Floor final : public Method {
 
 }  // namespace
 
-Methods supernormal_methods() {
-  const Settings hybrid;
-  Settings newton;
-  newton.solver = Solver::Newton;
-  Settings fixed_point;
-  fixed_point.solver = Solver::FixedPoint;
-  Methods methods;
-  methods.push_back(std::make_unique<OurSolver>(kHybrid, hybrid, Start::Cold));
-  methods.push_back(std::make_unique<OurSolver>(kHybridWarm, hybrid, Start::Warm));
-  methods.push_back(early_out(kHybridEarlyOut, Start::Cold));
-  methods.push_back(std::make_unique<OurSolver>(kNewton, newton, Start::Cold));
-  methods.push_back(std::make_unique<OurSolver>(kFixedPoint, fixed_point, Start::Cold));
-  return methods;
-}
-
 std::unique_ptr<Method> supernormal_method(std::string name, Solver solver, Start start, double tolerance) {
   Settings settings;
   settings.solver = solver;
