@@ -5,51 +5,42 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "proximity/search/contact_point.hpp"
 #include "supernormal/contact/contact_manifold.hpp"
 #include "supernormal/proximity/solve.hpp"
-#include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
-#include "supernormal/shapes/capsule.hpp"
-#include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
-#include "supernormal/shapes/polytope.hpp"
-#include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/shapes/superovoid.hpp"
 #include "support/draw.hpp"
+#include "support/hard_cases/body.hpp"
 #include "support/rotation_between.hpp"
-#include "support/without_hessian.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;
+using samples::Body;
+using samples::superellipsoid;
 
 namespace {
 
 /// A kind of body, of any size.
 struct Kind {
   const char* name;
-  std::shared_ptr<const Shape> (*make)(double size);
+  std::function<std::shared_ptr<const Shape>(double size)> make;
 };
-
-std::shared_ptr<const Shape> superellipsoid(const Vector3& half_axes, double delta, double epsilon) {
-  return std::make_shared<Superellipsoid>(half_axes, delta, epsilon);
-}
 
 std::shared_ptr<const Shape> user_with_hessian(const std::shared_ptr<const Shape>& shape) {
   return std::make_shared<CallbackShape>([=](const Vector3& n) { return shape->support(n); },
                                          [=](const Vector3& n) { return shape->point(n); },
                                          [=](const Vector3& n) { return shape->jet(n).H; });
-}
-
-std::shared_ptr<const Shape> user_without_hessian(const std::shared_ptr<const Shape>& shape) {
-  return std::make_shared<CallbackShape>(without_hessian(shape));
 }
 
 /// A double cone.
@@ -63,12 +54,7 @@ std::shared_ptr<const Shape> user_cones(double radius, double height) {
 }
 
 /// An octahedron with its vertices cut off.
-std::shared_ptr<const Shape> hull(double size) {
-  struct Solid {
-    std::vector<Vector3> points;
-    Polytope polytope;
-    explicit Solid(std::vector<Vector3> corners) : points(std::move(corners)), polytope(points) {}
-  };
+Body hull() {
   std::vector<Vector3> corners;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double end : {-1, 1}) {
@@ -78,54 +64,46 @@ std::shared_ptr<const Shape> hull(double size) {
           corner[axis] = end;
           corner[(axis + 1) % 3] = x;
           corner[(axis + 2) % 3] = y;
-          corners.emplace_back(size * corner.cwiseProduct(Vector3(1, 0.8, 0.6)));
+          corners.emplace_back(corner.cwiseProduct(Vector3(1, 0.8, 0.6)));
         }
       }
     }
   }
-  const auto solid = std::make_shared<const Solid>(std::move(corners));
-  return {solid, &solid->polytope};
+  return samples::polytope(std::move(corners));
+}
+
+/// A body of size 1 in any size.
+auto of(const Body& body) {
+  return [body](double size) { return samples::make_shape(body.scaled(size)); };
 }
 
 const std::vector<Kind>& kinds() {
-  using std::make_shared;
+  static const Body pebble = samples::ellipsoid({0.2, 0.4, 1}), brick = superellipsoid({1, 0.7, 0.3}, 60, 60);
   static const std::vector<Kind> all = {
-      {"ellipsoid", [](double a) -> std::shared_ptr<const Shape> { return make_shared<Ellipsoid>(a * Vector3(0.2, 0.4, 1)); }},
-      {"superellipsoid 4/3", [](double a) { return superellipsoid(a * Vector3(1, 0.7, 0.4), 4, 3); }},
-      {"superellipsoid 8/8", [](double a) { return superellipsoid(a * Vector3(1, 0.7, 0.3), 8, 8); }},
-      {"brick 60/60", [](double a) { return superellipsoid(a * Vector3(1, 1, 0.1), 60, 60); }},
-      {"brick 1000/1000", [](double a) { return superellipsoid(a * Vector3(1, 0.6, 0.4), 1000, 1000); }},
-      {"can 2/60", [](double a) { return superellipsoid(a * Vector3(0.3, 0.3, 1), 2, 60); }},
-      {"plate 5/100", [](double a) { return superellipsoid(a * Vector3(1, 0.5, 0.2), 5, 100); }},
-      {"star 1.2/1.3", [](double a) { return superellipsoid(a * Vector3(1, 0.5, 0.7), 1.2, 1.3); }},
-      {"ovoid",
-       [](double a) -> std::shared_ptr<const Shape> {
-         return make_shared<Superovoid>(a * Vector3(0.5, 0.5, 1), 2, 2.5, 0.3, 0.3);
-       }},
-      {"ovoid 20/20",
-       [](double a) -> std::shared_ptr<const Shape> {
-         return make_shared<Superovoid>(a * Vector3(0.5, 0.7, 1), 20, 20, 0.1, 0.1);
-       }},
-      {"rounded brick",
-       [](double a) -> std::shared_ptr<const Shape> {
-         return make_shared<Rounded>(superellipsoid(a * Vector3(0.9, 0.5, 0.3), 60, 60), 0.1 * a);
-       }},
-      {"rounded box",
-       [](double a) -> std::shared_ptr<const Shape> {
-         return make_shared<Rounded>(make_shared<Box>(a * Vector3(0.9, 0.5, 0.3)), 0.1 * a);
-       }},
-      {"capsule", [](double a) -> std::shared_ptr<const Shape> { return make_shared<Capsule>(0.3 * a, 0.7 * a); }},
-      {"box", [](double a) -> std::shared_ptr<const Shape> { return make_shared<Box>(a * Vector3(1, 0.6, 0.2)); }},
-      {"cylinder", [](double a) -> std::shared_ptr<const Shape> { return make_shared<Cylinder>(0.4 * a, a); }},
-      {"sphere", [](double a) -> std::shared_ptr<const Shape> { return make_shared<Sphere>(a); }},
-      {"hull", hull},
-      {"user brick with Hessian", [](double a) { return user_with_hessian(superellipsoid(a * Vector3(1, 0.7, 0.3), 60, 60)); }},
-      {"user pebble", [](double a) { return user_without_hessian(std::make_shared<Ellipsoid>(a * Vector3(0.2, 0.4, 1))); }},
-      {"user brick", [](double a) { return user_without_hessian(superellipsoid(a * Vector3(1, 0.7, 0.3), 60, 60)); }},
-      {"user slab", [](double a) { return user_without_hessian(std::make_shared<Box>(a * Vector3(1, 1, 0.1))); }},
-      {"user cylinder", [](double a) { return user_without_hessian(std::make_shared<Cylinder>(0.5 * a, a)); }},
-      {"user capsule", [](double a) { return user_without_hessian(std::make_shared<Capsule>(0.3 * a, 0.7 * a)); }},
-      {"user cones", [](double a) { return user_cones(0.5 * a, a); }},
+      {"ellipsoid", of(pebble)},
+      {"superellipsoid 4/3", of(superellipsoid({1, 0.7, 0.4}, 4, 3))},
+      {"superellipsoid 8/8", of(superellipsoid({1, 0.7, 0.3}, 8, 8))},
+      {"brick 60/60", of(superellipsoid({1, 1, 0.1}, 60, 60))},
+      {"brick 1000/1000", of(superellipsoid({1, 0.6, 0.4}, 1000, 1000))},
+      {"can 2/60", of(superellipsoid({0.3, 0.3, 1}, 2, 60))},
+      {"plate 5/100", of(superellipsoid({1, 0.5, 0.2}, 5, 100))},
+      {"star 1.2/1.3", of(superellipsoid({1, 0.5, 0.7}, 1.2, 1.3))},
+      {"ovoid", of(samples::superovoid({0.5, 0.5, 1}, 2, 2.5, 0.3, 0.3))},
+      {"ovoid 20/20", of(samples::superovoid({0.5, 0.7, 1}, 20, 20, 0.1, 0.1))},
+      {"rounded brick", of(superellipsoid({0.9, 0.5, 0.3}, 60, 60).rounded(0.1))},
+      {"rounded box", of(samples::box({0.9, 0.5, 0.3}).rounded(0.1))},
+      {"capsule", of(samples::capsule(0.3, 0.7))},
+      {"box", of(samples::box({1, 0.6, 0.2}))},
+      {"cylinder", of(samples::cylinder(0.4, 1))},
+      {"sphere", [](double size) { return std::make_shared<Sphere>(size); }},
+      {"hull", of(hull())},
+      {"user brick with Hessian", [](double size) { return user_with_hessian(samples::make_shape(brick.scaled(size))); }},
+      {"user pebble", of(pebble.by_callbacks())},
+      {"user brick", of(brick.by_callbacks())},
+      {"user slab", of(samples::box({1, 1, 0.1}).by_callbacks())},
+      {"user cylinder", of(samples::cylinder(0.5, 1).by_callbacks())},
+      {"user capsule", of(samples::capsule(0.3, 0.7).by_callbacks())},
+      {"user cones", [](double size) { return user_cones(0.5 * size, size); }},
   };
   return all;
 }
@@ -191,27 +169,20 @@ class Placing : private test::Draw {
   }
 
  private:
-  std::shared_ptr<const Shape> slender() {
+  std::shared_ptr<const Shape> slender() { return samples::make_shape(slender_body()); }
+  Body slender_body() {
     const Vector3 half = log_within(0.1, 1);
     const double delta = 1.02 + std::pow(10, uniform(-2, 2)), epsilon = 1.02 + std::pow(10, uniform(-2, 2));
-    switch (static_cast<int>(uniform(0, 8))) {
-      case 0:
-        return std::make_shared<Ellipsoid>(half);
-      case 1:
-        return std::make_shared<Box>(half);
-      case 2:
-        return std::make_shared<Capsule>(half.x(), half.y());
-      case 3:
-        return std::make_shared<Cylinder>(half.x(), half.y());
-      case 4:
-        return std::make_shared<Superovoid>(half, delta, 3, 0.5, 0.5);
-      case 5:
-        return std::make_shared<Rounded>(superellipsoid(half, delta, epsilon), 0.3 * half.x());
-      case 6:
-        return user_without_hessian(superellipsoid(half, delta, epsilon));
-      default:
-        return superellipsoid(half, delta, epsilon);
-    }
+    const Body any = superellipsoid(half, delta, epsilon);
+    const std::vector<Body> bodies = {samples::ellipsoid(half),
+                                      samples::box(half),
+                                      samples::capsule(half.x(), half.y()),
+                                      samples::cylinder(half.x(), half.y()),
+                                      samples::superovoid(half, delta, 3, 0.5, 0.5),
+                                      any.rounded(0.3 * half.x()),
+                                      any.by_callbacks(),
+                                      any};
+    return bodies[static_cast<std::size_t>(uniform(0, 8))];
   }
 
   Vector3 face_normal() {
@@ -328,9 +299,10 @@ TEST_CASE("slender bodies in any orientation, at any depth: a contact acts withi
 TEST_CASE("the place of a contact takes no evaluation where bodies are round") {
   // 60 pairs each of which take as many evaluations as their gap alone: Newton's, or an ascent against faces.
   Placing placing(5);
-  const std::array<std::shared_ptr<const Shape>, 4> bodies = {
-      std::make_shared<Ellipsoid>(Vector3(0.4, 0.6, 1)), std::make_shared<Sphere>(0.5), superellipsoid(Vector3(1, 0.7, 0.4), 4, 3),
-      std::make_shared<Superovoid>(Vector3(0.5, 0.5, 1), 2, 2.5, 0.3, 0.3)};
+  const std::array<std::shared_ptr<const Shape>, 4> bodies = {std::make_shared<Ellipsoid>(Vector3(0.4, 0.6, 1)),
+                                                              std::make_shared<Sphere>(0.5),
+                                                              std::make_shared<Superellipsoid>(Vector3(1, 0.7, 0.4), 4, 3),
+                                                              std::make_shared<Superovoid>(Vector3(0.5, 0.5, 1), 2, 2.5, 0.3, 0.3)};
   for (const auto& one : bodies) {
     for (const auto& other : bodies) {
       for (int k = 0; k < 60; ++k) {
@@ -347,10 +319,10 @@ TEST_CASE("the place of a contact takes no evaluation where bodies are round") {
 }
 
 TEST_CASE("a pebble on a slab: the contact is at the pebble, in either order and any frame, and does not jump") {
-  const auto pebble = user_without_hessian(std::make_shared<Ellipsoid>(Vector3(0.05, 0.1, 0.25)));
-  const std::array<std::shared_ptr<const Shape>, 3> slabs = {superellipsoid(Vector3(10, 10, 1), 60, 60),
-                                                             user_without_hessian(std::make_shared<Box>(Vector3(10, 10, 1))),
-                                                             std::make_shared<Box>(Vector3(10, 10, 1))};
+  const auto pebble = samples::make_shape(samples::ellipsoid({0.05, 0.1, 0.25}).by_callbacks());
+  const Body box = samples::box({10, 10, 1});
+  const std::array<std::shared_ptr<const Shape>, 3> slabs = {samples::make_shape(superellipsoid({10, 10, 1}, 60, 60)),
+                                                             samples::make_shape(box.by_callbacks()), samples::make_shape(box)};
   const Matrix3 rotation = Eigen::AngleAxisd(0.9, Vector3(1, 2, 3).normalized()).toRotationMatrix();
   const Pose frame{Vector3(5, -7, 3), Eigen::AngleAxisd(2.1, Vector3(3, -1, 2).normalized()).toRotationMatrix()};
   for (const auto& slab : slabs) {
