@@ -7,18 +7,14 @@
 #include <vector>
 
 #include "supernormal/effects.hpp"
+#include "support/refusal.hpp"
 
 using namespace supernormal::effects;
 
 namespace {
 
 std::string refusal(const std::vector<Effect>& list, double step = 1e-3, Solver solver = Solver::QuickStep) {
-  try {
-    const Effects effects(list, step, solver);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return supernormal::test::refusal([&] { Effects(list, step, solver); });
 }
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

@@ -10,16 +10,12 @@
 #include "common/input_error.hpp"
 #include "model/scene.hpp"
 #include "scene_text.hpp"
+#include "support/refusal.hpp"
 #include "support/temporary_folder.hpp"
 
 /// The message with which a call refuses its input; "" if it does not.
 inline std::string refusal_by(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const falling_particles::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return supernormal::test::refusal<falling_particles::InputError>(call);
 }
 
 inline std::string without_folder(std::string text, const TemporaryFolder& folder) {

@@ -31,6 +31,7 @@
 #include "output/picture.hpp"
 #include "output/report.hpp"
 #include "study/truth.hpp"
+#include "support/refusal.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace fit;
@@ -38,12 +39,7 @@ using namespace fit;
 namespace {
 
 std::string complaint(const std::string& path) {
-  try {
-    read_data(path, 1);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return supernormal::test::refusal<InputError>([&] { read_data(path, 1); });
 }
 
 FittedBody fitted_of(const Body& body) {

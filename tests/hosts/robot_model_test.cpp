@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/refusal.hpp"
 #include "support/relative.hpp"
 #include "support/temporary_folder.hpp"
 #include "world.hpp"
@@ -72,14 +73,9 @@ double error_of(const dMass& mass, const Eigen::Matrix3d& moment) {
 
 double beta(double x, double y) { return std::tgamma(x) * std::tgamma(y) / std::tgamma(x + y); }
 
-/// The message from reading and building; "accepted" without one.
+/// The message from reading and building; "" without one.
 std::string refusal(const std::string& text, const std::string& name = "file.sdf", double density = 1000) {
-  try {
-    const World world(scene_of(text, name), density);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "accepted";
+  return supernormal::test::refusal<std::exception>([&] { World(scene_of(text, name), density); });
 }
 
 void check_refused(const std::string& message, const std::vector<std::string>& says) {
@@ -548,7 +544,7 @@ TEST_CASE("robot_model: every number is refused outside its range, with its name
   const std::vector<std::string> never = {"1e31", "0,3", "nan", "1e400"};
   const std::vector<std::string> maybe = {"1e-320", "1e-30", "0", "-1", "1e6", "1e18"};
   for (const auto& [name, file] : {std::pair<std::string, std::string>("m.sdf", kNumbersOfSdf), {"r.urdf", kNumbersOfUrdf}}) {
-    CHECK(refusal(variants(file, "").at(0).text, name) == "accepted");
+    CHECK(refusal(variants(file, "").at(0).text, name).empty());
     for (const std::string& value : never) {
       CAPTURE(value);
       for (const Variant& variant : variants(file, value)) {

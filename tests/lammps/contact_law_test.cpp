@@ -10,6 +10,7 @@
 
 #include "kernel/cluster.hpp"
 #include "kernel/damping_ratio.hpp"
+#include "support/refusal.hpp"
 #include "support/relative.hpp"
 #include "two_bodies.hpp"
 
@@ -20,12 +21,7 @@ using supernormal::test::relative;
 namespace {
 
 std::string refusal(const ContactMaterial& material) {
-  try {
-    prepared(material);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return supernormal::test::refusal([&] { prepared(material); });
 }
 
 /// Two superellipsoids that overlap by a few per cent of their size.

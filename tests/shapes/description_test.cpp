@@ -137,7 +137,7 @@ TEST_CASE("description: numbers of every size read back, also in a program whose
     CHECK(same_bits(read_pose(describe(pose)).position, pose.position));
   }
   for (const std::string number : {"+1", "1e-999", "-", "1.2.3", "1,5"}) {
-    CHECK(refusal_of("Sphere(radius=" + number + ")") != "accepted");
+    CHECK_FALSE(refusal_of("Sphere(radius=" + number + ")").empty());
   }
   std::locale::global(before);
 }
@@ -165,8 +165,8 @@ TEST_CASE("description: no part of a text can be left out or doubled") {
   Numbers numbers;
   for (const ShapePointer& shape : one_of_each(numbers)) {
     const std::string text = describe(*shape);
-    for (std::size_t length = 0; length < text.size(); ++length) CHECK(refusal_of(text.substr(0, length)) != "accepted");
-    CHECK(refusal_of(text + text) != "accepted");
+    for (std::size_t length = 0; length < text.size(); ++length) CHECK_FALSE(refusal_of(text.substr(0, length)).empty());
+    CHECK_FALSE(refusal_of(text + text).empty());
   }
 }
 

@@ -36,7 +36,7 @@ TEST_CASE("half-axes outside the range are refused by name") {
   CHECK(refusal_of_axes(1, kInfinity, 1) == "half-axis b = inf m is outside [1e-30, 1e+30] m");
   CHECK(refusal_of_axes(5e-324, 1, 1) == "half-axis a = 5e-324 m is outside [1e-30, 1e+30] m");
   CHECK(refusal_of_axes(1, 1, 1e31) == "half-axis c = 1e+31 m is outside [1e-30, 1e+30] m");
-  CHECK(refusal_of_axes(1e-30, 1, 1e30) == "accepted");
+  CHECK(refusal_of_axes(1e-30, 1, 1e30).empty());
 }
 
 TEST_CASE("exponents outside the range are refused by name") {
@@ -46,7 +46,7 @@ TEST_CASE("exponents outside the range are refused by name") {
   CHECK(refusal([&] { Superellipsoid(axes, kNan, 2); }) == "delta = nan is outside [1.01, 1000]");
   CHECK(refusal([&] { Superellipsoid(axes, 2, -kInfinity); }) == "epsilon = -inf is outside [1.01, 1000]");
   CHECK(refusal([&] { Superellipsoid(axes, 1000.5, 2); }) == "delta = 1000.5 is outside [1.01, 1000]");
-  CHECK(refusal([&] { Superellipsoid(axes, 1.01, 1000); }) == "accepted");
+  CHECK(refusal([&] { Superellipsoid(axes, 1.01, 1000); }).empty());
 }
 
 TEST_CASE("radii outside the range are refused by name; 0 is a point") {
@@ -56,7 +56,7 @@ TEST_CASE("radii outside the range are refused by name; 0 is a point") {
     CHECK(refusal([&] { construct(-1e-3); }) == "radius = -0.001 m is outside [0, 1e+30] m");
     CHECK(refusal([&] { construct(kNan); }) == "radius = nan m is outside [0, 1e+30] m");
     CHECK(refusal([&] { construct(kInfinity); }) == "radius = inf m is outside [0, 1e+30] m");
-    CHECK(refusal([&] { construct(0); }) == "accepted");
+    CHECK(refusal([&] { construct(0); }).empty());
   }
   CHECK(refusal([] { Rounded(nullptr, 1); }) == "core is null; a shape is needed");
 }

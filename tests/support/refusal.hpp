@@ -1,5 +1,7 @@
-// The message of a constructor that refuses its arguments.
+// The message with which a call refuses its input.
 #pragma once
+
+#include <doctest/doctest.h>
 
 #include <functional>
 #include <stdexcept>
@@ -7,13 +9,19 @@
 
 namespace supernormal::test {
 
-inline std::string refusal(const std::function<void()>& construct) {
+/// The message of the error; "" if the call accepts its input.
+template <typename Error = std::invalid_argument>
+std::string refusal(const std::function<void()>& call) {
   try {
-    construct();
-  } catch (const std::invalid_argument& error) {
+    call();
+  } catch (const Error& error) {
     return error.what();
   }
-  return "accepted";
+  return "";
+}
+
+inline void check_contains(const std::string& message, const std::string& part) {
+  if (message.find(part) == std::string::npos) FAIL_CHECK("\"", message, "\" does not contain \"", part, "\"");
 }
 
 }  // namespace supernormal::test

@@ -15,6 +15,7 @@
 #include "observe/energy.hpp"
 #include "observe/leaks.hpp"
 #include "scenes.hpp"
+#include "support/refusal.hpp"
 #include "support/relative.hpp"
 #include "world/stepper.hpp"
 #include "world/world.hpp"
@@ -209,12 +210,7 @@ TEST_CASE("a feeder whose region was full catches up, or ends the run with the r
   }
   scene.feeders[0].patience = 0.05;
   Plant plant(scene);
-  std::string message;
-  try {
-    plant.run_until(0.3);
-  } catch (const std::runtime_error& error) {
-    message = error.what();
-  }
+  const std::string message = supernormal::test::refusal<std::runtime_error>([&] { plant.run_until(0.3); });
   for (const char* part : {"feeder \"spout\"", "rate of 100 grains/s", "[0.02, 0.02, 0.01] m from [0, 0, 0.06] m", "had room for",
                            "allowed:", "feeder.patience above 0.05 s"}) {
     CAPTURE(message);
