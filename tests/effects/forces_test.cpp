@@ -168,3 +168,12 @@ TEST_CASE("adhesion adds to the normal force of friction") {
     CHECK((dBodyGetPosition(body)[0] > 1e-3) == (part > 1));
   }
 }
+
+TEST_CASE("adhesion pulls both bodies: two that stick together gain no momentum") {
+  EffectsWorld scene({fx::Adhesion{5, {}}}, kLongStep);
+  const std::vector<dBodyID> balls = {scene.add_ball(kRadius, kDensity, {0, 0, 0}),
+                                      scene.add_ball(kRadius, 2 * kDensity, {0, 0, 1.999 * kRadius})};
+  scene.run_until(0.1);
+  CHECK(scene.depth > 0);
+  CHECK(std::abs(sum_of(balls, [](dBodyID ball) { return mass_of(ball) * dBodyGetLinearVel(ball)[2]; })) < 1e-5);  // N s; pull: 0.5
+}
