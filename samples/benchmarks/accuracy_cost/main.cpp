@@ -22,7 +22,7 @@ namespace {
 using namespace accuracy_cost;
 
 constexpr std::size_t kAtlasPairs = 240;  // per class and situation: 6000 in all
-constexpr std::size_t kPairRows = 6;      // of the table of --dcollide
+constexpr std::size_t kPairRows = 12;     // of the table of --dcollide
 
 struct Options {
   std::size_t pairs = 6000;

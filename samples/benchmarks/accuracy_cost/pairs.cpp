@@ -33,6 +33,7 @@ struct Range {
 Range exponents_of(BodyClass body_class) {
   switch (body_class) {
     case BodyClass::Ellipsoid:
+    case BodyClass::Sphere:
       return {2, 2};
     case BodyClass::Moderate:
       return {1.3, 5};
@@ -108,6 +109,7 @@ std::shared_ptr<const Shape> random_body(Random& random, BodyClass body_class) {
   const double a = uniform(random, 0.5, 1.5);
   const double b = uniform(random, 0.5, 1.5);
   const double c = uniform(random, 0.5, 1.5);
+  if (body_class == BodyClass::Sphere) return std::make_shared<supernormal::Ellipsoid>(Vector3::Constant(a));
   if (body_class == BodyClass::Ellipsoid) return std::make_shared<supernormal::Ellipsoid>(Vector3(a, b, c));
   const Range range = exponents_of(body_class);
   const double delta = uniform(random, range.low, range.high);
@@ -116,7 +118,7 @@ std::shared_ptr<const Shape> random_body(Random& random, BodyClass body_class) {
   return std::make_shared<supernormal::Superellipsoid>(Vector3(thin * a, thin * b, c), delta, epsilon);
 }
 
-char letter(BodyClass body_class) { return "EMBON"[static_cast<int>(body_class)]; }
+char letter(BodyClass body_class) { return "EMBONP"[static_cast<int>(body_class)]; }
 
 char letter(Situation situation) { return "SDNFT"[static_cast<int>(situation)]; }
 

@@ -12,9 +12,9 @@
 
 namespace accuracy_cost {
 
-/// Classes of bodies by their exponents, uniform in: 2; 1.3...5; 6...20; 1.1...1.3; 2...5. Half-axes are 0.5...1.5 m. In a needle,
-/// two of them are a tenth of this.
-enum class BodyClass { Ellipsoid, Moderate, Boxy, Octahedral, Needle };
+/// Classes of bodies by their exponents, uniform in: 2; 1.3...5; 6...20; 1.1...1.3; 2...5; 2. Half-axes are 0.5...1.5 m. In a
+/// needle, two of them are a tenth of this. Those of a sphere are equal.
+enum class BodyClass { Ellipsoid, Moderate, Boxy, Octahedral, Needle, Sphere };
 inline constexpr std::array kBodyClasses = {BodyClass::Ellipsoid, BodyClass::Moderate, BodyClass::Boxy};
 inline constexpr std::array kAllBodyClasses = {BodyClass::Ellipsoid, BodyClass::Moderate, BodyClass::Boxy, BodyClass::Octahedral,
                                                BodyClass::Needle};

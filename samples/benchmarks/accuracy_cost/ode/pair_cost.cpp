@@ -1,5 +1,6 @@
 #include "pair_cost.hpp"
 
+#include <array>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -64,20 +65,20 @@ class DCollide final : public Method {
   mutable dGeomID geom1_ = nullptr, geom2_ = nullptr;
 };
 
-const char* name_of(BodyClass body_class) {
-  switch (body_class) {
-    case BodyClass::Ellipsoid:
-      return "ellipsoids";
-    case BodyClass::Moderate:
-      return "exponents 1.3…5";
-    default:
-      return "exponents 6…20";
-  }
-}
+struct Named {
+  BodyClass body_class;
+  const char* name;
+};
+constexpr std::array kRows = {Named{BodyClass::Sphere, "spheres"},
+                              Named{BodyClass::Ellipsoid, "ellipsoids"},
+                              Named{BodyClass::Moderate, "exponents 1.3…5"},
+                              Named{BodyClass::Boxy, "exponents 6…20"},
+                              Named{BodyClass::Octahedral, "exponents 1.1…1.3"},
+                              Named{BodyClass::Needle, "needles"}};
 
-void write_row(BodyClass body_class, Situation situation, std::size_t count, std::uint64_t seed, const Effort& effort,
+void write_row(const Named& row, Situation situation, std::size_t count, std::uint64_t seed, const Effort& effort,
                std::ostream& out) {
-  const std::vector<Pair> pairs = draw_pairs_of(body_class, situation, count, seed);
+  const std::vector<Pair> pairs = draw_pairs_of(row.body_class, situation, count, seed);
   Methods methods;
   methods.push_back(std::make_unique<DCollide>());
   methods.push_back(ccd_epa(kCcdEpa, kEpaTolerance));
@@ -86,7 +87,7 @@ void write_row(BodyClass body_class, Situation situation, std::size_t count, std
   const Statistics ours = statistics(samples[0], pairs, all), theirs = statistics(samples[1], pairs, all);
   double our_sum = 0, their_sum = 0;
   for (std::size_t p = 0; p < pairs.size(); ++p) our_sum += samples[0][p].time, their_sum += samples[1][p].time;
-  out << "| " << name_of(body_class) << ", " << (situation == Situation::Shallow ? "1" : "30") << " % overlap | "
+  out << "| " << row.name << ", " << (situation == Situation::Shallow ? "1" : "30") << " % overlap | "
       << text("%.2f", ours.time * 1e6) << " | " << text("%.1f", theirs.time / ours.time) << " | "
       << text("%.1f", their_sum / our_sum) << " | " << text("%.0e", ours.worst_error) << " / " << text("%.0e", theirs.worst_error)
       << " | " << ours.failures() << " / " << theirs.failures() << " |\n"
@@ -103,7 +104,7 @@ void write_pair_costs(std::size_t pairs, std::uint64_t seed, const Effort& effor
       << " pairs a row\n\n| pairs | dCollide, µs | libccd / dCollide, medians | means | worst gap error, dCollide / "
          "libccd | failures |\n|---|---:|---:|---:|---|---|\n";
   for (const Situation situation : {Situation::Shallow, Situation::Deep}) {
-    for (const BodyClass body_class : kBodyClasses) write_row(body_class, situation, pairs, seed, effort, out);
+    for (const Named& row : kRows) write_row(row, situation, pairs, seed, effort, out);
   }
   snSetWarmStart(1);
   snClose();
