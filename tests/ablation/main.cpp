@@ -22,8 +22,8 @@ struct Trial {
 };
 
 std::vector<Trial> trials() {
-  return {{"newton_evaluations", &Tuning::newton_evaluations, {0, 4, 16}},
-          {"same_tilt", &Tuning::same_tilt, {0, 0.1}},
+  return {{"newton_evaluations", &Tuning::newton_evaluations, {0, 4, 8}},
+          {"same_tilt", &Tuning::same_tilt, {0.01, 3}},
           {"longest_step", &Tuning::longest_step, {0.5, 3}},
           {"poor_fraction", &Tuning::poor_fraction, {0.01, 0.3}},
           {"short_fraction", &Tuning::short_fraction, {1.3, 1e9}},

@@ -409,7 +409,7 @@ struct LaneSearch {
       const M meets_halfway = meets & (state.at(kTolerance) * limits::kLeastGain < twice_gain);
       const M is_improved = open & (R(0.0) < twice_gain) & (has_step | meets_halfway);
       step = select(is_improved, through, step);
-      return {is_improved, open & ((is_flat(kGauges1) & ~is_ahead1) | (is_flat(kGauges2) & ~is_ahead2))};
+      return {is_improved, open & ~has_step & ((is_flat(kGauges1) & ~is_ahead1) | (is_flat(kGauges2) & ~is_ahead2))};
     }
   };
 
@@ -429,6 +429,19 @@ struct LaneSearch {
     M apart, proved, followed, open;
     SUPERNORMAL_INLINE M all() const { return (apart | proved) | (followed | open); }
   };
+
+  /// The share of a step from the best normal up to where a cut is lower than `cut`, that of the best. Nothing higher is beyond. On
+  /// faces this is the normal of an edge or a face, which a shorter step would pass again; of a parabola it is the top.
+  SUPERNORMAL_INLINE static R share_below_cuts(V best, V cut, V step, const Lanes& lanes) {
+    R share(1.0);
+    for (int k = 0; k <= lanes.round; ++k) {
+      const V bend = cut - lanes.cuts[k].vec(0);
+      const R above = -dot(best, bend), along = dot(step, bend) * share;
+      const M meets = (R(0.0) < above) & (above < along);
+      if (any(meets)) share = share * select(meets, above / select(meets, along, R(1.0)), R(1.0));
+    }
+    return share;
+  }
 
   /// One evaluation of every lane, and the next normal of those that go on. `found` keeps the evaluation of the best normal.
   template <typename Bodies>
@@ -491,11 +504,14 @@ struct LaneSearch {
         goes_on = goes_on & ~is_stuck;
 
         lanes.was_halfway = is_better & ~regular.is_regular;
-        step = select(goes_on & is_better, step, lanes.step * R(0.5));
+        step = select(goes_on & is_better, step, lanes.step);
         const R squared = dot(step, step);
         const M is_long = R(kTuning.longest_step * kTuning.longest_step) < squared;
-        lanes.step = step * select(is_long, R(kTuning.longest_step) / sqrt(select(is_long, squared, R(1.0))), R(1.0));
-        pairs.put(kNormal, select(goes_on, unit(found.vec(kFoundNormal) + lanes.step), n));
+        step = step * select(is_long, R(kTuning.longest_step) / sqrt(select(is_long, squared, R(1.0))), R(1.0));
+        const V best = found.vec(kFoundNormal);
+        const R share = share_below_cuts(best, found.vec(kFoundD) + best * rho, step, lanes);
+        lanes.step = step * select(is_better | (share < R(1.0)), share, R(0.5));
+        pairs.put(kNormal, select(goes_on, unit(best + lanes.step), n));
       }
     }
     if constexpr (Bodies::kOfEllipsoids) {

@@ -26,7 +26,7 @@ struct LaneSettings {
   bool wants_curvature;        ///< whether to find LaneAnswer::curvature
 };
 
-inline constexpr int kMostLaneEvaluations = 8;
+inline constexpr int kMostLaneEvaluations = 16;
 inline constexpr int kMostLaneRounds = kMostLaneEvaluations + limits::kMostTilts;
 inline constexpr double kUnknownCurvature = -1;
 
