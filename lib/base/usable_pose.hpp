@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/finite.hpp"
+#include "supernormal/proximity/batch.hpp"
 #include "supernormal/proximity/pose.hpp"
 
 namespace supernormal {
@@ -35,6 +36,11 @@ inline bool is_rotation(const Eigen::Matrix3d& R) { return all_within(R, 2) && r
 
 /// Whether a pose can be computed with: its numbers are in range, and its matrix is a rotation.
 inline bool is_usable(const Pose& pose) { return all_within(pose.position, kFarthest) && is_rotation(pose.rotation); }
+
+/// Whether both poses of a query can be computed with.
+inline bool has_usable_poses(const ProximityQuery& query) {
+  return query.poses_are_usable || (is_usable(*query.pose1) && is_usable(*query.pose2));
+}
 
 /// Whether queries start from a normal: it is a unit vector to 1e-6. The entries are tested first, because squares and sums of
 /// numbers out of range would raise floating-point exceptions.

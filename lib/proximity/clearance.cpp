@@ -135,7 +135,7 @@ enum class Verdict { Farther, NotFarther, Open };
 
 Verdict decide_by_bounds(const ProximityQuery& pair, double distance, Clearance& out) {
   out = {};
-  if (!is_usable(*pair.pose1) || !is_usable(*pair.pose2)) return Verdict::NotFarther;
+  if (!has_usable_poses(pair)) return Verdict::NotFarther;
   Bounds bounds(pair, Bounds::Aim::Verdict);
   bounds.run(distance, kMostEvaluations, pair.first_normal);
   out = bounds.best();
@@ -147,6 +147,7 @@ Verdict decide_by_bounds(const ProximityQuery& pair, double distance, Clearance&
 /// for the highest.
 ProximityQuery open_query(ProximityQuery pair, double distance, const Clearance& out) {
   pair.first_normal = distance >= 0 ? &out.normal : nullptr;
+  pair.poses_are_usable = true;
   return pair;
 }
 

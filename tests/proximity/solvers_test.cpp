@@ -175,7 +175,7 @@ TEST_CASE("an early out stops at the first normal that separates") {
                           (out.point2 - out.point1).norm() >= pair.gap * (1 - 1e-12) - 1e-14 &&
                           pair.gap - out.gap <= out.error + 1e-14;
       if (solver == Solver::Hybrid && !bounds) FAIL_CHECK(pair.name, " status ", static_cast<int>(out.status), " gap ", out.gap);
-      if (out.status != Status::Apart || out.evaluations == 1) continue;
+      if (out.status != Status::Apart || out.evaluations <= 1) continue;
       Settings before = with(solver);
       before.max_evaluations = out.evaluations - 1;
       const double gap_before = solve(pair, before).gap;
@@ -184,14 +184,14 @@ TEST_CASE("an early out stops at the first normal that separates") {
   }
 }
 
-TEST_CASE("an early out from the normal of an earlier pose takes one evaluation") {
+TEST_CASE("an early out from the normal of an earlier pose takes at most one evaluation") {
   Settings early;
   early.stop_when_apart = true;
   for (const ReferencePair& pair : reference_pairs()) {
     if (!(pair.nominal > 0)) continue;
     const Vector3 normal = solve(pair).normal;
     const Proximity out = solve(pair, early, &normal);
-    const bool good = out.status == Status::Apart && out.evaluations == 1;
+    const bool good = out.status == Status::Apart && out.evaluations <= 1;
     if (!good) FAIL_CHECK(pair.name, " status ", static_cast<int>(out.status), " evaluations ", out.evaluations);
   }
 }
@@ -205,7 +205,7 @@ TEST_CASE("a limit of evaluations is kept, and the answer so far is a valid one"
         settings.max_evaluations = limit;
         const Proximity out = solve(pair, settings);
         limited += out.status == Status::EvaluationLimit;
-        const bool kept = out.evaluations <= limit && out.evaluations >= 1;
+        const bool kept = out.evaluations <= limit;
         const bool valid = std::isfinite(out.gap) && out.error >= 0 && out.point1.allFinite() && out.point2.allFinite() &&
                            out.contact.allFinite() && std::abs(out.normal.norm() - 1) <= 4e-16;
         // The value of s for any normal is a lower bound.
@@ -354,14 +354,14 @@ TEST_CASE("an unusable first normal is no worse than none") {
   }
 }
 
-TEST_CASE("two spheres: one evaluation, exact") {
+TEST_CASE("two spheres: no evaluation, exact") {
   for (const Vector3& direction : random_normals(20, 31)) {
     for (const double distance : {1e-3, 0.5, 1.75, 2.0, 40.0}) {
       const Proximity out =
           find_proximity(Sphere(1.25), upright_at({1, 2, 3}), Sphere(0.5), upright_at(Vector3(1, 2, 3) + distance * direction));
       const double rounding = 4e-15 * std::max(1.0, distance);
       CHECK(out.status == Status::Converged);
-      CHECK(out.evaluations == 1);
+      CHECK(out.evaluations == 0);
       CHECK(std::abs(out.gap - (distance - 1.75)) <= rounding);
       CHECK((out.normal - direction).norm() <= rounding / distance);
       CHECK((out.contact - (Vector3(1, 2, 3) + (0.5 * (1.25 + distance - 0.5)) * direction)).norm() <=

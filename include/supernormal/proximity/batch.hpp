@@ -16,6 +16,7 @@ struct ProximityQuery {
   const Shape* shape2;                    ///< body 2
   const Pose* pose2;                      ///< of body 2
   const Vector3* first_normal = nullptr;  ///< unit, in body 1's frame, or null
+  bool poses_are_usable = false;          ///< whether the caller has tested both poses (Pose), so that no query tests them
 };
 
 /// The same as find_proximity() with these arguments.

@@ -69,8 +69,10 @@ PairKey BodyPair::key() const { return PairKey::of_bodies(body1_->serial(), body
 double BodyPair::look_ahead() const { return std::max(body1_->look_ahead(), body2_->look_ahead()); }
 
 PreparedPair BodyPair::prepare(const CachedNormal& cached, QueryKind kind, LastNormal& last) const {
-  PreparedPair query{pose_of(geom1_), pose_of(geom2_),
+  bool are_usable = true;
+  PreparedPair query{pose_of(geom1_, &are_usable), pose_of(geom2_, &are_usable),
                      settings_for(combined(body1_->settings(), body2_->settings()), kind, look_ahead())};
+  query.poses_are_usable = are_usable;
   last.pose = RelativePose::of(query.pose1, query.pose2);
   query.is_warm = find_cached_normal(cached, last.pose, std::min(body1_->size(), body2_->size()), query.first_normal);
   if (query.is_warm && query.settings.stop_when_apart && body1_->is_known() && body2_->is_known()) {
@@ -80,8 +82,12 @@ PreparedPair BodyPair::prepare(const CachedNormal& cached, QueryKind kind, LastN
 }
 
 ProximityQuery BodyPair::query_of(const PreparedPair& prepared) const {
-  return {&body1_->shape(), &prepared.pose1, &body2_->shape(), &prepared.pose2,
-          prepared.is_warm ? &prepared.first_normal : nullptr};
+  return {&body1_->shape(),
+          &prepared.pose1,
+          &body2_->shape(),
+          &prepared.pose2,
+          prepared.is_warm ? &prepared.first_normal : nullptr,
+          prepared.poses_are_usable};
 }
 
 ContactManifold BodyPair::finish(const PreparedPair& prepared, const Proximity& found, QueryKind kind, LastNormal& last) const {

@@ -37,6 +37,7 @@ struct PreparedPair {
   Settings settings;
   Vector3 first_normal = Vector3::UnitX();  ///< in the frame of body 1
   bool is_warm = false;                     ///< whether first_normal is known
+  bool poses_are_usable = true;             ///< ProximityQuery::poses_are_usable
   double least_gap = 0;                     ///< m; > 0: first_normal still separates the bodies, and there is nothing to ask
 };
 

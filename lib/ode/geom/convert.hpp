@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "base/finite.hpp"
+#include "base/usable_pose.hpp"
 #include "ode/geom/rotation.hpp"
 #include "supernormal/proximity/pose.hpp"
 #include "supernormal/shapes/shape.hpp"
@@ -36,9 +38,12 @@ inline Matrix3 to_rotation(const dReal* R) {
 inline Matrix3 rotation_of(dGeomID geom) { return orthonormal(to_rotation(dGeomGetRotation(geom)), geom); }
 
 /// The current pose of a placeable geom. Do not cache it: inside a dGeomTransform ODE replaces the pose during a call.
-inline Pose pose_of(dGeomID geom) {
+/// `are_usable`, unless null, becomes false if the core has to test the pose.
+inline Pose pose_of(dGeomID geom, bool* are_usable = nullptr) {
   Pose pose{to_vector(dGeomGetPosition(geom)), to_rotation(dGeomGetRotation(geom))};
-  if (!is_orthonormal(pose.rotation)) pose.rotation = nearest_rotation(pose.rotation, geom);  // rare; otherwise no copy
+  const bool is_rotation = is_orthonormal(pose.rotation);
+  if (!is_rotation) pose.rotation = nearest_rotation(pose.rotation, geom);  // rare; otherwise no copy
+  if (are_usable != nullptr) *are_usable = *are_usable && is_rotation && all_within(pose.position, kFarthest);
   return pose;
 }
 

@@ -509,7 +509,8 @@ struct LaneSearch {
         const M is_long = R(kTuning.longest_step * kTuning.longest_step) < squared;
         step = step * select(is_long, R(kTuning.longest_step) / sqrt(select(is_long, squared, R(1.0))), R(1.0));
         const V best = found.vec(kFoundNormal);
-        const R share = share_below_cuts(best, found.vec(kFoundD) + best * rho, step, lanes);
+        R share(1.0);
+        if constexpr (!Bodies::kOfEllipsoids) share = share_below_cuts(best, found.vec(kFoundD) + best * rho, step, lanes);
         lanes.step = step * select(is_better | (share < R(1.0)), share, R(0.5));
         pairs.put(kNormal, select(goes_on, unit(best + lanes.step), n));
       }

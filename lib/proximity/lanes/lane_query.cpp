@@ -4,8 +4,8 @@
 #include <array>
 
 #include "proximity/gap/tuning.hpp"
-#include "proximity/local/first_guess.hpp"
 #include "proximity/search/answer.hpp"
+#include "proximity/search/balls.hpp"
 #include "proximity/search/solvers.hpp"
 #include "shapes/lanes/lane_body_of.hpp"
 
@@ -13,7 +13,7 @@ namespace supernormal {
 namespace {
 
 LanePair lane_pair(const ProximityQuery& pair) {
-  const Vector3* const first = normal_to_start_from(pair);
+  const Vector3* const first = pair.first_normal;
   return {LaneBodies::of(*pair.shape1),
           LaneBodies::of(*pair.shape2),
           pair.pose1->position.data(),
@@ -25,6 +25,14 @@ LanePair lane_pair(const ProximityQuery& pair) {
 
 bool is_of_ellipsoids(const LanePair& pair) {
   return pair.body1 != nullptr && pair.body1->is_ellipsoid && pair.body2 != nullptr && pair.body2->is_ellipsoid;
+}
+
+bool is_ball(const LaneBody& body) { return body.rolling_radius == body.bounding_radius; }
+
+bool are_balls(const LanePair& pair) { return is_ball(*pair.body1) && is_ball(*pair.body2); }
+
+Proximity find_between_balls(const ProximityQuery& query, const LanePair& pair, const Settings& settings) {
+  return find_between_balls(query, pair.body1->bounding_radius, pair.body2->bounding_radius, settings);
 }
 
 LaneSettings lane_settings(const Settings& settings, bool wants_curvature) {
@@ -90,7 +98,7 @@ Proximity finish_alone(const ProximityQuery& pair, const Settings& settings, con
     const auto count = static_cast<std::size_t>(lane.evaluations - 1);
     for (std::size_t k = 0; k < count; ++k) cuts[k] = vector_of(lane.cuts[k]);
     return resume_hybrid(gap, settings, jet, {cuts.data(), count},
-                         normal_to_start_from(pair) != nullptr ? WantedMaximum::Tracked : WantedMaximum::Highest);
+                         pair.first_normal != nullptr ? WantedMaximum::Tracked : WantedMaximum::Highest);
   }
   const StoppingRule rule(gap, settings);
   Proximity out = answer(gap, rule, jet, lane.error, Status::Converged);
@@ -111,6 +119,7 @@ bool is_for_lanes(const Shape& shape1, const Shape& shape2, const Settings& sett
 
 Proximity find_in_one_lane(const ProximityQuery& pair, const Settings& settings) {
   const LanePair input = lane_pair(pair);
+  if (are_balls(input)) return find_between_balls(pair, input, settings);
   LaneAnswer lane;
   kOneLane.query(&input, 1, is_of_ellipsoids(input), lane_settings(settings, false), &lane);
   return answer_of(pair, settings, lane);
@@ -118,6 +127,11 @@ Proximity find_in_one_lane(const ProximityQuery& pair, const Settings& settings)
 
 void LaneBatch::add(const ProximityQuery& query, std::size_t index) {
   const LanePair pair = lane_pair(query);
+  if (are_balls(pair)) {
+    results_[index] = find_between_balls(query, pair, settings_);
+    if (!curvatures_.empty()) curvatures_[index] = {kUnknownCurvature, kUnknownCurvature};
+    return;
+  }
   Group& group = groups_[is_of_ellipsoids(pair) ? 0 : 1];
   group.pairs[group.count] = pair;
   group.queries[group.count] = query;

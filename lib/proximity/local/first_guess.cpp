@@ -14,16 +14,7 @@ Vector3 thinnest_axis(const Vector3& half_extents) {
   return Vector3::Unit(axis);
 }
 
-bool is_ball(const Shape& shape) { return shape.rolling_radius() == shape.bounding_radius(); }
-
 }  // namespace
-
-const Vector3* normal_to_start_from(const ProximityQuery& query) {
-  if (query.first_normal == nullptr || !is_ball(*query.shape1) || !is_ball(*query.shape2)) return query.first_normal;
-  const double reach = query.shape1->half_extents().norm() + query.shape2->half_extents().norm();
-  const double distance = (query.pose2->position - query.pose1->position).norm();
-  return distance <= limits::kConcentric * reach ? query.first_normal : nullptr;
-}
 
 Vector3 first_guess(const GapFunction& gap) {
   const Vector3 half1 = gap.shape1().half_extents();

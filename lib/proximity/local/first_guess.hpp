@@ -1,7 +1,6 @@
-// The normal to start from, with or without an earlier normal.
+// The normal to start from without an earlier normal.
 #pragma once
 
-#include "supernormal/proximity/batch.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 
 namespace supernormal {
@@ -12,10 +11,5 @@ namespace supernormal {
 /// (Kurzhanski and Valyi, Ellipsoidal Calculus, 1997). For concentric bodies, which have no such ray, it is the thinnest axis of
 /// either.
 Vector3 first_guess(const GapFunction& gap);
-
-/// The first normal of a query (usable or null), if the query starts from it, or null. Two balls that are not concentric start from
-/// the guess, the common normal to rounding. A first normal would be accepted within the tolerance of the gap, some 4e-5 rad off,
-/// and the lever arm would let balls without friction spin.
-const Vector3* normal_to_start_from(const ProximityQuery& query);
 
 }  // namespace supernormal

@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "ode/battery_bodies.hpp"
 #include "ode/colliders/contact.hpp"
 #include "ode/colliders/solve_pair.hpp"
@@ -144,5 +147,23 @@ TEST_CASE("pairs that cannot have met: a jump into contact is found") {
     CHECK(collide(one, other).empty());
     place(other, near);
     CHECK(collide(one, other).size() >= 1);
+  }
+}
+
+// The gap of balls is known at the line of their centres only, and so is what may be remembered of it.
+TEST_CASE("balls that pass one another and then meet: no contact is missed") {
+  OdeSession session;
+  const Geom one(snCreateEllipsoid(nullptr, 1, 1, 1)), other(snCreateEllipsoid(nullptr, 1, 1, 1));
+  for (const double angle : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
+    place(other, {2.3 * std::cos(angle), 2.3 * std::sin(angle), 0});
+    CHECK(collide(one, other).empty());
+  }
+  for (int step = 0; step < 15; ++step) {
+    const double distance = 2.23 - 0.05 * step;
+    place(other, {distance * std::cos(1.0), distance * std::sin(1.0), 0});
+    const double depth = 2 - distance;
+    const std::vector<dContactGeom> contacts = collide(one, other);
+    CHECK(contacts.size() == (depth > 0 ? 1 : 0));
+    if (!contacts.empty()) CHECK(double{contacts[0].depth} == doctest::Approx(depth).epsilon(1e-6));
   }
 }
