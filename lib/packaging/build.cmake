@@ -10,8 +10,9 @@ set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
 option(SUPERNORMAL_REQUIRE_OPTIONAL "Fail where something would be left out because a package is missing" OFF)
 option(SUPERNORMAL_WERROR "Treat warnings as errors" OFF)
-option(SUPERNORMAL_UNITE "Compile the files of a folder together: half the time of a whole build, but a change compiles its neighbours again" OFF)
-option(SUPERNORMAL_PRECOMPILE "Precompile the headers of Eigen and doctest: builds faster, but hides missing includes" OFF)
+# A whole build takes a third of the time with both, and its answers have the same digits.
+option(SUPERNORMAL_UNITE "Compile the files of a folder together: a whole build is faster, but a change compiles its neighbours again" ${PROJECT_IS_TOP_LEVEL})
+option(SUPERNORMAL_PRECOMPILE "Precompile the headers of Eigen and doctest: builds faster, but hides missing includes" ${PROJECT_IS_TOP_LEVEL})
 
 # Everything of ours is compiled with these; nobody who links us inherits them. GCC 12 finds overlapping copies in
 # "text" + std::string where there are none (GCC bug 105651).
