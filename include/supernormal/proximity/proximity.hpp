@@ -51,7 +51,7 @@ struct Proximity {
   /// for this point may end at the limit, and the point may then be outside of a body. It need not be between the two points above,
   /// which may be any points of a flat face.
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();
-  int evaluations = 0;                   ///< of the gap function, including those for the contact
+  int evaluations = 0;                   ///< of the gap function, including those for the contact; 0 for two balls
   Status status = Status::InvalidInput;  ///< how the query ended
   /// Whether it is proved that no other normal has a larger gap. `gap` is then the largest value of the gap function, to within the
   /// larger of `error` and the tolerance. For overlapping bodies `-gap` is then the minimum translation distance (MTD), the length
@@ -60,9 +60,9 @@ struct Proximity {
   /// the depth is at most the sum of the proved rolling radii of both bodies (Shape::rolling_radius).
   bool is_global = false;
   /// m; a proved bound: the largest value of the gap function is in [gap, gap + global_error]. If is_global, it is the larger of
-  /// `error` and the tolerance. If the hybrid has searched for other maxima, it is 0.3 % of the depth (more if a shallow overlap
-  /// ended the search), or a sixth of the depth if the hybrid followed an earlier normal. It is infinite for contacts with meshes,
-  /// where only a part of the surface counts.
+  /// `error` and the tolerance; for a closed form (a plane, two balls) it is rounding alone. If the hybrid has searched for other
+  /// maxima, it is 0.3 % of the depth (more if a shallow overlap ended the search), or a sixth of the depth if the hybrid followed
+  /// an earlier normal. It is infinite for contacts with meshes, where only a part of the surface counts.
   double global_error = std::numeric_limits<double>::infinity();
 };
 
