@@ -25,7 +25,6 @@ struct MovingBody {
   Vector3 displacement = Vector3::Zero();      ///< m, by the impacts so far
   double time = 0;                             ///< s, of its last impact, from the start of the step
   int impacts = 0;
-  bool is_worn_out = false;  ///< whether it has had too many
   bool is_attached = false;  ///< whether a joint holds it in place: moved alone, it would violate the joint
 };
 

@@ -115,29 +115,13 @@ void SpeculativeSetup::run_impacts() {
   }
 }
 
-/// A body whose impacts were too many leaves the velocities of all bodies undecided that it has met, and of those that they have
-/// met.
-void SpeculativeSetup::spread_wear() {
-  for (bool spreads = true; spreads;) {
-    spreads = false;
-    for (const Record& record : records_) {
-      const std::array<std::size_t, 2> met = {record.body1, record.body2};
-      if (record.impacts == 0 || std::ranges::none_of(met, [&](std::size_t k) { return bodies_[k].is_worn_out; })) continue;
-      for (const std::size_t k : met) {
-        if (bodies_[k].is_worn_out || bodies_[k].inverse_mass == 0) continue;
-        bodies_[k].is_worn_out = spreads = true;
-      }
-    }
-  }
-}
-
 /// Replaces the contacts of a pair whose bodies have had other impacts than those that the contacts were set up for.
 void SpeculativeSetup::exchange(std::size_t index) {
   const Record& record = records_[index];
   const auto is_left_alone = [&](const MovingBody& body) { return body.inverse_mass == 0 || body.impacts == record.impacts; };
   const Meeting now = meeting(record);
   if (is_left_alone(now.body1) && is_left_alone(now.body2)) return;
-  if (now.body1.is_worn_out || now.body2.is_worn_out || (!record.is_planned && !now.needs_rows())) return;
+  if (!record.is_planned && !now.needs_rows()) return;
   ContactExchange::Place place{now.body1.id, now.body2.id, 0, 0, record.count};
   for (const std::size_t k : records_of_[now.body1.inverse_mass > 0 ? record.body1 : record.body2]) {
     const Record& other = records_[k];
@@ -163,7 +147,6 @@ void SpeculativeSetup::resolve() {
   if (std::ranges::any_of(records_, &Record::is_planned)) {
     list_records();
     run_impacts();
-    spread_wear();
     for (std::size_t k = 0; k < records_.size(); ++k) exchange(k);
     joints_.commit();
     move_bodies();

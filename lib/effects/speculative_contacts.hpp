@@ -52,7 +52,6 @@ class SpeculativeSetup {
   void set_up_alone(Record& record, std::span<dContact> contacts);
   void list_records();
   void run_impacts();
-  void spread_wear();
   void exchange(std::size_t index);
   void move_bodies() const;
 

@@ -162,6 +162,23 @@ TEST_CASE("speculative contacts: Newton's cradle passes the velocity on, whateve
   }
 }
 
+TEST_CASE("speculative contacts: a face bounces as one, also if a step ends between the touches of its corners") {
+  constexpr double kTilt = 1e-6;  // rad; the touches of the corners are 2e-8 s apart
+  for (int part = -4; part <= 4; ++part) {
+    CAPTURE(part);
+    OnPlane scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, kLongStep);
+    const auto size = dReal(kRadius);
+    const dGeomID geom = snCreateSuperellipsoid(scene.world.space(), size, size, size, 8, 8);
+    const dBodyID brick = scene.add(geom, kDensity, {0, 0, kRadius + kLongStep + part * kTilt * kRadius / 4});
+    turn(brick, {1, 1, 0}, kTilt);
+    dBodySetLinearVel(brick, 0, 0, -1);
+    dGeomMoved(geom);
+    scene.run_until(3 * kLongStep);
+    CHECK(speed_up(brick) == relative(1).epsilon(0.01));
+    CHECK(norm(to_vec(dBodyGetAngularVel(brick))) * kRadius < 0.01);
+  }
+}
+
 TEST_CASE("speculative contacts: the forces of a chain of impacts are those that the program measures") {
   const double step = 5e-3;
   OnPlane scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, step);
@@ -207,7 +224,7 @@ TEST_CASE("speculative contacts: a program that attaches contacts of its own kee
 // Without ODE's gyroscopic torques, which take up to a tenth of the energy of bodies that are not balls.
 TEST_CASE("speculative contacts: an elastic gas of balls and bricks keeps its energy") {
   for (const double exponent : {2.0, 4.0, 8.0, 20.0}) {
-    for (const double step : {1e-3, 2e-3, 5e-3, 10e-3}) {
+    for (const double step : {1e-3, 5e-3, 10e-3, 20e-3, 50e-3}) {
       CAPTURE(exponent);
       CAPTURE(step);
       EffectsWorld scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, step);
@@ -231,7 +248,7 @@ TEST_CASE("speculative contacts: an elastic gas of balls and bricks keeps its en
         dGeomMoved(geom);
       }
       const double start = sum_of(bodies, kinetic_energy);
-      for (int k = 0; k * step < 1; ++k) {
+      for (int k = 0; k * step < 2; ++k) {
         scene.step();
         CHECK(sum_of(bodies, kinetic_energy) == relative(start).epsilon(0.01));
       }
