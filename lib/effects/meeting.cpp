@@ -248,15 +248,6 @@ Meeting::Parting Meeting::parting_at(const Vector3& point, const Vector3& normal
   return {normal.dot(before(body1) - before(body2)), normal.dot(after(body1) - after(body2))};
 }
 
-bool Meeting::needs_rows() const {
-  return std::ranges::any_of(contacts, [&](const MeetingContact& c) {
-    const Separation now = Separation::at(c, body1, body2);
-    const double leaving = parting_at(ode::to_vector(c.contact.geom.pos), c.normal).after;
-    const bool is_held_back = leaving * step < std::min(0.0, double{c.contact.geom.depth});
-    return c.is_hit || is_held_back || find_bounce(pair, now, step);
-  });
-}
-
 // One row has the impulses of a region. Its contacts are not independent, and quickstep would need many iterations to divide the
 // impulse among them. If forces bring the bodies together again in the step, they rest on all contacts.
 //

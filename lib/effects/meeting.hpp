@@ -64,9 +64,6 @@ struct Meeting {
   /// Gives the bodies the velocities after the next impact, and moves them to touch before their first one.
   void strike(const Impact& impact) const;
 
-  /// Whether the impacts so far ask for other rows than those of bodies that do not bounce.
-  bool needs_rows() const;
-
   /// The contact for ODE, so that the step ends with the velocities after the impacts so far.
   dContact row_of(const MeetingContact& at) const;
 

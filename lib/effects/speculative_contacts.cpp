@@ -121,7 +121,6 @@ void SpeculativeSetup::exchange(std::size_t index) {
   const auto is_left_alone = [&](const MovingBody& body) { return body.inverse_mass == 0 || body.impacts == record.impacts; };
   const Meeting now = meeting(record);
   if (is_left_alone(now.body1) && is_left_alone(now.body2)) return;
-  if (!record.is_planned && !now.needs_rows()) return;
   ContactExchange::Place place{now.body1.id, now.body2.id, 0, 0, record.count};
   for (const std::size_t k : records_of_[now.body1.inverse_mass > 0 ? record.body1 : record.body2]) {
     const Record& other = records_[k];
