@@ -184,15 +184,14 @@ std::optional<Meeting::Impact> Meeting::next_impact() const {
   return first;
 }
 
-void Meeting::bring_to_touch(const MeetingContact& at) const {
-  const Separation separation = Separation::at(at, body1, body2);
-  Vector3 displacement = -separation.gap * at.normal;
-  if (body1.inverse_mass > 0 && body2.inverse_mass > 0) {
-    // The contact has one place for both bodies, which is right for both only where they touch.
-    const double time = find_bounce(pair, separation, step)->time;
-    const Vector3 velocity = body1.velocity - body2.velocity;
-    displacement += time * (velocity - at.normal.dot(velocity) * at.normal);
-  }
+// Moves the bodies as far as their centres move until they touch. What a rotation brings nearer stays a gap: gravity does no work
+// on it.
+void Meeting::bring_to_touch(const Impact& impact) const {
+  const Vector3 acceleration = body1.acceleration - body2.acceleration;
+  Vector3 displacement = impact.time * (body1.velocity - body2.velocity + (step + impact.time) / 2 * acceleration);
+  // The contact has one place for both bodies, which is right for both only where they touch. A wall needs none.
+  const Vector3& normal = impact.first->normal;
+  if (!(body1.inverse_mass > 0 && body2.inverse_mass > 0)) displacement = normal.dot(displacement) * normal;
   const double share = body1.inverse_mass / (body1.inverse_mass + body2.inverse_mass);
   body1.displacement = share * displacement;
   body2.displacement = (share - 1) * displacement;
@@ -221,7 +220,7 @@ void Meeting::solve_impulses() const {
 // two faces.
 void Meeting::strike(const Impact& impact) const {
   const bool is_moved = may_be_moved();
-  if (is_moved) bring_to_touch(*impact.first);
+  if (is_moved) bring_to_touch(impact);
   for (MeetingContact& c : contacts) {
     Separation separation = Separation::at(c, body1, body2);
     auto bounce = find_bounce(pair, separation, step, is_moved);

@@ -69,7 +69,7 @@ struct Meeting {
 
  private:
   bool may_be_moved() const;
-  void bring_to_touch(const MeetingContact& at) const;
+  void bring_to_touch(const Impact& impact) const;
   void solve_impulses() const;
   struct Parting {
     double before, after;  // m/s
