@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "effects/motion.hpp"
 #include "ode/geom/body.hpp"
@@ -59,22 +60,13 @@ struct Separation {
   }
 };
 
-/// A bounce within the step.
-struct Bounce {
-  double time;      // s, until touch
-  double velocity;  // m/s; the separating velocity that ODE has before it adds the accelerations
-};
-
-/// Empty if the points do not touch within a step, approach below the threshold, or would touch again. `is_moved`: whether
-/// the bodies bounce with the velocity that they have where they touch.
-std::optional<Bounce> find_bounce(const PairMaterial& pair, const Separation& separation, double step, bool is_moved = true) {
+/// s; the time until touch. Empty if the points do not touch within a step, approach below the threshold, or would touch again.
+std::optional<double> time_of_bounce(const PairMaterial& pair, const Separation& separation, double step) {
   if (!(pair.restitution > 0) || !(separation.velocity < 0)) return std::nullopt;
   const auto touch = ode::find_touch(std::max(0.0, separation.gap), separation.velocity, separation.acceleration, step);
-  if (!touch) return std::nullopt;
-  const double change = separation.acceleration * step / 2;
-  const double speed = is_moved ? touch->speed : -(separation.velocity + change);
-  if (!(speed > pair.threshold) || !ode::is_impact(speed, pair.restitution, separation.load, step)) return std::nullopt;
-  return Bounce{touch->time, pair.restitution * speed - change};
+  if (!touch || !(touch->speed > pair.threshold)) return std::nullopt;
+  if (!ode::is_impact(touch->speed, pair.restitution, separation.load, step)) return std::nullopt;
+  return touch->time;
 }
 
 /// The change of the separating velocity by a unit impulse, 1/kg.
@@ -178,23 +170,28 @@ std::optional<Meeting::Impact> Meeting::next_impact() const {
   const double start = std::max(body1.time, body2.time);
   std::optional<Impact> first;
   for (MeetingContact& c : contacts) {
-    const auto bounce = find_bounce(pair, Separation::at(c, body1, body2), step, may_be_moved());
-    if (bounce && (!first || start + bounce->time < first->time)) first = {start + bounce->time, &c};
+    const auto time = time_of_bounce(pair, Separation::at(c, body1, body2), step);
+    if (time && (!first || start + *time < first->time)) first = {start + *time, &c};
   }
   return first;
 }
 
-// Moves the bodies as far as their centres move until they touch. What a rotation brings nearer stays a gap: gravity does no work
-// on it.
+// Moves the bodies as far as their centres move until they touch, and gives them the velocities that forces add until then. What a
+// rotation brings nearer stays a gap: gravity does no work on it.
 void Meeting::bring_to_touch(const Impact& impact) const {
   const Vector3 acceleration = body1.acceleration - body2.acceleration;
-  Vector3 displacement = impact.time * (body1.velocity - body2.velocity + (step + impact.time) / 2 * acceleration);
+  Vector3 gain = impact.time * acceleration;
+  Vector3 displacement = impact.time * (body1.velocity - body2.velocity + step / 2 * acceleration + gain / 2);
   // The contact has one place for both bodies, which is right for both only where they touch. A wall needs none.
-  const Vector3& normal = impact.first->normal;
-  if (!(body1.inverse_mass > 0 && body2.inverse_mass > 0)) displacement = normal.dot(displacement) * normal;
+  const Matrix3 along = impact.first->normal * impact.first->normal.transpose();
+  if (!(body1.inverse_mass > 0 && body2.inverse_mass > 0)) displacement = along * displacement;
+  gain = along * gain;
   const double share = body1.inverse_mass / (body1.inverse_mass + body2.inverse_mass);
-  body1.displacement = share * displacement;
-  body2.displacement = (share - 1) * displacement;
+  for (const auto& [body, part] : {std::pair{&body1, share}, std::pair{&body2, share - 1}}) {
+    body->displacement = part * displacement;
+    body->gain = part * gain;
+    body->velocity += body->gain;
+  }
 }
 
 /// Finds the impulses with which the points part with their targets at least, and those without an impulse faster.
@@ -219,14 +216,12 @@ void Meeting::solve_impulses() const {
 // All contacts that would touch within a step of the first one are struck. Otherwise the end of the step may divide the impact of
 // two faces.
 void Meeting::strike(const Impact& impact) const {
-  const bool is_moved = may_be_moved();
-  if (is_moved) bring_to_touch(impact);
+  if (may_be_moved()) bring_to_touch(impact);
   for (MeetingContact& c : contacts) {
-    Separation separation = Separation::at(c, body1, body2);
-    auto bounce = find_bounce(pair, separation, step, is_moved);
-    c.is_struck = bounce.has_value();
-    if (is_moved) separation.gap = -double{c.contact.geom.depth};  // on the whole way the bodies gain speed
-    if (bounce) c.target = find_bounce(pair, separation, step, is_moved).value_or(*bounce).velocity;
+    const Separation separation = Separation::at(c, body1, body2);
+    const double change = separation.acceleration * step / 2;
+    c.is_struck = time_of_bounce(pair, separation, step).has_value();
+    c.target = -pair.restitution * (separation.velocity + change) - change;
     c.is_hit |= c.is_struck;
     c.impulse = 0;
   }
@@ -240,7 +235,7 @@ void Meeting::strike(const Impact& impact) const {
 
 /// The velocities with which the bodies part at a place, before the step and after it.
 Meeting::Parting Meeting::parting_at(const Vector3& point, const Vector3& normal) const {
-  const auto before = [&](const MovingBody& body) { return velocity_at(body.id, point - body.displacement); };
+  const auto before = [&](const MovingBody& body) { return Vector3(velocity_at(body.id, point - body.displacement) + body.gain); };
   const auto after = [&](const MovingBody& body) {
     return Vector3(body.velocity + body.angular_velocity.cross(point - body.displacement - body.centre) + step * body.acceleration);
   };
@@ -270,7 +265,7 @@ dContact Meeting::row_of(const MeetingContact& at) const {
       return row;
     }
   }
-  const bool may_sink = (part && at.is_hit) || find_bounce(pair, now, step);
+  const bool may_sink = (part && at.is_hit) || time_of_bounce(pair, now, step);
   const double allowed = may_sink ? kShallow * least_half_extent(row.geom) : 0;
   const double excess = parting_at(ode::to_vector(row.geom.pos), at.normal).after - now.velocity - step * now.acceleration;
   if (now.gap + allowed > 0) {

@@ -22,7 +22,8 @@ struct MovingBody {
   Vector3 velocity = Vector3::Zero();          ///< m/s, as ODE has it at the start of the step, and after the impacts so far
   Vector3 angular_velocity = Vector3::Zero();  ///< rad/s
   Vector3 acceleration = Vector3::Zero();      ///< m/s^2
-  Vector3 displacement = Vector3::Zero();      ///< m, by the impacts so far
+  Vector3 displacement = Vector3::Zero();      ///< m, to its first impact
+  Vector3 gain = Vector3::Zero();              ///< m/s, by forces on this way
   double time = 0;                             ///< s, of its last impact, from the start of the step
   int impacts = 0;
   bool is_attached = false;  ///< whether a joint holds it in place: moved alone, it would violate the joint

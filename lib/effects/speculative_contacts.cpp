@@ -137,6 +137,8 @@ void SpeculativeSetup::move_bodies() const {
   for (const MovingBody& body : bodies_) {
     if (body.displacement.isZero(0)) continue;
     const Vector3 place = body.centre + body.displacement;
+    const Vector3 velocity = ode::to_vector(dBodyGetLinearVel(body.id)) + body.gain;
+    dBodySetLinearVel(body.id, ode::to_real(velocity.x()), ode::to_real(velocity.y()), ode::to_real(velocity.z()));
     dBodySetPosition(body.id, ode::to_real(place.x()), ode::to_real(place.y()), ode::to_real(place.z()));
   }
 }
