@@ -68,7 +68,7 @@ ContactManifold find_contacts_ahead(const BodyAhead& body1, const BodyAhead& bod
   take_back(manifold, body1, body2, meeting.time, share, now.gap);
   manifold.deepest.evaluations = meeting.evaluations;
   manifold.reach = reach;
-  limit_rotation(body1, body2, time, share, Places::Between, manifold);
+  limit_rotation(body1, body2, time, share, manifold);
   if (body1.motion.mobility > 0 && body2.motion.mobility > 0) {
     act_between_centres(body1, body2, time, share, meeting.time, manifold);
   }
@@ -86,7 +86,7 @@ ContactManifold find_plane_contacts_ahead(const BodyAhead& body, double time, co
       approach_of(body.motion, {}, time, now.normal, now.gap) + growth_by_rotation(body, now.normal, now.point1, time);
   ContactManifold manifold = find_plane_manifold_of_gaps(body.shape, body.pose, now, overlap);
   manifold.reach = reach;
-  limit_rotation(body, {body.shape, body.pose, {}}, time, 1, Places::OnBody1, manifold);
+  limit_rotation(body, {body.shape, body.pose, {}}, time, 1, manifold);
   return find_plane_contacts_after_free_motion(body, time, now, manifold).value_or(manifold);
 }
 

@@ -21,6 +21,10 @@ namespace {
 // 20 : 1 that fall on a plane, 116 come in by more than a half-width. With 1e-9 12 do.
 constexpr double kParallel = 1e-6;
 
+// rad; the end of a body that turns farther in a step says nothing about its way there. Without the limit, 4 of 3000 bullets with
+// friction go through walls, and 28 of 1500 that spin.
+constexpr double kMostTurn = 1;
+
 /// Upper bound of what another point of the bodies approaches more than a contact, by rotation, m.
 double most_swing(const MotionAhead& motion1, const MotionAhead& motion2, double time) {
   return 2 * (shift_by_rotation(motion1, time) + shift_by_rotation(motion2, time));
@@ -29,7 +33,7 @@ double most_swing(const MotionAhead& motion1, const MotionAhead& motion2, double
 /// Two single contacts of a round body with the same normal, now and at the end of the free motion, as one manifold.
 template <class Pair>
 void add_end(const Pair& pair, const ContactManifold& ahead, ContactManifold& contacts) {
-  limit_rotation(pair.body1, pair.body2, pair.time, pair.share, Places::Between, contacts);
+  limit_rotation(pair.body1, pair.body2, pair.time, pair.share, contacts);
   const ManifoldCorner end{contacts.deepest.contact, -contacts.deepest.gap};
   const ManifoldCorner now{ahead.deepest.contact, -ahead.deepest.gap};
   if (now.depth > end.depth) contacts.deepest = ahead.deepest;
@@ -97,7 +101,9 @@ std::optional<ContactManifold> find_after(const Pair& pair, const Proximity& now
   const double size = smaller_thickness(pair.body1.shape, pair.body2.shape);
   const double graze = kGraze * size;
   const bool may_be_free = now.gap > 0 && held_back > now.error;
-  const bool may_swing_in = ahead.corner_count == 0 && most_swing(pair.body1.motion, pair.body2.motion, pair.time) > graze;
+  const double turn = pair.time * std::max(pair.body1.motion.angular_velocity.norm(), pair.body2.motion.angular_velocity.norm());
+  const bool may_swing_in =
+      ahead.corner_count == 0 && turn < kMostTurn && most_swing(pair.body1.motion, pair.body2.motion, pair.time) > graze;
   const Vector3& normal = ahead.deepest.normal;
   int evaluations = ahead.deepest.evaluations;
   if (!may_be_free) {

@@ -444,8 +444,7 @@ void MeshContactsAhead::add(const Search& search, Proximity there, int triangle,
   draw_in_corners(manifold, search.triangles);
   take_back(manifold, way, search.share);
   manifold.reach = search.reach_along(there.normal, way);
-  limit_rotation(search.now, {search.now.shape, search.now.pose, search.surface}, search.time, search.share,
-                 search.share == 1 ? Places::OnBody1 : Places::Between, manifold);
+  limit_rotation(search.now, {search.now.shape, search.now.pose, search.surface}, search.time, search.share, manifold);
   const auto same = std::find_if(found_.begin(), found_.end(), [&](const MeshManifold& other) {
     return (other.manifold.deepest.normal - there.normal).norm() < kSameNormal + 4 * search.rounding / search.size &&
            other.manifold.deepest.gap < manifold.deepest.gap + kSameGap * search.near + 4 * search.rounding;

@@ -19,6 +19,10 @@ namespace {
 // middle by at most this fraction of the thickness.
 constexpr double kLargestRotation = 0.1;
 
+// From this distance of the middle from the centre of mass on, in half-extents of the body's thinnest side, the rotation by
+// friction has the same limit. It would move the middle behind the wall.
+constexpr double kCentred = 0.25;
+
 // At this multiple of the largest rotation the lever arm has its limit. Below it the arm is interpolated, so no force jumps.
 constexpr double kFarTooLarge = 2;
 
@@ -33,8 +37,8 @@ Vector3 nearest_place(const ContactManifold& manifold, const Vector3& point) {
   return is_inside ? point : frame.lift(region.nearest_to({0, 0}));
 }
 
-/// The point of the body's boundary nearest to the tangent plane on the line through `place` along the normal; `place` itself if
-/// the line misses the body.
+/// The point of the body's boundary nearest to the tangent plane on the line through `place` along the normal, which points out of
+/// the body; `place` itself if the line misses the body.
 Vector3 point_of(const BodyAhead& body, const Vector3& normal, const Vector3& place, int& evaluations) {
   const Vector3 outside = place + 2 * body.shape.bounding_radius() * normal;
   const RayHit hit = find_ray_hit(body.shape, body.pose, outside, -normal, HUGE_VAL);
@@ -53,12 +57,14 @@ Vector3 velocity_at(const BodyAhead& body, const Vector3& place) {
   return body.motion.velocity + body.motion.angular_velocity.cross(place - body.pose.position);
 }
 
-/// The largest rotation of a body by an impact, rad.
-double largest_rotation_of(const BodyAhead& body) {
-  const double thickness = body.shape.half_extents().minCoeff();
-  const double distance = (middle_of(body) - body.motion.centre).norm();
-  return distance > thickness ? kLargestRotation * thickness / distance : kLargestRotation;
+/// The distance of the middle of a body that forces move from its centre of mass, in half-extents of its thinnest side.
+double eccentricity_of(const BodyAhead& body) {
+  if (!(body.motion.mobility > 0)) return 0;
+  return (middle_of(body) - body.motion.centre).norm() / body.shape.half_extents().minCoeff();
 }
+
+/// The largest rotation of a body by an impact, rad.
+double largest_rotation_of(const BodyAhead& body) { return kLargestRotation / std::max(1.0, eccentricity_of(body)); }
 
 /// The squared radius of gyration about the axis of a force with this lever arm, m^2; 0 for a body of infinite inertia.
 double squared_gyration(double lever, double torque_turning) { return torque_turning > 0 ? lever * lever / torque_turning : 0; }
@@ -78,6 +84,7 @@ class LeverLimit {
         rotation_(time * (share * body1.motion.angular_velocity - (1 - share) * body2.motion.angular_velocity)),
         largest_rotation_(share * largest_rotation_of(body1) + (1 - share) * largest_rotation_of(body2)),
         approach_(approach_at(under_centre(contact.contact))),
+        by_friction_(rotation_by_friction(under_centre(contact.contact))),
         height_(std::max(0.0, share * normal_.dot(contact.contact - middle_of(body1)) -
                                   (1 - share) * normal_.dot(contact.contact - middle_of(body2)) + std::min(0.0, contact.gap))) {}
 
@@ -96,22 +103,24 @@ class LeverLimit {
   /// The shift of a contact at `place` in the tangent plane, m.
   Vector3 shift_of(const Vector3& place) const { return (fraction_at(place) - 1) * (place - under_centre(place)); }
 
-  /// The shift along the normal, m. The lever arm of friction is the distance of the contact plane from the centre of mass.
-  /// Friction is at most as large as the normal force and ends when sliding ends. Only the normal force of the impact counts here:
-  /// the weight rolls the body in steps of any length.
+  /// The shift along the normal of a body whose middle is off its centre of mass, m.
   Vector3 shift_for_friction(const Vector3& place) const {
     const Vector3 arm = under_centre(place) - centre_;
-    const Vector3 closing = closing_at(place);
-    const Vector3 slip = closing - normal_.dot(closing) * normal_;
-    const double speed = slip.norm();
-    const double displacement = std::min(speed * time_, approach_ - gained_ * time_);
-    if (!(displacement > 0)) return Vector3::Zero();
-    return (fraction_for_small_rotation(arm, slip / speed, displacement) - 1) * arm;
+    const Vector3 slip = slip_at(place);
+    const double displacement = std::min(slip.norm() * time_, approach_ - gained_ * time_);
+    if (!(displacement > 0 && std::max(eccentricity_of(body1_), eccentricity_of(body2_)) > kCentred)) return Vector3::Zero();
+    return (fraction_for_small_rotation(arm, slip.normalized(), displacement) - 1) * arm;
   }
 
  private:
   /// The velocity of body 1 relative to body 2, m/s.
   Vector3 closing_at(const Vector3& place) const { return velocity_at(body1_, place) - velocity_at(body2_, place); }
+
+  /// The part of it along the contact plane, m/s.
+  Vector3 slip_at(const Vector3& place) const {
+    const Vector3 closing = closing_at(place);
+    return closing - normal_.dot(closing) * normal_;
+  }
 
   /// The overlap that would form at `place` without contact forces, m.
   double approach_at(const Vector3& place) const { return (normal_.dot(closing_at(place)) + gained_) * time_ - gap_; }
@@ -136,13 +145,24 @@ class LeverLimit {
     return 1 - std::min(1.0, (excess - 1) / (kFarTooLarge - 1)) * (1 - small / lever);
   }
 
-  /// The largest fraction of a lever arm b with which the bodies approach by no more than the height H. The impact and the present
-  /// rotation u contribute: (A b^2 + u b k^2) / (b^2 + k^2) <= H with the approach A and the radius of gyration k.
+  /// The rotation by friction, rad. Its lever arm is the height of the centre of mass over the contact plane. Friction is at most
+  /// as large as the normal force and ends when sliding ends. Only the normal force of the impact counts here: the weight rolls the
+  /// body in steps of any length.
+  double rotation_by_friction(const Vector3& place) const {
+    const Vector3 slip = slip_at(place);
+    const Vector3 torque = (place - centre_).cross(slip.stableNormalized());
+    const Vector3 axis = turning_ * torque;
+    return axis.norm() * std::clamp(approach_ - gained_ * time_, 0.0, slip.norm() * time_ / (1 + torque.dot(axis)));
+  }
+
+  /// The largest fraction of a lever arm b with which the bodies approach by no more than the height H. The impact contributes, and
+  /// the rotation u at present and by friction: (A b^2 + u b k^2) / (b^2 + k^2) <= H with the approach A and the radius of gyration
+  /// k.
   double fraction_for_height(const Vector3& arm) const {
     const Vector3 torque = arm.cross(normal_);
     const double lever = arm.norm();
     const double gyration = squared_gyration(lever, torque.dot(turning_ * torque));
-    const double of_rotation = rotation_.norm() * gyration;
+    const double of_rotation = (rotation_.norm() + by_friction_) * gyration;
     const double discriminant = of_rotation * of_rotation + 4 * (approach_ - height_) * height_ * gyration;
     if (!(discriminant >= 0)) return 1;
     const double allowed = 2 * height_ * gyration;
@@ -161,6 +181,7 @@ class LeverLimit {
   Vector3 rotation_;         // rad; by the present angular velocity
   double largest_rotation_;  // rad; limit for an impact
   double approach_;          // m
+  double by_friction_;       // rad; rotation by the friction of an impact
   double height_;            // m; limit for the approach of the middles, neither beyond the plane
 };
 
@@ -195,33 +216,27 @@ void act_between_centres(const BodyAhead& body1, const BodyAhead& body2, double 
   manifold.corner_count = 0;
 }
 
-void limit_rotation(const BodyAhead& body1, const BodyAhead& body2, double time, double share, Places places,
-                    ContactManifold& manifold) {
+void limit_rotation(const BodyAhead& body1, const BodyAhead& body2, double time, double share, ContactManifold& manifold) {
   const Vector3& normal = manifold.deepest.normal;
   const LeverLimit limit(body1, body2, time, share, manifold.deepest);
   if (!(limit.approach() > 0)) return;
-  const Vector3 under = limit.under_centre(manifold.deepest.contact);
-  const Vector3 place = nearest_place(manifold, under);
-  const auto moved = [&](const Vector3& point, const Vector3& shift) -> Vector3 {
-    if (places == Places::Between || shift.isZero(0)) return point + shift;
-    return point_of(body1, normal, point + shift, manifold.evaluations);
+  const auto move = [&](Vector3& point, const Vector3& shift) {
+    point += shift;
+    if (!shift.isZero(0) && share == 1) point = point_of(body1, normal, point, manifold.evaluations);
+    if (!shift.isZero(0) && share == 0) point = point_of(body2, -normal, point, manifold.evaluations);
+    point += limit.shift_for_friction(point);
   };
-  const Vector3 shift = limit.shift_of(place);
-  const Vector3 shift_of_friction = limit.shift_for_friction(moved(place, shift));
-  for (int k = 0; k < manifold.corner_count; ++k) {
-    Vector3& point = manifold.corners[static_cast<std::size_t>(k)].point;
-    point = moved(point, shift) + shift_of_friction;
-  }
-  // Used alone if max_contacts is 1.
   Vector3& contact = manifold.deepest.contact;
-  contact = moved(contact, limit.shift_of(contact));
-  contact += limit.shift_for_friction(contact);
+  const Vector3 under = limit.under_centre(contact);
+  const Vector3 place = nearest_place(manifold, under);
   // If all contacts are on one side of the centre, only the nearest one acts. Quickstep does not find this.
-  const bool is_beside = manifold.corner_count > 0 && place != under && limit.fraction_at(place) < 1;
-  if (is_beside) {
-    manifold.deepest.contact = moved(place, shift) + shift_of_friction;
+  if (manifold.corner_count > 0 && place != under && limit.fraction_at(place) < 1) {
     manifold.corner_count = 0;
+    contact = place;
   }
+  const Vector3 shift = limit.shift_of(place);
+  for (int k = 0; k < manifold.corner_count; ++k) move(manifold.corners[static_cast<std::size_t>(k)].point, shift);
+  move(contact, limit.shift_of(contact));  // used alone if max_contacts is 1
 }
 
 }  // namespace supernormal

@@ -5,19 +5,19 @@
 
 namespace supernormal {
 
-/// What the places of contacts are: points between the bodies, or points of body 1.
-enum class Places { Between, OnBody1 };
-
 /// Moves the contacts of a manifold at the present poses in the tangent plane, towards the line through the centre of mass, as far
-/// as needed to limit the rotation within `time`. `share` is the share of body 1 in the mobilities. Points of body 1 stay on its
-/// boundary: along the normal a place changes nothing but the lever arm of friction.
+/// as needed to limit the rotation within `time`. `share` is the share of body 1 in the mobilities. If only one body moves, the
+/// contacts stay on its boundary: along the normal a place changes nothing but the lever arm of friction.
 ///
 /// Contacts are linear in the motion, so they are valid for small rotations only. An impact with lever arm a stops the body at the
 /// contact, but its centre keeps the fraction a^2 / (a^2 + k^2) of its velocity, with the radius of gyration k. If the displacement
 /// is long compared to the body, the centre passes through the wall and the body rotates by many radians. With a shorter arm the
 /// rotation is small and the body stops before the wall. The lost rotation could not be resolved at this step size.
-void limit_rotation(const BodyAhead& body1, const BodyAhead& body2, double time, double share, Places places,
-                    ContactManifold& manifold);
+///
+/// Friction rotates a body as far as it does. If such a rotation would move the centre into the wall about a contact beside it, the
+/// contact moves under the centre. If the middle of the body is off its centre of mass, the lever arm of friction is shorter: the
+/// place is within the body.
+void limit_rotation(const BodyAhead& body1, const BodyAhead& body2, double time, double share, ContactManifold& manifold);
 
 /// Replaces the contact normal of two free bodies by the direction between their centres of mass, if the contact would rotate one
 /// of them too far within `time`. A shift of the contact would not help, because no place in its tangent plane is in line with both
