@@ -73,20 +73,24 @@ double squared_gyration(double lever, double torque_turning) { return torque_tur
 class LeverLimit {
  public:
   LeverLimit(const BodyAhead& body1, const BodyAhead& body2, double time, double share, const Proximity& contact)
-      : body1_(body1),
-        body2_(body2),
-        time_(time),
-        normal_(contact.normal),
-        gap_(std::max(0.0, contact.gap)),
-        gained_(gained_speed(body1.motion, body2.motion, time)),
+      : normal_(contact.normal),
         centre_(share * body1.motion.centre + (1 - share) * body2.motion.centre),
         turning_(share * body1.motion.turning + (1 - share) * body2.motion.turning),
         rotation_(time * (share * body1.motion.angular_velocity - (1 - share) * body2.motion.angular_velocity)),
         largest_rotation_(share * largest_rotation_of(body1) + (1 - share) * largest_rotation_of(body2)),
-        approach_(approach_at(under_centre(contact.contact))),
-        by_friction_(rotation_by_friction(under_centre(contact.contact))),
+        is_eccentric_(std::max(eccentricity_of(body1), eccentricity_of(body2)) > kCentred),
         height_(std::max(0.0, share * normal_.dot(contact.contact - middle_of(body1)) -
-                                  (1 - share) * normal_.dot(contact.contact - middle_of(body2)) + std::min(0.0, contact.gap))) {}
+                                  (1 - share) * normal_.dot(contact.contact - middle_of(body2)) + std::min(0.0, contact.gap))) {
+    const Vector3 under = under_centre(contact.contact);
+    const Vector3 closed = time * (velocity_at(body1, under) - velocity_at(body2, under));
+    slip_ = closed - normal_.dot(closed) * normal_;
+    const double impact = normal_.dot(closed) - std::max(0.0, contact.gap);
+    impact_ = std::max(0.0, impact);
+    approach_ = impact + time * gained_speed(body1.motion, body2.motion, time);
+    const Vector3 torque = (under - centre_).cross(slip_.stableNormalized());
+    const Vector3 axis = turning_ * torque;
+    by_friction_ = axis.norm() * std::min(impact_, slip_.norm() / (1 + torque.dot(axis)));
+  }
 
   /// The overlap that would form under the centre of mass without contact forces, m.
   double approach() const { return approach_; }
@@ -105,26 +109,13 @@ class LeverLimit {
 
   /// The shift along the normal of a body whose middle is off its centre of mass, m.
   Vector3 shift_for_friction(const Vector3& place) const {
+    const double displacement = std::min(slip_.norm(), impact_);
+    if (!(is_eccentric_ && displacement > 0)) return Vector3::Zero();
     const Vector3 arm = under_centre(place) - centre_;
-    const Vector3 slip = slip_at(place);
-    const double displacement = std::min(slip.norm() * time_, approach_ - gained_ * time_);
-    if (!(displacement > 0 && std::max(eccentricity_of(body1_), eccentricity_of(body2_)) > kCentred)) return Vector3::Zero();
-    return (fraction_for_small_rotation(arm, slip.normalized(), displacement) - 1) * arm;
+    return (fraction_for_small_rotation(arm, slip_.normalized(), displacement) - 1) * arm;
   }
 
  private:
-  /// The velocity of body 1 relative to body 2, m/s.
-  Vector3 closing_at(const Vector3& place) const { return velocity_at(body1_, place) - velocity_at(body2_, place); }
-
-  /// The part of it along the contact plane, m/s.
-  Vector3 slip_at(const Vector3& place) const {
-    const Vector3 closing = closing_at(place);
-    return closing - normal_.dot(closing) * normal_;
-  }
-
-  /// The overlap that would form at `place` without contact forces, m.
-  double approach_at(const Vector3& place) const { return (normal_.dot(closing_at(place)) + gained_) * time_ - gap_; }
-
   /// The largest fraction of a lever arm with which a force against `direction`, which stops the displacement `displacement` (m),
   /// rotates the bodies by at most the largest rotation. The removal of a present rotation is free.
   double fraction_for_small_rotation(const Vector3& arm, const Vector3& direction, double displacement) const {
@@ -145,16 +136,6 @@ class LeverLimit {
     return 1 - std::min(1.0, (excess - 1) / (kFarTooLarge - 1)) * (1 - small / lever);
   }
 
-  /// The rotation by friction, rad. Its lever arm is the height of the centre of mass over the contact plane. Friction is at most
-  /// as large as the normal force and ends when sliding ends. Only the normal force of the impact counts here: the weight rolls the
-  /// body in steps of any length.
-  double rotation_by_friction(const Vector3& place) const {
-    const Vector3 slip = slip_at(place);
-    const Vector3 torque = (place - centre_).cross(slip.stableNormalized());
-    const Vector3 axis = turning_ * torque;
-    return axis.norm() * std::clamp(approach_ - gained_ * time_, 0.0, slip.norm() * time_ / (1 + torque.dot(axis)));
-  }
-
   /// The largest fraction of a lever arm b with which the bodies approach by no more than the height H. The impact contributes, and
   /// the rotation u at present and by friction: (A b^2 + u b k^2) / (b^2 + k^2) <= H with the approach A and the radius of gyration
   /// k.
@@ -170,19 +151,19 @@ class LeverLimit {
     return allowed < asked ? allowed / asked : 1;
   }
 
-  const BodyAhead& body1_;
-  const BodyAhead& body2_;
-  double time_;              // s
   Vector3 normal_;           // unit, from body 1 to body 2
-  double gap_;               // m; the present gap, 0 in an overlap
-  double gained_;            // m/s; from gravity and forces
   Vector3 centre_;           // m; centre of mass
   Matrix3 turning_;          // 1/m^2
   Vector3 rotation_;         // rad; by the present angular velocity
   double largest_rotation_;  // rad; limit for an impact
-  double approach_;          // m
-  double by_friction_;       // rad; rotation by the friction of an impact
+  bool is_eccentric_;        // whether the middle is off the centre of mass
   double height_;            // m; limit for the approach of the middles, neither beyond the plane
+  Vector3 slip_;             // m; along the plane, under the centre of mass
+  double impact_;            // m; the approach that an impact stops. The weight rolls the body in steps of any length
+  double approach_;          // m; with the weight
+  // rad; rotation by friction. It is at most as large as the force of the impact, and ends when sliding ends. Its lever arm is the
+  // height of the centre of mass over the contact plane.
+  double by_friction_;
 };
 
 /// The larger rotation that a contact gives one of two free bodies, in units of its limit. The contact stops `approach` (m).

@@ -72,6 +72,26 @@ ContactManifold find_on_plane(const BodyAhead& body) {
 
 }  // namespace
 
+TEST_CASE("places of contacts with a plane, or a box at rest, are on the body that moves, also in impacts") {
+  const Vector3 half_axes(0.01, 0.007, 0.005);
+  const Ellipsoid body(half_axes);
+  const Box box({1, 1, 0.5});
+  const BodyAhead floor = standing(box, {Vector3(0, 0, -0.5), Matrix3::Identity()});
+  test::Draw draw(60);
+  for (int i = 0; i < test::draws(300); ++i) {
+    CAPTURE(i);
+    const Vector3 velocity(draw.uniform(-10, 10), draw.uniform(-10, 10), -draw.log_uniform(0.01, 30));
+    const Matrix3 rotation = draw.rotation();
+    const double height = body.support(rotation.transpose() * -Vector3::UnitZ());
+    const BodyAhead there = moving(body, {Vector3(0, 0, height - draw.uniform(0, 1) * kTime * velocity.z()), rotation}, velocity);
+    for (const ContactManifold& found : {find_on_plane(there), find(there, floor), find(floor, there)}) {
+      REQUIRE(has_contact(found));
+      const Vector3 in_body = rotation.transpose() * (found.deepest.contact - there.pose.position);
+      CHECK(in_body.cwiseQuotient(half_axes).norm() == doctest::Approx(1).epsilon(1e-6));
+    }
+  }
+}
+
 TEST_CASE("a ball that flies at a wall has one contact on the ball, with the present gap and the wall's normal") {
   const Ellipsoid ball(Vector3(0.05, 0.05, 0.05));
   const Box wall(Vector3(1, 1, 0.01));
