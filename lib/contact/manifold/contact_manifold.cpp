@@ -136,7 +136,7 @@ void put_deepest_first(std::span<ManifoldCorner> corners, double shallow) {
 using Write = void(const CornerList& corners, double allowed_separation, double gap, ContactManifold& manifold);
 
 ContactManifold find_manifold(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
-                              const Proximity& proximity, double approach, Write* write) {
+                              const Proximity& proximity, double approach, const std::array<double, 2>& tilts, Write* write) {
   ContactManifold manifold(proximity);
   if (proximity.status == Status::InvalidInput || !may_have_corners(shape1) || !may_have_corners(shape2)) return manifold;
   const Vector3& n = proximity.normal;
@@ -147,7 +147,7 @@ ContactManifold find_manifold(const Shape& shape1, const Pose& pose1, const Shap
   const SupportPolygon polygon2(shape2, pose2, -n, proximity.point2, depth, shape1.half_extents().minCoeff());
   manifold.evaluations += polygon2.evaluations();
   if (!polygon2.has_width()) return manifold;
-  const std::optional<CornerList> corners = find_common_corners(polygon1, polygon2, n, proximity.contact);
+  const std::optional<CornerList> corners = find_common_corners(polygon1, polygon2, n, proximity.contact, tilts);
   if (corners) write(*corners, std::min(allowed_separation(polygon1), allowed_separation(polygon2)), proximity.gap, manifold);
   manifold.same_place = kSamePlace * std::min(polygon1.size(), polygon2.size());
   manifold.margin = std::max(0.0, polygon1.largest_separation() + polygon2.largest_separation() + proximity.gap);
@@ -185,7 +185,7 @@ ContactManifold find_plane_manifold(const Shape& shape, const Pose& pose, const 
 ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
                                       const Proximity& proximity) {
   if (!overlaps(proximity)) return proximity;
-  return find_manifold(shape1, pose1, shape2, pose2, proximity, 0, write_depths);
+  return find_manifold(shape1, pose1, shape2, pose2, proximity, 0, {0, 0}, write_depths);
 }
 
 ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity) {
@@ -197,7 +197,7 @@ ContactManifold find_manifold_of_gaps(const Shape& shape1, const Pose& pose1, co
                                       const Proximity& proximity, double share, double approach) {
   Proximity placed = proximity;
   placed.contact += (0.5 - share) * proximity.gap * proximity.normal;
-  ContactManifold manifold = find_manifold(shape1, pose1, shape2, pose2, placed, approach, write_gaps);
+  ContactManifold manifold = find_manifold(shape1, pose1, shape2, pose2, placed, approach, {share, 1 - share}, write_gaps);
   manifold.shallow = kShallow * manifold.same_place;
   return manifold;
 }
