@@ -12,24 +12,6 @@
 namespace supernormal {
 namespace {
 
-/// Moves a manifold from the poses after `time` back to the present poses. Each contact is moved by the weighted mean of the two
-/// displacements; `share` is the weight of body 1.
-void take_back(ContactManifold& manifold, const BodyAhead& body1, const BodyAhead& body2, double time, double share,
-               double gap_now) {
-  const Vector3 displacement1 = time * body1.motion.velocity;
-  const Vector3 displacement2 = time * body2.motion.velocity;
-  const Vector3 displacement = share * displacement1 + (1 - share) * displacement2;
-  const double closed = manifold.deepest.normal.dot(displacement1 - displacement2);
-  // Bodies that are apart now do not overlap now. The tangent planes at the impact may say otherwise.
-  const double greatest_depth = std::max(0.0, -gap_now);
-  const auto depth_now = [&](double depth) { return std::min(depth - closed, greatest_depth); };
-  manifold.deepest.gap = -depth_now(-manifold.deepest.gap);
-  manifold.deepest.point1 -= displacement1;
-  manifold.deepest.point2 -= displacement2;
-  manifold.deepest.contact -= displacement;
-  for (ManifoldCorner& corner : manifold.corners) corner = {corner.point - displacement, depth_now(corner.depth)};
-}
-
 ContactManifold none(const Proximity& now, int evaluations) {
   ContactManifold manifold(now);
   manifold.deepest.status = Status::Apart;
@@ -65,7 +47,7 @@ ContactManifold find_contacts_ahead(const BodyAhead& body1, const BodyAhead& bod
                          growth_by_rotation(there1, there.normal, there.point1, time) +
                          growth_by_rotation(there2, -there.normal, there.point2, time);
   ContactManifold manifold = find_manifold_of_gaps(there1.shape, there1.pose, there2.shape, there2.pose, there, share, overlap);
-  take_back(manifold, body1, body2, meeting.time, share, now.gap);
+  take_back(manifold, meeting.time * body1.motion.velocity, meeting.time * body2.motion.velocity, share, now.gap);
   manifold.deepest.evaluations = meeting.evaluations;
   manifold.reach = reach;
   limit_rotation(body1, body2, time, share, manifold);

@@ -31,6 +31,18 @@ BodyAhead moved(const BodyAhead& body, double time) {
   return {body.shape, {body.pose.position + time * body.motion.velocity, body.pose.rotation}, body.motion};
 }
 
+void take_back(ContactManifold& manifold, const Vector3& displacement1, const Vector3& displacement2, double share, double gap) {
+  const Vector3 displacement = share * displacement1 + (1 - share) * displacement2;
+  const double closed = manifold.deepest.normal.dot(displacement1 - displacement2);
+  const double greatest_depth = std::max(0.0, -gap);
+  const auto depth_now = [&](double depth) { return std::min(depth - closed, greatest_depth); };
+  manifold.deepest.gap = -depth_now(-manifold.deepest.gap);
+  manifold.deepest.point1 -= displacement1;
+  manifold.deepest.point2 -= displacement2;
+  manifold.deepest.contact -= displacement;
+  for (ManifoldCorner& corner : manifold.corners) corner = {corner.point - displacement, depth_now(corner.depth)};
+}
+
 Meeting find_meeting(const BodyAhead& body1, const BodyAhead& body2, double time, double size, const Settings& settings,
                      const Proximity& now) {
   const double graze = kGraze * size;

@@ -23,6 +23,10 @@ double smaller_thickness(const Shape& shape1, const Shape& shape2);
 /// The body after `time` at its velocity, without rotation.
 BodyAhead moved(const BodyAhead& body, double time);
 
+/// Moves a manifold back by the displacements of the bodies, m, and each contact by their mean with the weight `share` of body 1.
+/// Bodies that are apart by `gap` (m) do not overlap. The tangent planes there may say otherwise.
+void take_back(ContactManifold& manifold, const Vector3& displacement1, const Vector3& displacement2, double share, double gap);
+
 /// Finds the first time at which the bodies overlap by kGraze * `size` (m). If there is none within `time`, the result is the state
 /// at `time`. Smaller overlaps are ignored, so a body that slides over two flush bodies does not hit the edge of the second.
 ///

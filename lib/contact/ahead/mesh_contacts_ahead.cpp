@@ -141,17 +141,6 @@ struct Plane {
   }
 };
 
-/// Moves a manifold from the end of the displacement `way` back to the present position. A gap at the end means no overlap now. The
-/// tangent plane may say otherwise.
-void take_back(ContactManifold& manifold, const Vector3& way, double share) {
-  const double closed = manifold.deepest.normal.dot(way);
-  const double greatest_depth = std::max(0.0, -manifold.deepest.gap);
-  const auto depth_now = [&](double depth) { return std::min(depth - closed, greatest_depth); };
-  manifold.deepest.gap = -depth_now(-manifold.deepest.gap);
-  manifold.deepest.contact -= share * way;
-  for (ManifoldCorner& corner : manifold.corners) corner = {corner.point - share * way, depth_now(corner.depth)};
-}
-
 /// The velocity along a wall with this normal.
 Vector3 along_wall(const Vector3& velocity, const Vector3& normal) {
   return velocity - std::max(0.0, velocity.dot(normal)) * normal;
@@ -442,7 +431,7 @@ void MeshContactsAhead::add(const Search& search, Proximity there, int triangle,
                          growth_by_rotation(search.body, there.normal, there.point1, search.time);
   ContactManifold manifold = find_plane_manifold_of_gaps(search.body.shape, search.body.pose, there, overlap);
   draw_in_corners(manifold, search.triangles);
-  take_back(manifold, way, search.share);
+  take_back(manifold, way, Vector3::Zero(), search.share, manifold.deepest.gap);
   manifold.reach = search.reach_along(there.normal, way);
   limit_rotation(search.now, {search.now.shape, search.now.pose, search.surface}, search.time, search.share, manifold);
   const auto same = std::find_if(found_.begin(), found_.end(), [&](const MeshManifold& other) {

@@ -161,8 +161,8 @@ class LeverLimit {
   Vector3 slip_;             // m; along the plane, under the centre of mass
   double impact_;            // m; the approach that an impact stops. The weight rolls the body in steps of any length
   double approach_;          // m; with the weight
-  // rad; rotation by friction. It is at most as large as the force of the impact, and ends when sliding ends. Its lever arm is the
-  // height of the centre of mass over the contact plane.
+  // rad; by friction, which is at most as large as the force of the impact, and ends when sliding ends. Its lever arm is the height
+  // of the centre of mass over the contact plane.
   double by_friction_;
 };
 

@@ -90,11 +90,10 @@ std::optional<CornerList> find_common_corners(const SupportPolygon& polygon1, co
   if (region.size() == 0) return std::nullopt;
   const Vector2 slope = frame.plane.project(polygon1.slope() + polygon2.slope());
   CornerList corners = corners_of(region, side1, side2, frame, slope);
-  for (Vector3& point : corners.points) {
-    const double separation1 = std::max(0.0, polygon1.slope().dot(point - polygon1.support_point()));
-    const double separation2 = std::max(0.0, polygon2.slope().dot(point - polygon2.support_point()));
-    point += (tilts[1] * separation2 - tilts[0] * separation1) * normal;
-  }
+  const auto rise = [](const SupportPolygon& polygon, const Vector3& point) {
+    return std::max(0.0, polygon.slope().dot(point - polygon.support_point()));
+  };
+  for (Vector3& point : corners.points) point += (tilts[1] * rise(polygon2, point) - tilts[0] * rise(polygon1, point)) * normal;
   return corners;
 }
 
