@@ -422,8 +422,13 @@ SUPERNORMAL_ODE_API snStepperID snStepperCreate(dWorldID world);
 SUPERNORMAL_ODE_API void snStepperDestroy(snStepperID stepper);
 
 /** The stepper moves this body from now on. ODE cannot list the bodies of a world. dWorldQuickStep moves the other bodies; the
- * stepper calls it. It also moves a body of the stepper that a joint of ODE holds, with all that touch it. Refuses a body that was
- * added before, or of another world. Returns 1; 0 (and snLastError) if refused. */
+ * stepper calls it. Refuses a body that was added before, or of another world. Returns 1; 0 (and snLastError) if refused.
+ *
+ * The stepper solves the enabled joints of its bodies with one another and with the world: ball, hinge, slider, universal and fixed
+ * joints, with their motors, stops and feedback. ODE does not tell what a hinge, a slider or a fixed joint holds: that is how its
+ * bodies are in the first step with it, until its bodies or its axis change. ERP and the fudge factor are not used. Bodies with any
+ * other joint, one whose CFM is above the world's, one that bounces, or one to a body that was not added are moved by quickstep,
+ * with all that touch them or are joined to them. */
 SUPERNORMAL_ODE_API int snStepperAddBody(snStepperID stepper, dBodyID body);
 
 /** The stepper leaves this body, and forgets the contacts that it was given with it. Call it before dBodyDestroy. Returns 1; 0 (and
@@ -439,7 +444,8 @@ SUPERNORMAL_ODE_API int snStepperAddContact(snStepperID stepper, const dContact*
  * done, s. It is less than `step` if bodies have left the paths for which their contacts were found, as after an impact: then
  * collide again, and call it with the rest. Forces and torques on bodies act for the whole step, and are removed as by a step of
  * ODE. In the call with the rest they act on, unless the body has been given a force or a torque since: then that acts in their
- * place. Returns a number < 0 (and snLastError) if it refuses; it has then changed nothing. */
+ * place. dWorldQuickStep moves what other joints hold (snStepperAddBody). Returns a number < 0 (and snLastError) if it refuses; it
+ * has then changed nothing. */
 SUPERNORMAL_ODE_API dReal snStepperStep(snStepperID stepper, dReal step);
 
 /** sag: the largest overlap of a contact at rest, relative to the least radius of gyration of its bodies, in [1e-12, 1]; default

@@ -65,7 +65,7 @@ void Body::read(const Vector3& gravity, bool is_rest) {
   is_free = dBodyIsKinematic(id) == 0;
   stirs = is_free || !velocity.isZero(0) || !angular_velocity.isZero(0);
   is_awake = stirs && dBodyIsEnabled(id) != 0;
-  is_held = is_free && dBodyGetNumJoints(id) > 0;
+  is_held = false;
   const Vector3 force = require_finite("force on a body", to_vector(dBodyGetForce(id)));
   const Vector3 torque = require_finite("torque on a body", to_vector(dBodyGetTorque(id)));
   if (!is_rest || !force.isZero(0) || !torque.isZero(0)) {

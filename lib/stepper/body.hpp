@@ -65,13 +65,13 @@ struct Body {
   double size = 0;                                  ///< m; the smallest radius of gyration
   bool is_touched = false;                          ///< whether it has a contact
   bool is_borne = false;                            ///< whether it touches what it has a contact with
-  bool is_followed = false;                         ///< whether a contact follows its motion within the step
+  bool is_followed = false;                         ///< whether a contact or a joint follows its motion within the step
   bool is_free = false;                             ///< whether it is not kinematic
   bool stirs = false;                               ///< whether it wakes what it touches: kinematic bodies at rest do not
   bool is_awake = false;                            ///< whether it moves; spreads by contacts
-  bool is_held = false;                             ///< whether a joint holds it, so that quickstep moves it; spreads by contacts
-  bool is_centred = false;                          ///< whether its sub-steps are centred in time; spreads by contacts
-  bool is_restless = true;                          ///< whether it must not sleep; spreads by contacts
+  bool is_held = false;     ///< whether a joint holds it for which quickstep must move it; spreads by contacts and joints
+  bool is_centred = false;  ///< whether its sub-steps are centred in time; spreads by contacts
+  bool is_restless = true;  ///< whether it must not sleep; spreads by contacts
 
  private:
   void read_mass();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "ode/geom/convert.hpp"
 
@@ -47,7 +46,7 @@ Contact contact_of(System& system, const Given& given) {
   contact.body1 = given.body1;
   contact.body2 = given.body2;
   contact.gap = contact.first_gap = -double{geometry.depth};
-  contact.size = std::numeric_limits<double>::infinity();
+  contact.size = kAny;
   for (Body* const body : {&system.body1(contact), &system.body2(contact)}) {
     if (!body->is_dynamic()) continue;
     contact.size = std::min(contact.size, body->size);

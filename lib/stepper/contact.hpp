@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "stepper/body.hpp"
+#include "stepper/joint.hpp"
 #include "stepper/surface.hpp"
 
 namespace supernormal::stepper {
@@ -30,30 +30,17 @@ struct Given {
   dJointFeedback feedback;
 };
 
-/// One direction in which a contact pushes, or an axis about which it turns.
-struct Row {
-  Vector3 direction;             ///< unit; of the force or torque on body 1; body 2 has the opposite
-  Vector3 response1, response2;  ///< 1/(kg m) or 1/(kg m^2); of the angular velocities to a unit impulse; body 2: opposite sign
-  double mobility = 0;           ///< 1/kg or 1/(kg m^2); the change of the relative velocity by a unit impulse
-  double impulse = 0;            ///< N s or N m s; in the present sub-step, so far
-  double later = 0;              ///< N s or N m s; the part of the last impulse that follows after the positions
-  double total = 0;              ///< N s; so far in the step; along the normal without impacts
-};
-
-struct Contact {
+struct Contact : Link {
   std::array<Row, 3> rows;  ///< along the normal, and two across it
-  Vector3 arm1, arm2;       ///< m; from the centres of mass to the place
   double impact = 0;        ///< N s; along the normal, of all impacts so far in the step
   double first_gap = 0;     ///< m; when the step began
   double gap = 0;           ///< m; when the bodies last moved
   double size = 0;          ///< m; of the smaller of its moving bodies
   double tangent_mass = 0;  ///< kg; for both directions across the normal
-  double part_before = 1;   ///< the part of its last impulse that acts before the positions
   const Given* given = nullptr;
   const Softness* softness = nullptr;
-  int body1 = 0, body2 = 0;  ///< in System::bodies
-  int rolling = -1;          ///< in System::rolling; -1: none
-  int moving = -1;           ///< in System::centring, if place and normal follow the bodies within the step; -1: they do not
+  int rolling = -1;  ///< in System::rolling; -1: none
+  int moving = -1;   ///< in System::centring, if place and normal follow the bodies within the step; -1: they do not
 
   const Row& normal() const { return rows[0]; }
   Row& normal() { return rows[0]; }
@@ -78,6 +65,7 @@ struct Impact {
 /// What one step solves.
 struct System {
   std::vector<Body> bodies{1};  ///< the first one does not move
+  std::vector<Joint*> joints;
   std::vector<Contact> contacts;
   std::vector<Pair> pairs;
   std::vector<Rolling> rolling;
@@ -86,10 +74,10 @@ struct System {
   std::vector<Impact> impacts;  ///< of the pair that bounces
   bool has_bounces = false;     ///< whether a contact has a restitution
 
-  Body& body1(const Contact& contact) { return bodies[static_cast<std::size_t>(contact.body1)]; }
-  Body& body2(const Contact& contact) { return bodies[static_cast<std::size_t>(contact.body2)]; }
-  const Body& body1(const Contact& contact) const { return bodies[static_cast<std::size_t>(contact.body1)]; }
-  const Body& body2(const Contact& contact) const { return bodies[static_cast<std::size_t>(contact.body2)]; }
+  Body& body1(const Link& link) { return bodies[static_cast<std::size_t>(link.body1)]; }
+  Body& body2(const Link& link) { return bodies[static_cast<std::size_t>(link.body2)]; }
+  const Body& body1(const Link& link) const { return bodies[static_cast<std::size_t>(link.body1)]; }
+  const Body& body2(const Link& link) const { return bodies[static_cast<std::size_t>(link.body2)]; }
 
   std::span<Contact> contacts_of(const Pair& pair) {
     return std::span(contacts).subspan(static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.count));
@@ -99,15 +87,13 @@ struct System {
   }
 
   /// m/s; of body 1 against body 2.
-  Vector3 velocity(const Contact& contact) const {
-    const Body& one = body1(contact);
-    const Body& two = body2(contact);
-    return one.velocity - two.velocity + one.angular_velocity.cross(contact.arm1) - two.angular_velocity.cross(contact.arm2);
+  Vector3 velocity(const Link& link) const {
+    const Body& one = body1(link);
+    const Body& two = body2(link);
+    return one.velocity - two.velocity + one.angular_velocity.cross(link.arm1) - two.angular_velocity.cross(link.arm2);
   }
-  /// rad/s
-  double spin(const Contact& contact, const Row& row) const {
-    return row.direction.dot(body1(contact).angular_velocity - body2(contact).angular_velocity);
-  }
+  /// rad/s; of body 1 against body 2.
+  Vector3 spin(const Link& link) const { return body1(link).angular_velocity - body2(link).angular_velocity; }
 
   /// After the bodies have moved: the gap of the places that touched or were nearest when the step began. A kinematic body turns
   /// below the place of the other body: what rides on it takes the velocity that it has there.
@@ -121,14 +107,14 @@ struct System {
     contact.gap = contact.first_gap + contact.normal().direction.dot(moved);
   }
 
-  void push(const Contact& contact, const Row& row, double impulse) {
-    body1(contact).velocity += impulse * body1(contact).inverse_mass * row.direction;
-    body2(contact).velocity -= impulse * body2(contact).inverse_mass * row.direction;
-    turn(contact, row, impulse);
+  void push(const Link& link, const Row& row, double impulse) {
+    body1(link).velocity += impulse * body1(link).inverse_mass * row.direction;
+    body2(link).velocity -= impulse * body2(link).inverse_mass * row.direction;
+    turn(link, row, impulse);
   }
-  void turn(const Contact& contact, const Row& row, double impulse) {
-    body1(contact).angular_velocity += impulse * row.response1;
-    body2(contact).angular_velocity -= impulse * row.response2;
+  void turn(const Link& link, const Row& row, double impulse) {
+    body1(link).angular_velocity += impulse * row.response1;
+    body2(link).angular_velocity -= impulse * row.response2;
   }
 
   /// Pushes along both directions across the normal.
@@ -143,21 +129,23 @@ struct System {
     two.angular_velocity -= first * along.response2 + second * across.response2;
   }
 
-  /// Pushes by the last impulses, or by the part of them that acts before the positions.
-  void push_before(Contact& contact) {
-    if (contact.part_before < 1) {
-      for_each_row_of(contact, [&](Row& row) {
-        row.later = row.impulse * (1 - contact.part_before);
+  /// Pushes by the last impulses of a contact or a joint, or by the part of them that acts before the positions.
+  template <typename Pushing>
+  void push_before(Pushing& link) {
+    if (link.part_before < 1) {
+      for_each_row_of(link, [&](Row& row) {
+        row.later = row.impulse * (1 - link.part_before);
         row.impulse -= row.later;
       });
     }
-    push_all(contact, &Row::impulse);
+    push_all(link, &Row::impulse);
   }
   /// Pushes by the other part.
-  void push_after(Contact& contact) {
-    if (contact.part_before == 1) return;
-    push_all(contact, &Row::later);
-    for_each_row_of(contact, [](Row& row) { row.impulse += row.later; });
+  template <typename Pushing>
+  void push_after(Pushing& link) {
+    if (link.part_before == 1) return;
+    push_all(link, &Row::later);
+    for_each_row_of(link, [](Row& row) { row.impulse += row.later; });
   }
 
  private:
@@ -165,6 +153,10 @@ struct System {
   void for_each_row_of(Contact& contact, const Visit& visit) {
     std::ranges::for_each(contact.rows, visit);
     if (Rolling* const torques = rolling_of(contact)) std::ranges::for_each(*torques, visit);
+  }
+  template <typename Visit>
+  void for_each_row_of(Joint& joint, const Visit& visit) {
+    std::ranges::for_each(joint.rows(), visit);
   }
 
   void push_all(const Contact& contact, double Row::*impulse) {
@@ -174,6 +166,12 @@ struct System {
     push_across(contact, along.*impulse, across.*impulse);
     if (const Rolling* const torques = rolling_of(contact)) {
       for (const Row& row : *torques) turn(contact, row, row.*impulse);
+    }
+  }
+  void push_all(const Joint& joint, double Row::*impulse) {
+    for (const Row& row : joint.rows()) {
+      const bool is_linear = joint.is_linear(static_cast<int>(&row - joint.rows().data()));
+      is_linear ? push(joint, row, row.*impulse) : turn(joint, row, row.*impulse);
     }
   }
 };

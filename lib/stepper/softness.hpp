@@ -1,8 +1,6 @@
 // How contacts that overlap give way: a spring and a damper, integrated implicitly, so what a sweep has not solved cannot ring.
 #pragma once
 
-#include <limits>
-
 #include "stepper/contact.hpp"
 
 namespace supernormal::stepper {
@@ -28,7 +26,6 @@ inline Softness softness_in(double time, double spring) {
 /// Of a contact with quickstep's ERP and CFM, m/(N s), in sub-steps of `time` of a `step` (s). It is the spring and the damper that
 /// these two numbers are to quickstep.
 inline Softness softness_of(double erp, double cfm, double mobility, double step, double time) {
-  constexpr double kAny = std::numeric_limits<double>::infinity();
   if (cfm == 0) return {erp / step, 1, 0, kAny};
   const double spring = erp / (step * cfm);  // N/m
   const double damper = (1 - erp) / cfm;     // N s/m

@@ -40,7 +40,7 @@ void Stepper::Release::operator()(dWorldID world) const {
   claims().worlds.erase(world);
 }
 
-Stepper::Stepper(dWorldID world) : world_(claimed(world)), joints_(dJointGroupCreate(0)) {}
+Stepper::Stepper(dWorldID world) : world_(claimed(world)), contact_joints_(dJointGroupCreate(0)) {}
 
 double Stepper::step(double time) {
   ode::require_positive("step", time, "s");
@@ -54,10 +54,12 @@ double Stepper::step(double time) {
   moving_.choose(system_, time);
   centre();
   memory_.recall(system_, sub_step_time);
+  for (Joint* const joint : system_.joints) joint->begin(system_, sub_step_time);
   moving_.follow(system_);  // a contact ahead has the normal of the place where the bodies will meet
   SweepSettings settings{.time = sub_step_time,
                          .fastest_out = dWorldGetContactMaxCorrectingVel(world_.get()),
-                         .layer = dWorldGetContactSurfaceLayer(world_.get())};
+                         .layer = dWorldGetContactSurfaceLayer(world_.get()),
+                         .softness = softness_};
   double done = 0;
   int made = 0;
   do {
@@ -65,9 +67,11 @@ double Stepper::step(double time) {
     done = made < count ? made * sub_step_time : time;
   } while (made < count && !has_left_path(done));
   left_ = time - done;
-  if (!system_.contacts.empty()) sub_steps_.learn(system_, done);  // what sleeps keeps its stiffness
+  if (!system_.contacts.empty() || !system_.joints.empty()) sub_steps_.learn(system_, done);  // what sleeps keeps its stiffness
   // In a far shorter step than the last an impulse is no force that lasts: times the next step it would throw the bodies.
-  memory_.keep(system_, sub_step_time, sub_step_time / sub_steps_.spring());
+  const double part = sub_step_time / sub_steps_.spring();
+  memory_.keep(system_, sub_step_time, part);
+  for (Joint* const joint : system_.joints) joint->keep(sub_step_time, part, done);
   keep_forces(done);
   step_others(time, done);
   for (Body& body : system_.bodies) {
@@ -78,8 +82,13 @@ double Stepper::step(double time) {
   return done;
 }
 
-// Bodies that touch one another are centred together, or a contact would push against half of a weight.
+// Bodies that touch one another are centred together, or a contact would push against half of a weight; so are bodies that a joint
+// ties.
 void Stepper::centre() {
+  for (const Joint* const joint : system_.joints) {
+    for (Body* const tied : {&body(joint->body1), &body(joint->body2)}) tied->is_followed = tied->is_dynamic();
+  }
+  spread(&Body::is_borne, &Body::is_free, Along::Joints);
   spread(&Body::is_centred, &Body::is_free);
   for (Body& body : system_.bodies) body.is_centred = body.is_dynamic() && (body.is_centred || !body.is_borne);
   for (Contact& contact : system_.contacts) {
@@ -94,13 +103,17 @@ void Stepper::sub_step(int number, SweepSettings settings) {
   for (Body& body : system_.bodies) body.apply_forces(time * body.part_before());
   bounce(system_, time);
   for (Contact& contact : system_.contacts) system_.push_before(contact);
+  for (Joint* const joint : system_.joints) system_.push_before(*joint);
   sweep(system_, settings);
   moving_.begin_turn(system_);
+  for (Joint* const joint : system_.joints) joint->begin_turn(system_, time);
   for (Body& body : system_.bodies) body.advance(time);
   moving_.follow(system_);
   moving_.end_turn(system_);
+  for (Joint* const joint : system_.joints) joint->end_turn(system_);
   for (Body& body : system_.bodies) body.apply_forces(time * (1 - body.part_before()));
   for (Contact& contact : system_.contacts) system_.push_after(contact);
+  for (Joint* const joint : system_.joints) system_.push_after(*joint);
   settings.kind = Sweep::Relaxing;
   settings.is_backward = !settings.is_backward;
   settings.elapsed += time;
@@ -108,6 +121,7 @@ void Stepper::sub_step(int number, SweepSettings settings) {
   for (Contact& contact : system_.contacts) {
     for (Row& row : contact.rows) row.total += row.impulse;
   }
+  for (Joint* const joint : system_.joints) joint->count_forces();
 }
 
 bool Stepper::has_left_path(double time) const {
@@ -121,34 +135,41 @@ void Stepper::read_bodies(bool is_rest) {
     if (body.id == nullptr) continue;
     body.read(ode::to_vector(gravity), is_rest);
   }
+  joints_.read(system_, indices_);
   spread(&Body::is_awake, &Body::stirs);
   spread(&Body::is_held, &Body::is_free);
   for (Body& body : system_.bodies) {
     if (!body.is_awake || (body.is_held && body.is_free)) body.hold_still();
   }
+  std::erase_if(system_.joints,
+                [&](const Joint* joint) { return !body(joint->body1).is_dynamic() && !body(joint->body2).is_dynamic(); });
 }
 
 // A kinematic body takes a property from what it touches, and passes it on only if it is a source.
-void Stepper::spread(bool Body::*property, bool Body::*source) {
-  for (bool has_spread = true; has_spread;) {
+void Stepper::spread(bool Body::*property, bool Body::*source, Along along) {
+  bool has_spread = true;
+  const auto visit = [&](int first, int second) {
+    if (first <= 0 || second <= 0) return;
+    Body& one = body(first);
+    Body& two = body(second);
+    const Body& from = one.*property ? one : two;
+    if (one.*property == two.*property || !(from.*source)) return;
+    one.*property = two.*property = has_spread = true;
+  };
+  while (has_spread) {
     has_spread = false;
-    for (const Given& given : given_) {
-      if (given.body1 <= 0 || given.body2 <= 0) continue;
-      Body& one = body(given.body1);
-      Body& two = body(given.body2);
-      const Body& from = one.*property ? one : two;
-      if (one.*property == two.*property || !(from.*source)) continue;
-      one.*property = two.*property = has_spread = true;
-    }
+    for (const Joint* const joint : system_.joints) visit(joint->body1, joint->body2);
+    if (along == Along::Joints) continue;
+    for (const Given& given : given_) visit(given.body1, given.body2);
   }
 }
 
-// Bodies that were not added, and those that joints hold, are quickstep's.
+// Bodies that were not added are quickstep's, and what a joint ties that the stepper does not solve.
 void Stepper::step_others(double planned, double time) {
   for (Given& given : given_) {
     if (!is_of_quickstep(given)) continue;
     snContactLookAhead(&given.contact, ode::to_real(planned));
-    const dJointID joint = dJointCreateContact(world_.get(), joints_.get(), &given.contact);
+    const dJointID joint = dJointCreateContact(world_.get(), contact_joints_.get(), &given.contact);
     dJointSetFeedback(joint, &given.feedback);
     dJointAttach(joint, body(given.body1).id, body(given.body2).id);
   }
@@ -162,14 +183,18 @@ void Stepper::step_others(double planned, double time) {
     dBodyDisable(body.id);
     stopped_.push_back(body.id);
   }
+  const auto is_held = [&](int index) { return body(index).is_held && body(index).is_free; };
+  const auto ours = [&](const Joint& joint) { return !is_held(joint.body1) && !is_held(joint.body2); };
+  joints_.enable(ours, false);  // quickstep would wake bodies along them
   dWorldQuickStep(world_.get(), ode::to_real(time));
+  joints_.enable(ours, true);
   for (const dBodyID body : stopped_) dBodyEnable(body);
   for (std::size_t i = 0; i < given_.size(); ++i) {
     if (!is_of_quickstep(given_[i])) continue;
     const Vector3 force = ode::to_vector(given_[i].feedback.f1);  // on body 2, if body 1 is the world
     forces_[i] = given_[i].body1 == 0 ? Vector3(-force) : force;
   }
-  dJointGroupEmpty(joints_.get());
+  dJointGroupEmpty(contact_joints_.get());
 }
 
 bool Stepper::is_of_quickstep(const Given& given) const {
@@ -186,7 +211,7 @@ void Stepper::let_sleep(double time) {
   }
   spread(&Body::is_restless, &Body::stirs);
   for (const Body& body : system_.bodies) {
-    if (!body.is_dynamic() || !body.is_touched || body.is_restless) continue;
+    if (!body.is_dynamic() || !(body.is_touched || body.is_followed) || body.is_restless) continue;
     dBodySetLinearVel(body.id, 0, 0, 0);
     dBodySetAngularVel(body.id, 0, 0, 0);
     dBodyDisable(body.id);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "stepper/contact.hpp"
+#include "stepper/joint.hpp"
 #include "stepper/memory.hpp"
 #include "stepper/moving_contacts.hpp"
 #include "stepper/sub_steps.hpp"
@@ -39,7 +40,8 @@ class Stepper {
   const Body& body(int index) const { return system_.bodies[static_cast<std::size_t>(index)]; }
   bool is_of_quickstep(const Given& given) const;
   void read_bodies(bool is_rest);
-  void spread(bool Body::*property, bool Body::*source);
+  enum class Along { Joints, All };
+  void spread(bool Body::*property, bool Body::*source, Along along = Along::All);
   void set_up_contacts();
   void soften(double sub_step);
   void centre();
@@ -54,11 +56,12 @@ class Stepper {
     void operator()(dJointGroupID joints) const { dJointGroupDestroy(joints); }
   };
   std::unique_ptr<dxWorld, Release> world_;
-  std::unique_ptr<dxJointGroup, Release> joints_;  // contacts of bodies that quickstep moves
+  std::unique_ptr<dxJointGroup, Release> contact_joints_;  // of bodies that quickstep moves
   System system_;
   std::unordered_map<dBodyID, int> indices_;  // in system_.bodies
   std::vector<Given> given_;
   Memory memory_;
+  Joints joints_;
   MovingContacts moving_;
   SubSteps sub_steps_;
   std::vector<dBodyID> stopped_;  // while quickstep moves the others

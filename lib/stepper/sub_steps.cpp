@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "stepper/softness.hpp"
 
@@ -46,7 +45,14 @@ void SubSteps::learn(const System& system, double time) {
     if (contact.moving < 0 || contact.normal().total == 0) continue;
     spin = std::max(spin, (system.body1(contact).angular_velocity - system.body2(contact).angular_velocity).norm());
   }
-  constexpr double kAny = std::numeric_limits<double>::infinity();
+  for (const Joint* const joint : system.joints) {
+    const double size = joint->size(system);
+    for (int i = 0; i < joint->held(); ++i) {
+      const Row& row = joint->rows()[std::size_t(i)];
+      stiffness =
+          std::max(stiffness, std::abs(row.total) / time * row.mobility / (accuracy.sag * (joint->is_linear(i) ? size : 1)));
+    }
+  }
   needed_ = stiffness > 0 ? kPhase / std::sqrt(stiffness) : kAny;
   turning_ = spin > 0 ? kLargestTurn / spin : kAny;
 }

@@ -1,16 +1,13 @@
 #include "stepper/surface.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "ode/geom/convert.hpp"
 #include "ode/support/require.hpp"
+#include "stepper/row.hpp"
 
 namespace supernormal::stepper {
 namespace {
-
-constexpr double kAny = std::numeric_limits<double>::infinity();
-constexpr double kLargest = std::numeric_limits<double>::max();
 
 /// Refuses a normal that is not of unit length, and numbers that are not finite.
 void require_geometry(const dContact& contact) {

@@ -85,7 +85,7 @@ class Sweeper {
       Row& row = (*torques)[k];
       if (!(row.mobility > 0)) continue;
       const double largest = contact.surface().rolling[k].in(time, contact.normal().impulse);
-      const double impulse = std::clamp(row.impulse - system_.spin(contact, row) / row.mobility, -largest, largest);
+      const double impulse = std::clamp(row.impulse - row.direction.dot(system_.spin(contact)) / row.mobility, -largest, largest);
       system_.turn(contact, row, impulse - row.impulse);
       row.impulse = impulse;
     }
@@ -108,18 +108,17 @@ class Sweeper {
 }  // namespace
 
 void sweep(System& system, const SweepSettings& settings) {
+  // Contacts have the last word: what overlaps harms more than a joint that gives way.
+  const auto at = [&](std::size_t i, std::size_t count) { return settings.is_backward ? count - 1 - i : i; };
+  for (std::size_t i = 0; i < system.joints.size(); ++i) system.joints[at(i, system.joints.size())]->solve(system, settings);
   const Sweeper sweeper(system, settings);
-  const auto pairs = static_cast<int>(system.pairs.size());
-  for (int i = 0; i < pairs; ++i) {
-    const Pair& pair = system.pairs[static_cast<std::size_t>(settings.is_backward ? pairs - 1 - i : i)];
-    const auto contact = [&](int k) -> Contact& {
-      const int place = settings.is_backward ? pair.count - 1 - k : k;
-      return system.contacts_of(pair)[static_cast<std::size_t>(place)];
-    };
-    for (int k = 0; k < pair.count; ++k) sweeper.solve_normal(contact(k));
-    for (int k = 0; k < pair.count; ++k) {
-      sweeper.solve_friction(contact(k));
-      sweeper.solve_rolling(contact(k));
+  for (std::size_t i = 0; i < system.pairs.size(); ++i) {
+    const std::span<Contact> contacts = system.contacts_of(system.pairs[at(i, system.pairs.size())]);
+    const std::size_t count = contacts.size();
+    for (std::size_t k = 0; k < count; ++k) sweeper.solve_normal(contacts[at(k, count)]);
+    for (std::size_t k = 0; k < count; ++k) {
+      sweeper.solve_friction(contacts[at(k, count)]);
+      sweeper.solve_rolling(contacts[at(k, count)]);
     }
   }
 }

@@ -1,4 +1,4 @@
-// One pass over all contacts, each of which is solved for itself (projected Gauss-Seidel).
+// One pass over all joints and contacts, each of which is solved for itself (projected Gauss-Seidel).
 #pragma once
 
 #include "stepper/contact.hpp"
@@ -16,6 +16,7 @@ struct SweepSettings {
   double elapsed = 0;      ///< s, since the step began
   double fastest_out = 0;  ///< m/s; overlaps are corrected no faster
   double layer = 0;        ///< m; an overlap that is not corrected
+  Softness softness;       ///< of joints
 };
 
 void sweep(System& system, const SweepSettings& settings);

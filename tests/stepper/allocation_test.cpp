@@ -15,8 +15,12 @@ TEST_CASE("once warm, no step allocates") {
   scene.surface.bounce = dReal(0.3);
   scene.world.add_plane();
   for (int i = 0; i < 6; ++i) {
-    scene.add_brick(i % 2 == 0 ? 8 : 2, 1000, {0.3 * i, 0, 0.06});
-    scene.add_brick(i % 2 == 0 ? 8 : 2, 1000, {0.3 * i, 0, 0.18});
+    const dBodyID below = scene.add_brick(i % 2 == 0 ? 8 : 2, 1000, {0.3 * i, 0, 0.06});
+    const dBodyID above = scene.add_brick(i % 2 == 0 ? 8 : 2, 1000, {0.3 * i, 0, 0.18});
+    if (i < 3) continue;
+    const dJointID hinge = dJointCreateHinge(scene.world.id(), nullptr);
+    dJointAttach(hinge, above, below);
+    dJointSetHingeAnchor(hinge, dReal(0.3 * i), 0, dReal(0.12));
   }
   scene.run(0.3);
   const long before = allocations();

@@ -347,7 +347,7 @@ TEST_CASE("bodies at rest fall asleep together, stay, and wake together") {
   CHECK(place_of(tower.back())[2] == doctest::Approx(1.15).epsilon(1e-3));
 }
 
-TEST_CASE("quickstep moves bodies that were not added, and bodies that joints hold with all that they touch") {
+TEST_CASE("quickstep moves bodies that were not added, and bodies of other joints with all that they touch") {
   OdeSession session;
   StepperWorld scene(0.01);
   scene.surface.mu = dReal(0.5);
@@ -358,9 +358,10 @@ TEST_CASE("quickstep moves bodies that were not added, and bodies that joints ho
   const dBodyID right = scene.add_ball(0.05, {0.12, 0, 0.05});
   const dBodyID top = scene.add_brick(8, 1000, {0.06, 0, 0.152});
   const dBodyID aside = scene.add_brick(8, 1000, {1, 0, 0.05});
-  const dJointID rod = dJointCreateFixed(scene.world.id(), nullptr);
+  const dJointID rod = dJointCreateDBall(scene.world.id(), nullptr);
   dJointAttach(rod, left, right);
-  dJointSetFixed(rod);
+  dJointSetDBallAnchor1(rod, 0, 0, dReal(0.05));
+  dJointSetDBallAnchor2(rod, dReal(0.12), 0, dReal(0.05));
   scene.run(1);
   CHECK(place_of(free)[2] == doctest::Approx(100 - 0.5 * kGravity * 1.01));  // 100 steps of ODE
   CHECK(place_of(right)[0] - place_of(left)[0] == doctest::Approx(0.12).epsilon(1e-3));
