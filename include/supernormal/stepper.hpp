@@ -11,7 +11,9 @@
 #include <ode/ode.h>
 
 #include <memory>
+#include <span>
 #include <stdexcept>
+#include <vector>
 
 #include "supernormal/shapes/shape.hpp"
 #include "supernormal/supernormal.h"
@@ -56,6 +58,23 @@ class Stepper {
     dVector3 force;
     accepted(snStepperContactForce(handle_.get(), contact, force));
     return {force[0], force[1], force[2]};
+  }
+
+  /// Between two whole steps: what it remembers, with the places of geoms in `geoms` (snStepperSave).
+  std::vector<double> save(std::span<const dGeomID> geoms) const {
+    const auto write = [&](std::span<double> numbers) {
+      const int size = snStepperSave(handle_.get(), geoms.data(), int(geoms.size()), numbers.data(), int(numbers.size()));
+      accepted(size >= 0);
+      return static_cast<std::size_t>(size);
+    };
+    std::vector<double> numbers(write({}));
+    write(numbers);
+    return numbers;
+  }
+
+  /// Gives a new stepper what save() of another one returned, whose geoms had the same places.
+  void load(std::span<const dGeomID> geoms, std::span<const double> numbers) {
+    accepted(snStepperLoad(handle_.get(), geoms.data(), int(geoms.size()), numbers.data(), int(numbers.size())));
   }
 
  private:

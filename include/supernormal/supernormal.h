@@ -457,6 +457,16 @@ SUPERNORMAL_ODE_API int snStepperSetAccuracy(snStepperID stepper, dReal sag, int
  * 0, 1, ... in the order in which they were added. Returns 1; 0 (and snLastError) if there is no such contact. */
 SUPERNORMAL_ODE_API int snStepperContactForce(snStepperID stepper, int contact, dVector3 force);
 
+/** Saves what the stepper remembers between two whole steps, for a world of the same geoms that goes on from there. Writes `room`
+ * numbers at most, and none if there are more. Contacts have the places of their geoms among `geoms`; those with another geom or
+ * with none, joints, and how long bodies have rested are left out. Returns how many numbers there are; -1 (and snLastError) if
+ * refused. */
+SUPERNORMAL_ODE_API int snStepperSave(snStepperID stepper, const dGeomID* geoms, int count, double* numbers, int room);
+
+/** Gives a stepper what snStepperSave wrote, in place of what it remembers. The geoms have the same places among `geoms`. Returns 1;
+ * 0 (and snLastError) if these are no such numbers; it has then changed nothing. */
+SUPERNORMAL_ODE_API int snStepperLoad(snStepperID stepper, const dGeomID* geoms, int count, const double* numbers, int size);
+
 /* --- statistics --------------------------------------------------------------------------------------------------------- */
 
 /** A number of 64 bits. C90 has no long long; compilers that know __extension__ accept it there without a warning. */

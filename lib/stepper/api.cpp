@@ -1,6 +1,8 @@
 // The snStepper… functions.
 #include <algorithm>
+#include <limits>
 #include <memory>
+#include <vector>
 
 #include "ode/geom/convert.hpp"
 #include "ode/support/last_error.hpp"
@@ -67,6 +69,27 @@ extern "C" int snStepperSetAccuracy(snStepperID stepper, dReal sag, int least, i
     supernormal::require_in("least", least, 1, kMostSubSteps);
     supernormal::require_in("most", most, least, kMostSubSteps);
     stepper->set_accuracy({sag, least, most});
+    return 1;
+  });
+}
+
+extern "C" int snStepperSave(snStepperID stepper, const dGeomID* geoms, int count, double* numbers, int room) {
+  return guarded("snStepperSave", -1, [&] {
+    require_not_null("stepper", stepper);
+    supernormal::require_in("count", count, 0, std::numeric_limits<int>::max());
+    const std::vector<double> saved = stepper->save({geoms, static_cast<std::size_t>(count)});
+    const int size = static_cast<int>(saved.size());
+    if (size <= room) std::ranges::copy(saved, numbers);
+    return size;
+  });
+}
+
+extern "C" int snStepperLoad(snStepperID stepper, const dGeomID* geoms, int count, const double* numbers, int size) {
+  return guarded("snStepperLoad", 0, [&] {
+    require_not_null("stepper", stepper);
+    supernormal::require_in("count", count, 0, std::numeric_limits<int>::max());
+    supernormal::require_in("size", size, 0, std::numeric_limits<int>::max());
+    stepper->load({geoms, static_cast<std::size_t>(count)}, {numbers, static_cast<std::size_t>(size)});
     return 1;
   });
 }

@@ -1,8 +1,11 @@
 #include "stepper/memory.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <limits>
+#include <unordered_map>
+#include <utility>
 
 namespace supernormal::stepper {
 
@@ -99,10 +102,71 @@ void Memory::keep(System& system, double time, double part) {
     next_.push_back(force);
   }
   forces_.swap(next_);
+  sort();
+}
+
+void Memory::sort() {
   // By the order among themselves, or the addresses would decide between two contacts at one place.
   std::ranges::sort(forces_, [](const Force& a, const Force& b) {
     return is_before(a.key, b.key) || (!is_before(b.key, a.key) && a.order < b.order);
   });
+}
+
+namespace {
+
+constexpr std::size_t kGeoms = 2;
+constexpr std::size_t kVectors = 5;
+constexpr std::size_t kNumbers = kGeoms + 1 + 3 * kVectors;  // of a force
+
+}  // namespace
+
+void Memory::save(std::span<const dGeomID> geoms, std::vector<double>& numbers) const {
+  std::unordered_map<const void*, int> places;
+  for (std::size_t i = 0; i < geoms.size(); ++i) places[geoms[i]] = static_cast<int>(i);
+  std::vector<std::pair<std::array<int, 3>, Force>> forces;  // by what no address decides
+  for (const Force& force : forces_) {
+    const auto low = places.find(force.key.low);
+    const auto high = places.find(force.key.high);
+    if (low == places.end() || high == places.end()) continue;
+    auto& [rank, saved] = forces.emplace_back(std::array{force.order, low->second, high->second}, force);
+    if (rank[1] <= rank[2]) continue;
+    std::swap(rank[1], rank[2]);
+    saved.swap_sides();
+  }
+  std::ranges::sort(forces, {}, &std::pair<std::array<int, 3>, Force>::first);
+  for (const auto& [rank, force] : forces) {
+    numbers.insert(numbers.end(), {double(rank[1]), double(rank[2]), force.normal});
+    for (const Vector3& vector : {force.place_low, force.place_high, force.tangential, force.torque, force.centring}) {
+      for (const double x : vector) numbers.push_back(x + 0.0);  // the sign of a zero would tell which address is lower
+    }
+  }
+}
+
+bool Memory::load(std::span<const dGeomID> geoms, std::span<const double> numbers) {
+  if (numbers.size() % kNumbers != 0) return false;
+  std::vector<Force> loaded;
+  for (; !numbers.empty(); numbers = numbers.subspan(kNumbers)) {
+    const auto count = static_cast<double>(geoms.size());
+    if (!(numbers[0] >= 0 && numbers[0] < count && numbers[1] >= 0 && numbers[1] < count)) return false;
+    const dGeomID one = geoms[static_cast<std::size_t>(numbers[0])];
+    const dGeomID two = geoms[static_cast<std::size_t>(numbers[1])];
+    const auto vector = [&](std::size_t k) { return Vector3(numbers.data() + kGeoms + 1 + 3 * k); };
+    Force& force = loaded.emplace_back();
+    force.key = key_of(one, {}, two, {});
+    force.body1 = dGeomGetBody(one);
+    force.body2 = dGeomGetBody(two);
+    force.order = static_cast<int>(loaded.size());
+    force.normal = numbers[2];
+    force.place_low = vector(0);
+    force.place_high = vector(1);
+    force.tangential = vector(2);
+    force.torque = vector(3);
+    force.centring = vector(4);
+    if (force.key.is_swapped) force.swap_sides();
+  }
+  forces_.swap(loaded);
+  sort();
+  return true;
 }
 
 }  // namespace supernormal::stepper

@@ -24,6 +24,12 @@ class Memory {
   /// Keeps the forces that act in the present sub-step of `time` (s): those that were recalled, and `part` of what they changed by.
   void keep(System& system, double time, double part);
 
+  /// Appends the forces as numbers, with the places of their geoms among `geoms`.
+  void save(std::span<const dGeomID> geoms, std::vector<double>& numbers) const;
+
+  /// Takes saved forces in place of its own. False, and no change, if they are none.
+  bool load(std::span<const dGeomID> geoms, std::span<const double> numbers);
+
  private:
   // Of two geoms, that with the lower address is the first. The addresses decide only who is who, so they change no digit.
   struct Key {
@@ -42,9 +48,16 @@ class Memory {
     Vector3 centring = Vector3::Zero();    // m/s, of a contact that moves
     bool is_taken = false;
     bool is_left = false;
+
+    /// As if the other geom had the lower address.
+    void swap_sides() {
+      place_low.swap(place_high);
+      for (Vector3* const vector : {&tangential, &torque, &centring}) *vector = -*vector;
+    }
   };
   static Key key_of(dGeomID geom1, const Body& body1, dGeomID geom2, const Body& body2);
   static bool is_before(const Key& a, const Key& b);
+  void sort();
   std::span<Force> forces_of(const Key& key);
   void recall_pair(System& system, const Pair& pair, double time);
 

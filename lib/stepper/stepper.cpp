@@ -261,6 +261,25 @@ void Stepper::keep_forces(double time) {
   }
 }
 
+std::vector<double> Stepper::save(std::span<const dGeomID> geoms) const {
+  if (left_ > 0) throw std::invalid_argument("the last step ended early: save after the rest of it");
+  const SubSteps::State state = sub_steps_.state();
+  std::vector<double> numbers(state.begin(), state.end());
+  memory_.save(geoms, numbers);
+  return numbers;
+}
+
+void Stepper::load(std::span<const dGeomID> geoms, std::span<const double> numbers) {
+  SubSteps::State state;
+  const bool is_valid = numbers.size() >= state.size() && std::ranges::none_of(numbers, [](double x) { return std::isnan(x); }) &&
+                        memory_.load(geoms, numbers.subspan(state.size()));
+  if (!is_valid)
+    throw std::invalid_argument("these " + std::to_string(numbers.size()) + " numbers are none of snStepperSave for these geoms");
+  std::ranges::copy(numbers.first(state.size()), state.begin());
+  sub_steps_.set(state);
+  left_ = 0;
+}
+
 int Stepper::index_of(const char* name, dBodyID body) const {
   if (body == nullptr) return 0;
   const auto found = indices_.find(body);

@@ -4,6 +4,7 @@
 #include <ode/ode.h>
 
 #include <memory>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -29,6 +30,9 @@ class Stepper {
 
   /// The time done, s: less than `time` if bodies have left the paths that their contacts were found for.
   double step(double time);
+
+  std::vector<double> save(std::span<const dGeomID> geoms) const;
+  void load(std::span<const dGeomID> geoms, std::span<const double> numbers);
 
   /// N; on body 1, the mean over the last step. The number counts the contacts of that step in the order in which they were added.
   const Vector3& contact_force(int contact) const;

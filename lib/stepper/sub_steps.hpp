@@ -1,6 +1,9 @@
 // How many sub-steps a step takes: as many as its loads need.
 #pragma once
 
+#include <array>
+#include <tuple>
+
 #include "stepper/contact.hpp"
 
 namespace supernormal::stepper {
@@ -28,6 +31,11 @@ class SubSteps {
 
   /// Takes the forces of the sub-steps that were made, which lasted `time` (s).
   void learn(const System& system, double time);
+
+  /// s; what it knows, for a stepper that goes on from here.
+  using State = std::array<double, 4>;
+  State state() const { return {duration_, spring_, needed_, turning_}; }
+  void set(const State& state) { std::tie(duration_, spring_, needed_, turning_) = std::tuple_cat(state); }
 
  private:
   double duration_ = 0;  // s, of a sub-step, if the step is long enough; 0 before the first step

@@ -475,6 +475,8 @@ def test_a_stepper_holds_a_tower(tower):
     forces = np.array([stepper.contactForce(k) for k in range(40)])
     weights = 9.81 * sum((k + 1) * body.getMass().mass for k, body in enumerate(bodies))
     assert np.abs(forces[:, 2]).sum() == pytest.approx(weights, rel=1e-3)
+    geoms = [so.Superellipsoid(None, (1, 1, 1), 2, 2)]
+    stepper.load(geoms, stepper.save(geoms))
     stepper.removeBody(bodies[-1])
     with pytest.raises(ValueError, match="body is not a body of the stepper: add it by addBody"):
         stepper.removeBody(bodies[-1])
@@ -491,6 +493,7 @@ def test_refusals_of_a_stepper(tower):
         (lambda: stepper.addBody(other), "another world"),
         (lambda: stepper.addContact(contact, other, None), "body1 is not a body of the stepper"),
         (lambda: stepper.setAccuracy(least=9, most=8), "most = 8 is outside [9, "),
+        (lambda: stepper.load([], [1]), "snStepperLoad: these 1 numbers are none of snStepperSave"),
         (lambda: stepper.contactForce(0), "contact = 0 is not one of the 0 contacts"),
         (lambda: (contact.setMu(-1), stepper.addContact(contact, bodies[0], None)), "surface.mu = -1"),
     ]

@@ -318,7 +318,9 @@ TEST_CASE("a paddle turns at the velocity of its motor in a heap of grains") {
   Random random(7);
   for (int i = 0; i < 30; ++i) {
     const dGeomID geom = snCreateSuperellipsoid(scene.world.space(), dReal(0.05), dReal(0.04), dReal(0.03), 4, 4);
-    scene.add(geom, 1300, {-0.2 + 0.13 * (i % 4), -0.2 + 0.13 * (i / 4 % 4), 0.25 + 0.12 * (i / 16)});
+    const int row = i / 4 % 4;
+    const int layer = i / 16;
+    scene.add(geom, 1300, {-0.2 + 0.13 * (i % 4), -0.2 + 0.13 * row, 0.25 + 0.12 * layer});
     random.turn(geom);
   }
   scene.run(2);

@@ -7,10 +7,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "pyode_slots.hpp"
 #include "python/core/numbers.hpp"
@@ -209,6 +211,12 @@ void bind_geoms(py::module_& m) {
   m.def("proximity", &proximity);
 }
 
+std::vector<dGeomID> all_geoms(const std::vector<Number>& numbers) {
+  std::vector<dGeomID> geoms;
+  std::ranges::transform(numbers, std::back_inserter(geoms), geom);
+  return geoms;
+}
+
 void bind_stepper(py::module_& m) {
   using ode::Stepper;
   m.def("body_of", [](Number g) { return reinterpret_cast<Number>(dGeomGetBody(geom(g))); });
@@ -220,6 +228,9 @@ void bind_stepper(py::module_& m) {
                              Number body2) { stepper.add_contact(read_contact(contact, slot), body(body1), body(body2)); })
       .def("step", [](Stepper& stepper, double time) { return stepper.step(real(time)); })
       .def("set_accuracy", [](Stepper& stepper, double sag, int least, int most) { stepper.set_accuracy(real(sag), least, most); })
+      .def("save", [](const Stepper& stepper, const std::vector<Number>& geoms) { return stepper.save(all_geoms(geoms)); })
+      .def("load", [](Stepper& stepper, const std::vector<Number>& geoms,
+                      const std::vector<double>& numbers) { stepper.load(all_geoms(geoms), numbers); })
       .def("contact_force", [](const Stepper& stepper, int contact) {
         const Vector3 force = stepper.contact_force(contact);
         return std::tuple(force.x(), force.y(), force.z());

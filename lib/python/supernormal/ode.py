@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import functools
 import sys
-from typing import Any, Dict, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -394,6 +394,14 @@ class Stepper:
     def contactForce(self, contact: int) -> Vector:
         """The force on body1, N, its mean over the last step. Contacts have the numbers 0, 1, ... in the order of addContact()."""
         return self._stepper.contact_force(contact)
+
+    def save(self, geoms: Sequence[Any]) -> List[float]:
+        """What the stepper remembers between two whole steps: numbers, in which geoms have their places among `geoms`."""
+        return self._stepper.save([geom._id() for geom in geoms])
+
+    def load(self, geoms: Sequence[Any], numbers: Sequence[float]) -> None:
+        """Takes what save() of a stepper returned, in place of what this one remembers. The geoms have the same places."""
+        self._stepper.load([geom._id() for geom in geoms], numbers)
 
     def _number(self, name: str, body: Any) -> int:
         if body is None:

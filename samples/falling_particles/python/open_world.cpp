@@ -75,7 +75,6 @@ void OpenWorld::open() {
                      "; allowed: 0 for a scene that is no file, with which a resumed run could be compared");
   }
   parts_ = std::make_unique<Parts>(source_.scene());
-  if (options_.resume || options_.checkpoint_every > 0) require_savable(parts_->scene);
   Scene& scene = parts_->scene;
   if (!options_.pictures) scene.pictures.clear();
   refuse_bad_start(scene);

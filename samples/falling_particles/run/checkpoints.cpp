@@ -30,14 +30,6 @@ void require_time_to_sleep(const Scene& scene, int every) {
 
 }  // namespace
 
-void require_savable(const Scene& scene) {
-  if (!scene.solver.stepper) return;
-  throw InputError(
-      scene.called +
-      ": solver.kind is \"stepper\", whose contact forces a checkpoint does not hold; allowed: \"quickstep\", or a run "
-      "without checkpoints");
-}
-
 Checkpoints::Checkpoints(OutputFolder& folder, const Scene& scene, int every) : folder_(folder) {
   origin_.every = every;
   if (!folder.is_resumed() && every == 0) return;  // the files of the scene need not be read again

@@ -10,9 +10,6 @@
 
 namespace falling_particles {
 
-/// Throws InputError if a checkpoint does not hold all of a run of the scene.
-void require_savable(const Scene& scene);
-
 /// Writes the checkpoints of a run into its unfinished folder. Each one replaces the last one: it is written into another file,
 /// which is renamed when its bytes are on the disk. So a complete checkpoint exists at any time, even if the run, the machine or
 /// the disk fails.

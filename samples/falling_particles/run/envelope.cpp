@@ -13,7 +13,7 @@ namespace falling_particles {
 namespace {
 
 constexpr std::string_view kMagic = "SNCHKPT\n";
-constexpr std::uint32_t kFormat = 10;  // increase it with every change of the saved data
+constexpr std::uint32_t kFormat = 11;  // increase it with every change of the saved data
 
 constexpr std::uint32_t in_other_byte_order(std::uint32_t x) {
   return x >> 24U | (x >> 8U & 0xff00U) | (x << 8U & 0xff0000U) | x << 24U;

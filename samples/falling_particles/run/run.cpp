@@ -59,7 +59,6 @@ RunEnd run_in(OutputFolder& folder, Checkpoints& checkpoints, const Scene& scene
 }  // namespace
 
 RunEnd run(const Scene& scene, const RunOptions& options) {
-  if (options.resume || options.checkpoint_every > 0) require_savable(scene);
   OutputFolder folder(options.out, scene.name, result_names(), options.resume);
   Checkpoints checkpoints(folder, scene, options.checkpoint_every);
   try {

@@ -3,6 +3,7 @@
 #include <supernormal/supernormal.h>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -74,6 +75,7 @@ World::World(const Scene& scene, GoOn /*how*/, const WorldState& state) : World(
   walls_->restore(state.walls);
   if (!state.has_lid) walls_->remove_lid();
   if (!scene.bonds.empty()) bonds_ = std::make_unique<Bonds>(*this, state.bonds);
+  if (stepper_ != nullptr) stepper_->load(all_geoms(), state.stepper);
   dRandSetSeed(static_cast<unsigned long>(state.seed));
 }
 
@@ -152,6 +154,12 @@ void World::add_grain(const Placement& placement) {
   dBodySetData(entry.body, &entry.move);
 }
 
+std::vector<dGeomID> World::all_geoms() const {
+  std::vector<dGeomID> geoms = walls_->geoms();
+  for (const Grain& grain : present()) std::ranges::copy(grain.geoms(), std::back_inserter(geoms));
+  return geoms;
+}
+
 WorldState World::save() const {
   WorldState state;
   state.seed = dRandGetSeed();
@@ -159,6 +167,7 @@ WorldState World::save() const {
   if (cell_ != nullptr) state.periods = cell_->lengths();
   state.walls = walls_->save();
   if (bonds_ != nullptr) state.bonds = bonds_->save();
+  if (stepper_ != nullptr) state.stepper = stepper_->save(all_geoms());
   state.grains.reserve(grains_.size());
   for (const Grain& grain : grains_) {
     SavedGrain& saved = state.grains.emplace_back();

@@ -129,6 +129,7 @@ class World {
   void set_parameters(const Scene& scene);
   void add_grain(const Placement& placement);
   void restore(const SavedGrain& saved);
+  std::vector<dGeomID> all_geoms() const;  // of present grains and walls, in an order that a saved world has, too
 
   const Scene& scene_;
   QueryDefaults query_defaults_;  // set before any geom exists

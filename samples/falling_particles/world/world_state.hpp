@@ -36,10 +36,11 @@ struct WorldState {
   Point periods = {};              ///< m, of the cell along x, y and z; 0 along axes that are not periodic
   WallsState walls;
   BondsState bonds;
+  std::vector<double> stepper;  ///< what it remembers (snStepperSave)
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(seed, grains, has_lid, periods, walls, bonds);
+    archive(seed, grains, has_lid, periods, walls, bonds, stepper);
   }
 };
 

@@ -131,6 +131,14 @@ TEST_CASE("resume: grains that come from a feeder, some of which have gone into 
   check_resume(scene, 3 * kEvery);
 }
 
+TEST_CASE("resume: the contact forces that the stepper remembers, of grains that come and go") {
+  Scene scene = sample("feeder");
+  scene.feeders[0].rate.number = 0.2;  // kg/s
+  scene.sinks.push_back({"hole", Region{{0, 0, 0.1}, {0.05, 0.03, 0.03}}});
+  scene.solver = {.stepper = Accuracy{}};
+  check_resume(scene, 3 * kEvery);
+}
+
 TEST_CASE("resume: an agglomerate whose bonds break") {
   const Scene scene = sample("agglomerate");
   std::string saved;

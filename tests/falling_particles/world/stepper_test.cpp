@@ -12,7 +12,6 @@
 #include "complaint.hpp"
 #include "observe/energy.hpp"
 #include "observe/simulation.hpp"
-#include "run/checkpoints.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"
 
@@ -248,8 +247,6 @@ TEST_CASE("stepper: what it cannot do is refused by its name, with what is allow
   check_says(complaint_of_stepper("[[part]]\nname = \"lid\"\nshape = \"plane\"\nposition = [0, 0, 0.5]\n"
                                   "[part.drive]\naxis = [0, 0, 1]\nforce = 1\nmass = 1\n"),
              {"solver.kind is \"stepper\"", "a drive, of part \"lid\""});
-  const Scene scene = with_stepper({}, ball(), 0.01);
-  CHECK_THROWS_WITH_AS(require_savable(scene), doctest::Contains("a checkpoint does not hold"), common::InputError);
 }
 
 TEST_CASE("stepper: there are no doubts about what only quickstep does not hold") {
