@@ -378,3 +378,61 @@ TEST_CASE("quickstep moves bodies that were not added, and bodies of other joint
   const double weight = kGravity * (2 * mass_of(left) + 2 * mass_of(top) + mass_of(aside));  // the brick on top is carried twice
   CHECK(on_floor == doctest::Approx(weight).epsilon(0.05));
 }
+
+TEST_CASE("contacts that are added twice carry as those that are added once") {
+  OdeSession session;
+  StepperWorld scene(0.01);
+  scene.surface.mu = dReal(0.5);
+  scene.world.add_plane();
+  std::array<dBodyID, 6> tower{};
+  for (std::size_t i = 0; i < tower.size(); ++i) tower[i] = scene.add_brick(8, 1000, {0, 0, 0.05 + 0.1 * double(i)});
+  for (int i = 0; i < 200; ++i) {
+    scene.collide();
+    scene.collide();
+    REQUIRE(snStepperStep(scene.stepper, dReal(0.01)) == dReal(0.01));
+  }
+  CHECK(place_of(tower.back())[2] == doctest::Approx(0.55).epsilon(1e-3));
+  CHECK(norm(velocity_of(tower.back())) < 1e-6);
+}
+
+TEST_CASE("a kinematic body that jumps into a pile throws nothing faster than its overlap allows, and the pile rests again") {
+  OdeSession session;
+  StepperWorld scene(0.01);
+  scene.surface.mu = dReal(0.5);
+  scene.world.add_plane();
+  std::array<dBodyID, 3> tower{};
+  for (std::size_t i = 0; i < tower.size(); ++i) tower[i] = scene.add_brick(8, 1000, {0, 0, 0.05 + 0.1 * double(i)});
+  const dBodyID block = scene.add_brick(8, 1000, {1, 0, 0.05});
+  dBodySetKinematic(block);
+  scene.run(0.5);
+  dBodySetPosition(block, dReal(0.17), 0, dReal(0.05));  // 3 cm deep
+  double fastest = 0;
+  for (int i = 0; i < 200; ++i) {
+    scene.step();
+    for (const dBodyID body : tower) fastest = std::max(fastest, norm(velocity_of(body)));
+  }
+  CHECK(fastest < 2);
+  for (const dBodyID body : tower) CHECK(norm(velocity_of(body)) < 1e-4);
+}
+
+TEST_CASE("steps whose length changes, and a mass ratio of a million, throw nothing") {
+  OdeSession session;
+  StepperWorld scene(0.01);
+  scene.surface.mu = dReal(0.5);
+  scene.world.add_plane();
+  const dBodyID light = scene.add_brick(8, 1e-3, {0, 0, 0.05});
+  const dBodyID heavy = scene.add_brick(8, 1e3, {0, 0, 0.15});
+  for (int i = 0; i < 300; ++i) {
+    double left = i % 3 == 0 ? 1e-4 : i % 3 == 1 ? 0.02 : 3e-3;
+    while (left > 0) {
+      scene.collide();
+      const double done = snStepperStep(scene.stepper, dReal(left));
+      REQUIRE(done > 0);
+      left = done >= left ? 0 : left - done;
+    }
+    for (const dBodyID body : {light, heavy}) {
+      REQUIRE(std::isfinite(norm(place_of(body)) + norm(velocity_of(body)) + norm(spin_of(body))));
+      REQUIRE(norm(velocity_of(body)) < 10);
+    }
+  }
+}
