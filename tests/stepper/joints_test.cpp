@@ -217,6 +217,33 @@ TEST_CASE("two shafts that a universal joint ties turn as Cardan's angles say") 
   }
 }
 
+TEST_CASE("a body on a universal joint rests at the stops at which it rests by quickstep") {
+  OdeSession session;
+  for (const bool is_reversed : {false, true}) {
+    std::array<Vec, 2> places{};
+    for (const bool is_ours : {false, true}) {
+      StepperWorld scene(0.005);
+      dWorldSetGravity(scene.world.id(), 3, 2, dReal(-kGravity));
+      const dBodyID brick = scene.add_brick(8, 1000, {0.2, 0.05, 0});
+      if (!is_ours) REQUIRE(snStepperRemoveBody(scene.stepper, brick) == 1);
+      dBodySetAngularDamping(brick, dReal(0.02));
+      const dJointID joint = dJointCreateUniversal(scene.world.id(), nullptr);
+      attach(joint, brick, is_reversed);
+      dJointSetUniversalAnchor(joint, 0, 0, 0);
+      dJointSetUniversalAxis1(joint, 0, 0, 1);
+      dJointSetUniversalAxis2(joint, 0, 1, 0);
+      dJointSetUniversalParam(joint, dParamLoStop1, dReal(-0.3));
+      dJointSetUniversalParam(joint, dParamHiStop1, dReal(0.7));
+      dJointSetUniversalParam(joint, dParamLoStop2, dReal(-0.1));
+      dJointSetUniversalParam(joint, dParamHiStop2, dReal(0.5));
+      scene.run(6);
+      places[is_ours ? 1 : 0] = place_of(brick);
+    }
+    CHECK(norm(places[1] - places[0]) < 3e-3);  // the stops of quickstep give way
+    CHECK(norm(places[0] - Vec{0.2, 0.05, 0}) > 0.05);
+  }
+}
+
 TEST_CASE("a chain carries a hundred times the mass of a link, and hangs still") {
   OdeSession session;
   for (const double step : {0.002, 0.01, 0.02}) {

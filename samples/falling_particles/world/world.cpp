@@ -75,7 +75,8 @@ World::World(const Scene& scene, GoOn /*how*/, const WorldState& state) : World(
   walls_->restore(state.walls);
   if (!state.has_lid) walls_->remove_lid();
   if (!scene.bonds.empty()) bonds_ = std::make_unique<Bonds>(*this, state.bonds);
-  if (stepper_ != nullptr) stepper_->load(all_geoms(), state.stepper);
+  const bool was_moved_by_stepper = !state.stepper.empty();  // a program may change the solver
+  if (stepper_ != nullptr && was_moved_by_stepper) stepper_->load(all_geoms(), state.stepper);
   dRandSetSeed(static_cast<unsigned long>(state.seed));
 }
 

@@ -139,6 +139,18 @@ TEST_CASE("resume: the contact forces that the stepper remembers, of grains that
   check_resume(scene, 3 * kEvery);
 }
 
+TEST_CASE("resume: a run of quickstep goes on with the stepper, and with quickstep again") {
+  Scene scene = sample("feeder");
+  std::string saved;
+  for (const auto& stepper : {std::optional<Accuracy>(), std::optional(Accuracy{}), std::optional<Accuracy>()}) {
+    scene.solver.stepper = stepper;
+    std::optional<Simulation> simulation;
+    saved.empty() ? simulation.emplace(scene, 1) : simulation.emplace(scene, 1, saved);
+    CHECK_NOTHROW(advance(*simulation, scene, 0, kEvery));
+    saved = simulation->save();
+  }
+}
+
 TEST_CASE("resume: an agglomerate whose bonds break") {
   const Scene scene = sample("agglomerate");
   std::string saved;
