@@ -24,7 +24,7 @@ SUPERNORMAL_API Proximity find_proximity(const ProximityQuery& query, const Sett
 
 /// The answers of find_proximity() for many pairs, bit for bit the same: results[k] is the answer of queries[k]. Pairs of
 /// ellipsoids and superellipsoids are solved two, four or eight at a time, in the vector registers that the processor has. The
-/// order of the pairs and their number do not change the digits. Uses one thread, some 80 kB of its stack, and for deep overlaps
+/// order of the pairs and their number do not change the digits. Uses one thread, some 90 kB of its stack, and for deep overlaps
 /// the scratch memory that each thread keeps. Divide the pairs among threads as you like. No pointer but first_normal may be null.
 ///
 /// Throws std::invalid_argument if the settings are out of range, or if `results` has another length than `queries`.
