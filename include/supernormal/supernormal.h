@@ -463,8 +463,8 @@ SUPERNORMAL_ODE_API int snStepperContactForce(snStepperID stepper, int contact, 
  * refused. */
 SUPERNORMAL_ODE_API int snStepperSave(snStepperID stepper, const dGeomID* geoms, int count, double* numbers, int room);
 
-/** Gives a stepper what snStepperSave wrote, in place of what it remembers. The geoms have the same places among `geoms`. Returns 1;
- * 0 (and snLastError) if these are no such numbers; it has then changed nothing. */
+/** Gives a stepper what snStepperSave wrote, in place of what it remembers. The geoms have the same places among `geoms`. Returns
+ * 1; 0 (and snLastError) if these are no such numbers; it has then changed nothing. */
 SUPERNORMAL_ODE_API int snStepperLoad(snStepperID stepper, const dGeomID* geoms, int count, const double* numbers, int size);
 
 /* --- statistics --------------------------------------------------------------------------------------------------------- */
