@@ -242,8 +242,8 @@ class _Grains:
         if not bounds:
             raise InputError("--bodies: there is no other body; allowed: bodies of a run of two or more")
         candidate = self.body(min(bounds, key=bounds.get))
-        least = sn.find_proximity(body1.shape, body1.pose, candidate.shape, candidate.pose).gap
-        near = [index for index, bound in bounds.items() if bound <= least]
+        nearest = sn.find_proximity(body1.shape, body1.pose, candidate.shape, candidate.pose)
+        near = [index for index, bound in bounds.items() if bound <= nearest.gap + nearest.error]
         bodies = [self.body(index) for index in near]
         poses = sn.Poses([body.pose.position for body in bodies], rotation=[body.pose.rotation for body in bodies])
         gaps = sn.find_proximities(body1.shape, body1.pose, [body.shape for body in bodies], poses).gap

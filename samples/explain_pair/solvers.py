@@ -82,8 +82,10 @@ def is_solver_for(solver, pair):
 def solver_path(pair, settings):
     """Runs the solver of the settings: its answer and its path."""
     answer, normals = pair.find(sn.find_proximity_path, settings)
+    if not len(normals):  # two balls have a closed form
+        normals = answer.normal[np.newaxis]
     status = answer.status.name.lower().replace("_", " ")
-    intervals = _intervals(pair, settings, answer.evaluations)
+    intervals = _intervals(pair, settings, max(answer.evaluations, 1))
     numbers = (answer.gap, answer.evaluations, normals, pair.gap(normals))
     return answer, Path(SOLVERS[settings.solver], status, *numbers, settings.solver, answer.is_global, intervals)
 

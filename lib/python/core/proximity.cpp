@@ -98,8 +98,8 @@ constexpr const char* kPathDoc = R"(The same as find_proximity, and how the solv
 For ellipsoids and superellipsoids find_proximity takes its first steps in vector lanes. This function takes the same steps one by one,
 so the last digits and a few evaluations may differ.
 
-normals: (N, 3), unit, world frame, from body 1 to body 2: where the solver evaluated the gap function, in order. A query with
-max_evaluations below N evaluates the first of them.
+normals: (N, 3), unit, world frame, from body 1 to body 2: where the solver evaluated the gap function, in order. Two balls have none.
+A query with max_evaluations below N evaluates the first of them.
 
 Raises what find_proximity raises.)";
 
