@@ -87,7 +87,7 @@ class LeverLimit {
     const double impact = normal_.dot(closed) - std::max(0.0, contact.gap);
     impact_ = std::max(0.0, impact);
     approach_ = impact + time * gained_speed(body1.motion, body2.motion, time);
-    const Vector3 torque = (under - centre_).cross(slip_.stableNormalized());
+    const Vector3 torque = (under - centre_).cross(slip_.normalized());
     const Vector3 axis = turning_ * torque;
     by_friction_ = axis.norm() * std::min(impact_, slip_.norm() / (1 + torque.dot(axis)));
   }
