@@ -119,7 +119,7 @@ namespace {
 
 /// Balls in a row that rest, and one that comes from below at 1 m/s, with all gaps alike. `order`: of their creation, and so of the
 /// pairs.
-std::vector<double> cradle(double gap, double step, double e, std::vector<int> order, bool has_wall = false) {
+std::vector<double> cradle(double gap, double step, double e, const std::vector<int>& order, bool has_wall = false) {
   EffectsWorld scene({fx::Restitution{e, 0, {}}, fx::SpeculativeContacts{}}, step);
   dWorldSetQuickStepNumIterations(scene.id(), 60);
   const double pitch = 2 * kRadius + gap;
@@ -205,6 +205,7 @@ TEST_CASE("speculative contacts: a program that attaches contacts of its own kee
   EffectsWorld scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, 5e-3);
   dWorldSetQuickStepNumIterations(scene.id(), 60);
   std::vector<dBodyID> balls;
+  balls.reserve(3);
   for (int k = 0; k < 3; ++k) balls.push_back(scene.add_ball(kRadius, kDensity, {0, 0, -2 * kRadius * k + (k > 0 ? -1e-3 : 0)}));
   dContact inert{};
   inert.geom.normal[2] = 1;
@@ -418,6 +419,7 @@ TEST_CASE("speculative contacts: a stack with restitution stays at rest, and sta
       dWorldSetQuickStepNumIterations(scene.id(), 40);
       constexpr double kHalf = 0.05;  // m
       std::vector<dBodyID> bricks;
+      bricks.reserve(4);
       for (int k = 0; k < 4; ++k) {
         bricks.push_back(scene.add_body({0.1, 0.1, kHalf}, 20, kDensity, {0, 0, (2 * k + 1) * kHalf}));
       }
@@ -467,7 +469,10 @@ TEST_CASE("speculative contacts: a heap that a heavy body hits stays above the f
         bodies.push_back(scene.add(geom, kDensity, at));
         random.turn(geom);
       };
-      for (int k = 0; k < 12; ++k) add(random.uniform(0.7, 1.3), {0.14 * (k % 2), 0.14 * (k / 2 % 2), 0.1 + 0.14 * (k / 4)});
+      for (int k = 0; k < 12; ++k) {
+        const int row = k / 2 % 2, layer = k / 4;
+        add(random.uniform(0.7, 1.3), {0.14 * (k % 2), 0.14 * row, 0.1 + 0.14 * layer});
+      }
       scene.run_until(1);
       add(2, {0.07, 0.07, 0.8});
       dBodySetLinearVel(bodies.back(), 0, 0, -5);

@@ -21,7 +21,7 @@ constexpr double kLargestRotation = 0.1;
 
 // From this distance of the middle from the centre of mass on, in half-extents of the body's thinnest side, friction has a shorter
 // lever arm. Its rotation would swing the middle into the wall.
-constexpr double kCentred = 0.25;
+constexpr double kCentred = 0.125;
 
 // At this multiple of the largest rotation the lever arm has its limit. Below it the arm is interpolated, so no force jumps.
 constexpr double kFarTooLarge = 2;

@@ -72,7 +72,7 @@ TEST_CASE("checkpoint: a byte that has changed is noticed, wherever it is") {
         std::string("checkpoint \"out/box/checkpoint\" is of a machine with the other byte order, on which it can go on") +
             kStartAnew);
   std::string of_later_format = whole;
-  const int format = ++of_later_format[8];
+  const int format = static_cast<unsigned char>(++of_later_format[8]);
   CHECK(complaint_about(of_later_format) == "checkpoint \"out/box/checkpoint\" has format " + std::to_string(format) +
                                                 "; allowed: " + std::to_string(format - 1) + ", that of this program" + kStartAnew);
 }
