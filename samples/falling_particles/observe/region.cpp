@@ -58,13 +58,13 @@ Bounds bounds_between(const std::vector<FacingWalls>& pairs, const World& world)
 
 }  // namespace
 
-double Bounds::share_of(const Vector3& a, const Vector3& b) const {
+Stay Bounds::stay_of(const Vector3& a, const Vector3& b) const {
   double from = 0;
   double to = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const double way = b[axis] - a[axis];
     if (way == 0) {
-      if (a[axis] < lower[axis] || a[axis] >= upper[axis]) return 0;
+      if (a[axis] < lower[axis] || a[axis] >= upper[axis]) return {0, 0};
       continue;
     }
     const double one = (lower[axis] - a[axis]) / way;
@@ -72,7 +72,7 @@ double Bounds::share_of(const Vector3& a, const Vector3& b) const {
     from = std::max(from, std::min(one, two));
     to = std::min(to, std::max(one, two));
   }
-  return std::max(0.0, to - from);
+  return {from, to};
 }
 
 SamplingRegion::SamplingRegion(const TomlTable& table, const Scene& scene, Without without) {
@@ -165,17 +165,25 @@ Vector3 place_before(const Grain& grain, const World& world) {
   return image_in_cell(position_before(grain.body, world.scene().time.step), world);
 }
 
-double share_of_images(const Bounds& bounds, const Vector3& a, const Vector3& b, const Vector3& periods) {
-  double share = 0;
+std::vector<Stay> stays_of_images(const Bounds& bounds, const Vector3& a, const Vector3& b, const Vector3& periods) {
+  std::vector<Stay> stays;
   const auto most = [&periods](int axis) { return periods[axis] > 0 ? 1 : 0; };
   for (int i = -most(0); i <= most(0); ++i) {
     for (int j = -most(1); j <= most(1); ++j) {
       for (int k = -most(2); k <= most(2); ++k) {
         const Vector3 shift(i * periods[0], j * periods[1], k * periods[2]);
-        share += bounds.share_of(a + shift, b + shift);
+        const Stay stay = bounds.stay_of(a + shift, b + shift);
+        if (stay.to > stay.from) stays.push_back(stay);
       }
     }
   }
+  std::ranges::sort(stays, {}, &Stay::from);
+  return stays;
+}
+
+double share_of_images(const Bounds& bounds, const Vector3& a, const Vector3& b, const Vector3& periods) {
+  double share = 0;
+  for (const Stay& stay : stays_of_images(bounds, a, b, periods)) share += stay.to - stay.from;
   return share;
 }
 

@@ -14,14 +14,19 @@
 
 namespace falling_particles {
 
+/// A part of a segment from a to b, as fractions of it in [0, 1].
+struct Stay {
+  double from, to;
+};
+
 /// A box with sides along the axes; it may be infinite.
 struct Bounds {
   Vector3 lower, upper;  ///< m; the lower sides are inside, the upper ones are not
 
   bool contains(const Vector3& p) const { return (p.array() >= lower.array()).all() && (p.array() < upper.array()).all(); }
   double volume() const { return (upper - lower).prod(); }  ///< m^3
-  /// The fraction of the segment from a to b that is inside, in [0, 1].
-  double share_of(const Vector3& a, const Vector3& b) const;
+  /// The part of the segment from a to b that is inside; empty if `to` is not above `from`.
+  Stay stay_of(const Vector3& a, const Vector3& b) const;
 };
 
 /// A region of a scene file: `lower` and `upper`, or `between` walls, or the whole periodic cell, or everywhere.
@@ -56,7 +61,9 @@ Vector3 place_of(const Grain& grain, const World& world);
 /// m, the same before the last step, up to rounding; of a grain that a feeder inserted in this step, where it was inserted.
 Vector3 place_before(const Grain& grain, const World& world);
 
-/// The fraction of the segment from a to b, and of all its images in a periodic world together, that is in the bounds.
+/// The parts of the segment from a to b, and of all its images in a periodic world, that are in the bounds, in their order.
+std::vector<Stay> stays_of_images(const Bounds& bounds, const Vector3& a, const Vector3& b, const Vector3& periods);
+/// The fraction of the segment in all of them, in [0, 1].
 double share_of_images(const Bounds& bounds, const Vector3& a, const Vector3& b, const Vector3& periods);
 
 /// A plane at right angles to an axis, 0, 1 or 2 for x, y and z.

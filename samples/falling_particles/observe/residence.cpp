@@ -48,6 +48,9 @@ struct Visit {
 
 constexpr double kLineOfVisit = 80;  // bytes, in feeder.toml
 
+// The rounding of a place, as a fraction of a step's way. Images that meet at a side of a cell have no gap.
+constexpr double kRounding = 1e-9;
+
 constexpr double kOutside = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
@@ -82,17 +85,13 @@ class Residence final : public Measurement {
     entered_.resize(world.grains().size(), kOutside);
     for (std::size_t i = 0; i < entered_.size(); ++i) {
       const Grain& grain = world.grains()[i];
-      const bool was_inside = entered_[i] != kOutside;
-      if (!grain.is_present()) {
-        if (was_inside) leave(i, world, sample.time - step);
-        continue;
+      if (grain.is_present()) {
+        const Vector3 now = place_of(grain, world);
+        const Vector3 before = now - step * velocity_of_move(grain.body);
+        follow_way(i, world, stays_of_images(bounds, before, now, periods), bounds.contains(now), sample.time - step);
+      } else if (is_inside(i)) {
+        leave(i, world, sample.time - step);
       }
-      const Vector3 now = place_of(grain, world);
-      const bool is_inside = bounds.contains(now);
-      if (was_inside == is_inside) continue;
-      const Vector3 before = now - step * velocity_of_move(grain.body);
-      const double time_inside = step * share_of_images(bounds, before, now, periods);
-      is_inside ? enter(i, world, sample.time - time_inside) : leave(i, world, sample.time - step + time_inside);
     }
   }
 
@@ -112,6 +111,21 @@ class Residence final : public Measurement {
 
  private:
   VisitsOfKind& of_kind(const Grain& grain, const World& world) { return kinds_[world.scene().kind_of(*grain.kind)]; }
+
+  bool is_inside(std::size_t index) const { return entered_[index] != kOutside; }
+
+  /// Follows a step from `start` (s), of which the grain is inside in `stays`. Its states before and after hold within rounding.
+  void follow_way(std::size_t index, const World& world, const std::vector<Stay>& stays, bool ends_inside, double start) {
+    const double step = world.scene().time.step;
+    double end = 0;  // of the last stay
+    for (const Stay& stay : stays) {
+      if (is_inside(index) && stay.from > end + kRounding) leave(index, world, start + step * end);
+      if (!is_inside(index)) enter(index, world, start + step * stay.from);
+      end = stay.to;
+    }
+    if (is_inside(index) && !ends_inside) leave(index, world, start + step * end);
+    if (!is_inside(index) && ends_inside) enter(index, world, start + step);
+  }
 
   void enter(std::size_t index, const World& world, double time) {
     entered_[index] = time;

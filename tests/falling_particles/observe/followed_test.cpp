@@ -341,6 +341,23 @@ interval = 0.1
   }
 }
 
+TEST_CASE("residence: a grain that crosses a region, or the gap between its images, within a step visits it once for each") {
+  const auto visits = [](double lower, double upper) {
+    const std::string region = "[periodic]\nx = [0, 0.1]\n[[measurement]]\nkind = \"residence\"\nper = \"visit\"\nlower = [" +
+                               shortest(lower) + ", -1, -1]\nupper = [" + shortest(upper) + ", 1, 1]\ninterval = 0.5\n";
+    return run(with_grains(open_scene(kFarFloor + region, 0.5, 0), {moving(kPea, {0.05, 0, 0}, {0.4, 0, 0})}), "residence");
+  };
+  const MeasuredTable thin = visits(0.0101, 0.0102);  // a step is 0.4 mm long or longer
+  REQUIRE(thin.rows.size() == 2);
+  CHECK(thin.number("entered_s", 1) == relative(0.1601 / 0.4).epsilon(1e-6));
+  for (const std::size_t row : {0U, 1U}) CHECK(thin.number("residence_s", row) == relative(1e-4 / 0.4).epsilon(1e-6));
+
+  const MeasuredTable gap = visits(0, 0.0999);
+  REQUIRE(gap.rows.size() == 2);
+  CHECK(gap.number("left_s", 0) == relative(0.0499 / 0.4).epsilon(1e-6));
+  CHECK(gap.number("residence_s", 1) == relative(0.0999 / 0.4).epsilon(1e-6));
+}
+
 TEST_CASE("residence: dice on a belt stay for the length of the region over the speed of the belt") {
   const std::string region =
       "[[measurement]]\nkind = \"residence\"\nlower = [0.05, -1, -1]\nupper = [0.13, 1, 1]\ninterval = 0.5\n";
