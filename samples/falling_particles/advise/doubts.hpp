@@ -22,6 +22,8 @@ void add_doubts_about_loads(const Scene& scene, std::vector<std::string>& doubts
 void add_doubts_about_walls(const Scene& scene, std::vector<std::string>& doubts);
 /// Of grains that start above nothing or behind meshes.
 void add_doubts_about_leaks(const Scene& scene, std::vector<std::string>& doubts);
+/// Of a container a thousand grains wide.
+void add_doubts_about_units(const Scene& scene, std::vector<std::string>& doubts);
 /// Of bonds that may break, and are damped more by the step than the scene asks.
 void add_doubts_about_bonds(const Scene& scene, std::vector<std::string>& doubts);
 /// Of opposite sides of a cell that meet by their motions.

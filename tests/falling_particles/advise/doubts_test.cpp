@@ -128,6 +128,14 @@ TEST_CASE("doubts: a scene without gravity in which nothing moves") {
   CHECK(doubts_about(scene_of(std::string(kSceneText), {"gravity.acceleration=[0, 0, 0]"})).empty());
 }
 
+TEST_CASE("doubts: a container a thousand grains wide was typed in millimetres") {
+  const std::string in_metres = "width = [0.05, 0.06]", in_millimetres = "width = [50, 60]";
+  CHECK_FALSE(says_one_of(scene_of(replaced(kSceneText, in_metres, "width = [5, 6]")), "lengths are in m"));
+  const Scene scene = scene_of(replaced(kSceneText, in_metres, in_millimetres));
+  CHECK(says_one_of(scene, "50 m wide"));
+  CHECK(says_one_of(scene, "lengths are in m"));
+}
+
 TEST_CASE("doubts: overlaps that are never corrected, and feeders that throw too fast") {
   check_one_doubt(scene_of(std::string(kSceneText), {"solver.erp=0"}), {"solver.erp is 0"});
   const std::string feeder = "[[feeder]]\nname = \"f\"\ncorner = [0, 0, 0.1]\nsize = [0.05, 0.06, 0.05]\ngrains_per_second = 100\n";
