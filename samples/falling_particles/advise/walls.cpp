@@ -63,20 +63,31 @@ std::string slower(const Wall& wall, double factor) {
                        : key + "mass from " + rounded(drive.mass * factor) + " kg on would do";
 }
 
+/// N/m, of the spring of a contact between a wall and a ball of this diameter (m) under the force (N); 0 without springs. With
+/// Hertz it is dF/d(depth) = (6 E*^2 R F)^(1/3) (Johnson, Contact Mechanics, eq. 4.23).
+double contact_stiffness(const supernormal::effects::Effect& effect, double diameter, double force) {
+  if (const auto* const spring = std::get_if<supernormal::effects::Compliance>(&effect)) return spring->stiffness;
+  const auto* const hertz = std::get_if<supernormal::effects::Hertz>(&effect);
+  if (hertz == nullptr) return 0;
+  const double modulus = hertz->youngs_modulus / (2 * (1 - hertz->poisson_ratio * hertz->poisson_ratio));
+  return std::cbrt(6 * modulus * modulus * diameter / 2 * force);
+}
+
 /// Adds a doubt about a servo on springs. A spring is explicit: it is stable while stiffness x step^2 is below four masses. A servo
 /// has the mass step x area / gain, and a contact for each smallest grain that fits on its area.
 void add_gain(const Scene& scene, const Wall& wall, WallDoubts& doubts) {
+  const Servo& servo = *wall.drive->servo;
+  const double diameter = 2 * scene.smallest_half_axis();
+  double stiffness = 0;
   for (const supernormal::effects::Effect& effect : scene.effects) {
-    const auto* const spring = std::get_if<supernormal::effects::Compliance>(&effect);
-    if (spring == nullptr) continue;
-    const double diameter = 2 * scene.smallest_half_axis();
-    const double most = 4 * diameter * diameter / (spring->stiffness * scene.time.step);
-    if (wall.drive->servo->gain <= most) continue;
-    doubts.add("gain", wall, wall.drive->servo->gain,
-               " is a servo with a gain of " + rounded(wall.drive->servo->gain) +
-                   " m/(s Pa), with which it may be unstable on the springs of compliance: " + wall.key() + ".drive.gain up to " +
-                   rounded(most) + " m/(s Pa), or a smaller time.step would do");
+    stiffness = std::max(stiffness, contact_stiffness(effect, diameter, servo.stress * diameter * diameter));
   }
+  const double most = 4 * diameter * diameter / (stiffness * scene.time.step);
+  if (servo.gain <= most) return;
+  doubts.add("gain", wall, servo.gain,
+             " is a servo with a gain of " + rounded(servo.gain) +
+                 " m/(s Pa), with which it may be unstable on the springs of contacts: " + wall.key() + ".drive.gain up to " +
+                 rounded(most) + " m/(s Pa), or a smaller time.step would do");
 }
 
 }  // namespace

@@ -203,13 +203,17 @@ TEST_CASE("doubts: a part that a force, a torque or a servo moves by more than a
   check_one_doubt(box_with(servo + "10\n"), {"part \"p\" is driven 0.005 m in a step", "part.drive.largest_speed up to 6 m/s"});
   CHECK(doubts_about(box_with(servo + "1\n")).empty());
   // On springs the gain has a limit: 4 x (0.006 m)^2 / (10 N/m x 5e-4 s).
-  const auto on_springs = [&](const char* gain) {
-    const std::string text = replaced(kSceneText, "[max_correcting_velocity]\nvelocity = 0.05\n", "[compliance]\nstiffness = 10\n");
+  const auto on_springs = [&](const char* gain, const char* springs = "[compliance]\nstiffness = 10\n") {
+    const std::string text = replaced(kSceneText, "[max_correcting_velocity]\nvelocity = 0.05\n", springs);
     return scene_of(text + "[[part]]\nname = \"p\"\n" + replaced(servo, "gain = 1\n", gain) + "1\n");
   };
   check_one_doubt(on_springs("gain = 0.03\n"),
                   {"part \"p\" is a servo with a gain of 0.03 m/(s Pa)", "part.drive.gain up to 0.0288 m/(s Pa)"});
   CHECK(doubts_about(on_springs("gain = 0.028\n")).empty());
+  // Hertz's spring under 1000 Pa: (6 x (5e6 Pa)^2 x 0.003 m x 0.036 N)^(1/3) = 2530 N/m.
+  const char* const hertz = "[hertz]\nyoungs_modulus = 1e7\npoisson_ratio = 0\n";
+  CHECK(says_one_of(on_springs("gain = 0.000115\n", hertz), "part.drive.gain up to 0.000114 m/(s Pa)"));
+  CHECK_FALSE(says_one_of(on_springs("gain = 0.000113\n", hertz), "part.drive.gain up to"));
 }
 
 TEST_CASE("doubts: a grain may not start inside a part") {
