@@ -45,6 +45,15 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
       best = candidate;
     }
   }
+  if (!best.empty()) return best;
+  std::size_t longest = std::max<std::size_t>(2, word.size() / 2);
+  for (const std::string& candidate : candidates) {
+    const auto shared = static_cast<std::size_t>(std::ranges::mismatch(word, candidate).in1 - word.begin());
+    if (shared > longest) {
+      longest = shared;
+      best = candidate;
+    }
+  }
   return best;
 }
 

@@ -8,7 +8,8 @@
 namespace common {
 
 /// The candidate nearest to `word` by typing errors, or the first one that has `word` before an underscore, such as x_m for x.
-/// Returns "" if more than a third of the letters are wrong (more than one in short words).
+/// If in all of them more than a third of the letters are wrong (more than one in short words), the one that begins with more than
+/// half of the word, three letters at least, or "".
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
 
 /// `; did you mean "…"?`, or "" when no candidate is near.

@@ -97,7 +97,11 @@ int run() {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** /*argv*/) {
+  if (argc > 1) {
+    std::puts("usage: compound\nDrops a dumbbell and a molar of several geoms on a plane, and prints mass, rest and energy.");
+    return 2;
+  }
   dInitODE2(0);
   dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
   int status = 1;

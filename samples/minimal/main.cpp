@@ -36,7 +36,11 @@ dBodyID drop(dGeomID geom, dReal x, dReal y, dReal z) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** /*argv*/) {
+  if (argc > 1) {
+    std::puts("usage: minimal\nDrops a brick and twenty pebbles on a plane, and prints where they rest.");
+    return 2;
+  }
   constexpr int kPebbles = 20;
   constexpr int kMostSteps = 5000;  // 10 s
 

@@ -63,7 +63,14 @@ static void print_masses(dGeomID egg, dGeomID lens_geom, Lens lens) {
   printf("lens, by its own formula: mass %.6f kg\n", (double)mass.mass);
 }
 
-int main(void) {
+int main(int argc, char** argv) {
+  (void)argv;
+  if (argc > 1) {
+    puts(
+        "usage: user_shape\nCollides an egg and a lens, given by callbacks, with every class of geom, and prints gap, contacts and "
+        "mass.");
+    return 2;
+  }
   dInitODE2(0);
   dAllocateODEDataForThread(dAllocateMaskAll);
   Collider colliders[COLLIDER_COUNT];

@@ -14,6 +14,14 @@ TEST_CASE("a column without its unit is the column with it") {
   CHECK(nearest_word("", std::vector<std::string>{"_m"}).empty());
 }
 
+TEST_CASE("a word that begins as a candidate does is that candidate") {
+  const std::vector<std::string> grains = {"mm", "soybean", "lentil"};
+  CHECK(nearest_word("soya", grains) == "soybean");
+  CHECK(nearest_word("lens", grains) == "lentil");
+  CHECK(nearest_word("so", grains).empty());
+  CHECK(nearest_word("sorghum", grains).empty());
+}
+
 TEST_CASE("the nearest word is found by edits, and nothing is better than a far one") {
   const std::vector<std::string> words = {"width", "height", "depth"};
   CHECK(nearest_word("widht", words) == "width");

@@ -270,8 +270,18 @@ std::vector<std::string> sections() {
   return names;
 }
 
+/// Names all missing keys that every scene has, if several are missing. One alone is named where it is read, with its range.
+void refuse_missing(const TomlTable& root) {
+  std::vector<std::string> missing;
+  for (const char* key : {"seed", "catalogue", "time", "container", "grain", "solver"}) {
+    if (!root.has(key)) missing.emplace_back(key);
+  }
+  if (missing.size() > 1) root.fail("", join(missing) + " are missing; every scene has them, and short.toml is a small one");
+}
+
 Scene load(const TomlFile& file, const std::string& path, const std::string& called, const std::vector<std::string>& overrides) {
   const TomlTable root = file.root(sections());
+  refuse_missing(root);
   Scene scene{};
   scene.name = std::filesystem::path(path).stem().string();
   scene.path = path;

@@ -49,7 +49,7 @@ int run_program(int argc, char** argv) {
     bool known = false;
     for (const Experiment& experiment : kExperiments) known = known || std::strcmp(experiment.name, argv[i]) == 0;
     if (known) continue;
-    std::fprintf(stderr, "single_bodies: unknown experiment \"%s\"; allowed:", argv[i]);
+    std::fprintf(stderr, "usage: single_bodies [EXPERIMENT...]\nunknown experiment \"%s\"; allowed:", argv[i]);
     for (const Experiment& experiment : kExperiments) std::fprintf(stderr, " %s", experiment.name);
     std::fprintf(stderr, "\n");
     return 2;

@@ -28,6 +28,11 @@ E effect(const Scene& scene) {
 
 }  // namespace
 
+TEST_CASE("sections that a scene lacks are listed together") {
+  check_says(complaint(""), {"seed, catalogue, time, container, grain, solver are missing"});
+  check_says(complaint("seed = 1\n"), {"catalogue, time, container, grain, solver are missing"});
+}
+
 TEST_CASE("the values of a scene file are read") {
   const TemporaryFolder folder;
   folder.write("grains.toml", kCatalogueText);
