@@ -4,6 +4,7 @@
 #include <array>
 
 #include "ode/colliders/contact.hpp"
+#include "ode/colliders/convex/primitives.hpp"
 #include "ode/colliders/no_answer.hpp"
 #include "ode/geom/geom_class.hpp"
 #include "ode/support/last_error.hpp"
@@ -28,12 +29,8 @@ struct Collider {
   PairQuery* query;
 };
 
-// The geometry classes of ODE, except spaces and dGeomTransform, which ODE resolves itself.
-constexpr std::array<Collider, 9> kColliders = {{
-    {dSphereClass, collide_by<query_sphere>, query_sphere},
-    {dBoxClass, collide_by<query_box>, query_box},
-    {dCapsuleClass, collide_by<query_capsule>, query_capsule},
-    {dCylinderClass, collide_by<query_cylinder>, query_cylinder},
+// The other geometry classes of ODE, except spaces and dGeomTransform, which ODE resolves itself.
+constexpr std::array<Collider, 5> kColliders = {{
     {dPlaneClass, collide_by<query_plane>, query_plane},
     {dRayClass, collide_with_ray, query_ray},
     {dConvexClass, collide_by<query_convex>, query_convex},
@@ -42,6 +39,8 @@ constexpr std::array<Collider, 9> kColliders = {{
 }};
 
 const Collider* find_builtin(int collider_class) {
+  static constexpr Collider kPrimitive = {-1, collide_by<query_primitive>, query_primitive};
+  if (find_primitive(collider_class) != nullptr) return &kPrimitive;
   const auto* const found = std::find_if(kColliders.begin(), kColliders.end(),
                                          [&](const Collider& collider) { return collider.geom_class == collider_class; });
   return found == kColliders.end() ? nullptr : found;
@@ -63,6 +62,7 @@ PairQuery* find_query(int collider_class) {
 
 void set_colliders(int our_class) {
   for (const Collider& collider : kColliders) dSetColliderOverride(our_class, collider.geom_class, collider.collide);
+  for (const Primitive& one : primitives()) dSetColliderOverride(our_class, one.geom_class, collide_by<query_primitive>);
   dSetColliderOverride(our_class, our_class, collide_by<query_body>);
 }
 

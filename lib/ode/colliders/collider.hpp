@@ -1,6 +1,6 @@
 // Queries and colliders of our geoms with every geometry class. Each class has one file in convex/, trimesh/ or heightfield/.
-// To add a class, add a file with a query and a line in the table of collider.cpp. A class with several contacts also needs its own
-// collider.
+// To add a class that is a shape of the core, add it to convex/primitives.cpp. Another one is a file with a query and a line in the
+// table of collider.cpp. A class with several contacts also needs its own collider.
 #pragma once
 
 #include <ode/ode.h>
@@ -17,10 +17,7 @@ using PairQuery = ContactManifold(dGeomID ours, dGeomID collider, QueryKind kind
 
 PairQuery query_body;  // both geoms are ours
 PairQuery query_plane;
-PairQuery query_sphere;
-PairQuery query_box;
-PairQuery query_capsule;
-PairQuery query_cylinder;
+PairQuery query_primitive;  // convex/primitives.hpp
 PairQuery query_convex;
 PairQuery query_ray;
 PairQuery query_trimesh;

@@ -69,10 +69,9 @@ PairKey BodyPair::key() const { return PairKey::of_bodies(body1_->serial(), body
 double BodyPair::look_ahead() const { return std::max(body1_->look_ahead(), body2_->look_ahead()); }
 
 PreparedPair BodyPair::prepare(const CachedNormal& cached, QueryKind kind, LastNormal& last) const {
-  bool are_usable = true;
-  PreparedPair query{pose_of(geom1_, &are_usable), pose_of(geom2_, &are_usable),
-                     settings_for(combined(body1_->settings(), body2_->settings()), kind, look_ahead())};
-  query.poses_are_usable = are_usable;
+  const TestedPose pose1 = tested_pose_of(geom1_), pose2 = tested_pose_of(geom2_);
+  PreparedPair query{pose1.pose, pose2.pose, settings_for(combined(body1_->settings(), body2_->settings()), kind, look_ahead())};
+  query.poses_are_usable = pose1.is_usable && pose2.is_usable;
   last.pose = RelativePose::of(query.pose1, query.pose2);
   query.is_warm = find_cached_normal(cached, last.pose, std::min(body1_->size(), body2_->size()), query.first_normal);
   if (query.is_warm && query.settings.stop_when_apart && body1_->is_known() && body2_->is_known()) {
@@ -121,20 +120,22 @@ ContactManifold BodyPair::solve(const CachedNormal& cached, QueryKind kind, Last
 
 ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, QueryKind kind) {
   const Body& body = require_body(ours);
-  const Pose pose = pose_of(ours);
+  const TestedPose pose = tested_pose_of(ours);
   LastNormal last;
-  last.pose = RelativePose::of(collider.pose, pose);
+  last.pose = RelativePose::of(collider.pose.pose, pose.pose);
   const PairKey key = PairKey::of_direction(body.serial(), last.pose.offset, collider.kind);
   const double time = body.look_ahead();
-  const PosedBody one{ours, body.shape(), pose};
-  const PosedBody other{collider.geom, collider.shape, collider.pose};
-  const Matrix3& frame = collider.pose.rotation;
+  const PosedBody one{ours, body.shape(), pose.pose};
+  const PosedBody other{collider.geom, collider.shape, collider.pose.pose};
+  const Matrix3& frame = other.pose.rotation;
   Vector3 cached_normal, first_normal;
   const bool is_warm = find_cached_normal(reserve_entry(key), last.pose, body.size(), cached_normal);
   // The solver expects the normal in the frame of the first shape.
-  if (is_warm) first_normal = pose.rotation.transpose() * (frame * cached_normal);
+  if (is_warm) first_normal = one.pose.rotation.transpose() * (frame * cached_normal);
   const Settings asked = settings_for(body.settings(), kind, time);
-  const Proximity found = find_proximity(one.shape, one.pose, other.shape, other.pose, asked, is_warm ? &first_normal : nullptr);
+  const Proximity found = find_proximity({&one.shape, &one.pose, &other.shape, &other.pose, is_warm ? &first_normal : nullptr,
+                                          pose.is_usable && collider.pose.is_usable},
+                                         asked);
   ContactManifold manifold = finish(one, other, asked, kind, time, is_warm ? &cached_normal : nullptr, frame, found, last);
   last.store(key);
   return manifold;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ode/colliders/collider.hpp"
+#include "ode/geom/convert.hpp"
 #include "ode/runtime/warm_start.hpp"
 #include "supernormal/contact/contact_manifold.hpp"
 #include "supernormal/proximity/batch.hpp"
@@ -74,7 +75,7 @@ class BodyPair {
 struct ColliderShape {
   dGeomID geom;
   const Shape& shape;
-  Pose pose;
+  TestedPose pose;
   std::uint32_t kind;  ///< collider_kind()
 };
 

@@ -37,14 +37,23 @@ inline Matrix3 to_rotation(const dReal* R) {
 /// The rotation of a placeable geom, orthonormal to rounding (see rotation.hpp).
 inline Matrix3 rotation_of(dGeomID geom) { return orthonormal(to_rotation(dGeomGetRotation(geom)), geom); }
 
-/// The current pose of a placeable geom. Do not cache it: inside a dGeomTransform ODE replaces the pose during a call.
-/// `are_usable`, unless null, becomes false if the core has to test the pose.
-inline Pose pose_of(dGeomID geom, bool* are_usable = nullptr) {
-  Pose pose{to_vector(dGeomGetPosition(geom)), to_rotation(dGeomGetRotation(geom))};
-  const bool is_rotation = is_orthonormal(pose.rotation);
-  if (!is_rotation) pose.rotation = nearest_rotation(pose.rotation, geom);  // rare; otherwise no copy
-  if (are_usable != nullptr) *are_usable = *are_usable && is_rotation && all_within(pose.position, kFarthest);
-  return pose;
+/// A pose, and whether the core may take it without a test of its own (ProximityQuery::poses_are_usable).
+struct TestedPose {
+  Pose pose;
+  bool is_usable;
+};
+
+/// The pose of these numbers of ODE. Messages name the geom.
+inline TestedPose tested_pose(const dReal* position, const dReal* R, dGeomID geom) {
+  TestedPose out{{to_vector(position), to_rotation(R)}, false};
+  const bool is_rotation = is_orthonormal(out.pose.rotation);
+  if (!is_rotation) out.pose.rotation = nearest_rotation(out.pose.rotation, geom);  // rare; otherwise no copy
+  out.is_usable = is_rotation && all_within(out.pose.position, kFarthest);
+  return out;
 }
+
+/// The current pose of a placeable geom. Do not cache it: inside a dGeomTransform ODE replaces the pose during a call.
+inline TestedPose tested_pose_of(dGeomID geom) { return tested_pose(dGeomGetPosition(geom), dGeomGetRotation(geom), geom); }
+inline Pose pose_of(dGeomID geom) { return tested_pose_of(geom).pose; }
 
 }  // namespace supernormal::ode

@@ -22,7 +22,7 @@ ContactManifold query_convex(dGeomID ours, dGeomID collider, QueryKind kind) {
   ConvexVertices& vertices = kept_vertices();
   if (!vertices.read(collider)) return {};
   const Polytope hull(vertices.points());
-  const ColliderShape shape{collider, hull, vertices.pose(), collider_kind(dConvexClass, {vertices.fingerprint()})};
+  const ColliderShape shape{collider, hull, {vertices.pose(), false}, collider_kind(dConvexClass, {vertices.fingerprint()})};
   return solve_pair(ours, shape, kind);
 }
 

@@ -1,5 +1,6 @@
 #include "ode/colliders/convex/posed_shape.hpp"
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -7,21 +8,13 @@
 #include "ode/colliders/convex/convex_vertices.hpp"
 #include "ode/colliders/no_answer.hpp"
 #include "ode/geom/body.hpp"
+#include "ode/geom/convert.hpp"
 
 namespace supernormal::ode {
 
 bool has_shape(dGeomID geom) {
-  switch (dGeomGetClass(geom)) {
-    case dSphereClass:
-    case dBoxClass:
-    case dCapsuleClass:
-    case dCylinderClass:
-    case dConvexClass:
-    case dRayClass:
-      return true;
-    default:
-      return find_body(geom) != nullptr;
-  }
+  const int number = dGeomGetClass(geom);
+  return number == dConvexClass || number == dRayClass || find_primitive(number) != nullptr || find_body(geom) != nullptr;
 }
 
 PosedShape::PosedShape(dGeomID geom) {
@@ -32,24 +25,13 @@ PosedShape::PosedShape(dGeomID geom) {
   }
   if (!has_shape(geom)) refuse_class(geom);
   pose_ = pose_of(geom);
-  switch (number) {
-    case dSphereClass:
-      keep(sphere_of(geom));
-      break;
-    case dBoxClass:
-      keep(box_of(geom));
-      break;
-    case dCapsuleClass:
-      keep(capsule_of(geom));
-      break;
-    case dCylinderClass:
-      keep(cylinder_of(geom));
-      break;
-    case dConvexClass:
-      take_hull(geom);
-      break;
-    default:
-      shape_ = &require_body(geom).shape();
+  std::uint32_t kind = 0;
+  if (const Primitive* const primitive = find_primitive(number)) {
+    shape_ = &primitive->make(geom, kept_, kind);
+  } else if (number == dConvexClass) {
+    take_hull(geom);
+  } else {
+    shape_ = &require_body(geom).shape();
   }
 }
 
@@ -67,7 +49,7 @@ void PosedShape::take_hull(dGeomID convex) {
   } else {
     pose_.position.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
-  keep(Polytope(points));
+  shape_ = &kept_.emplace<Polytope>(points);
 }
 
 // The rotation of the geom is not read, because dGeomRaySet writes only one column of it.
@@ -76,7 +58,7 @@ void PosedShape::take_ray(dGeomID ray) {
   dGeomRayGet(ray, start, along);
   pose_.position = to_vector(start);
   ends_ = {Vector3::Zero(), double{dGeomRayGetLength(ray)} * to_vector(along)};
-  keep(Polytope(ends_));
+  shape_ = &kept_.emplace<Polytope>(ends_);
 }
 
 }  // namespace supernormal::ode

@@ -4,11 +4,9 @@
 #include <ode/ode.h>
 
 #include <array>
-#include <variant>
 
-#include "ode/colliders/convex/shape_of.hpp"
+#include "ode/colliders/convex/primitives.hpp"
 #include "supernormal/proximity/pose.hpp"
-#include "supernormal/shapes/polytope.hpp"
 
 namespace supernormal::ode {
 
@@ -31,12 +29,7 @@ class PosedShape {
   void take_hull(dGeomID convex);
   void take_ray(dGeomID ray);
 
-  template <typename Made>
-  void keep(const Made& made) {
-    shape_ = &kept_.emplace<Made>(made);
-  }
-
-  std::variant<std::monostate, Sphere, Box, Capsule, Cylinder, Polytope> kept_;
+  KeptShape kept_;
   std::array<Vector3, 2> ends_;
   const Shape* shape_ = nullptr;
   Pose pose_;
