@@ -94,11 +94,10 @@ struct LawReader {
   void operator()(const fx::MaxCorrectingVelocity& /*solver*/) {}
   void operator()(const fx::SurfaceLayer& /*solver*/) {}
   void operator()(const fx::SpeculativeContacts& /*solver*/) {}
-  void operator()(const fx::AnisotropicFriction& /*effect*/) { refuse(scene, "anisotropic_friction"); }
-  void operator()(const fx::QuadraticDrag& /*effect*/) { refuse(scene, "quadratic_drag"); }
-  void operator()(const fx::StokesDrag& /*effect*/) { refuse(scene, "stokes_drag"); }
-  void operator()(const fx::Buoyancy& /*effect*/) { refuse(scene, "buoyancy"); }
-  void operator()(const fx::Damping& /*effect*/) { refuse(scene, "damping"); }
+  template <typename Other>
+  void operator()(const Other& effect) {
+    refuse(scene, fx::descriptions()[fx::Effect(effect).index()].name);
+  }
 };
 
 double volume_of(const GrainKind& kind) {
