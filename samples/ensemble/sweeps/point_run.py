@@ -70,6 +70,8 @@ def _simulate_point(sweep, point, store, run, program, lock):
         of_start = _bonds_in(sweep.start.scene)
         assignments = [f"bond[{name}]{bonds}" for name in _bonds_in(sweep.scene) if name in of_start] + assignments
         assignments += [f"start.file={toml_text(str(results / 'final_state.csv'))}"]
+        if (results / "parts.csv").exists():
+            assignments += [f"start.parts={toml_text(str(results / 'parts.csv'))}"]
     return _simulate(sweep, sweep.scene, assignments, store, run, program, lock)
 
 

@@ -251,7 +251,11 @@ void read_output(const TomlTable& root, Scene& scene) {
 /// The files that the scene names relative to its folder. All have been read before.
 std::vector<std::filesystem::path> files_of(const TomlTable& root, const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files = {path.parent_path() / root.text("catalogue")};
-  if (root.has("start")) files.push_back(path.parent_path() / root.table("start").text("file"));
+  if (root.has("start")) {
+    const TomlTable start = root.table("start");
+    files.push_back(path.parent_path() / start.text("file"));
+    if (const std::optional<std::string> parts = start.find_text("parts")) files.push_back(path.parent_path() / *parts);
+  }
   for (const char* section : {"part", "bond"}) {
     if (!root.has(section)) continue;
     for (const TomlTable& table : root.tables(section)) {
@@ -291,6 +295,7 @@ Scene load(const TomlFile& file, const std::string& path, const std::string& cal
   scene.time = read_time(root.table("time", {"duration", "step", "frame"}));
   scene.container = read_container(root, scene.time);
   scene.walls = load_walls(root, scene, path);
+  place_walls(root, path, scene.walls);
   const TomlTable drop = read_drop(root, scene);
   read_grains(root, drop, path, scene);
   if (root.has("feeder") && !scene.start && scene.grains_at_start() > 0) root.table("drop");  // reports that it is missing

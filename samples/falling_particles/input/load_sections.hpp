@@ -40,6 +40,9 @@ std::optional<SizeDistribution> load_sizes(const TomlTable& entry, double sieve_
 /// InputError, which names file, line and column.
 std::optional<StartState> load_start(const TomlTable& root, const std::vector<GrainCount>& kinds, const std::string& scene_path);
 
+/// Starts the walls of a scene where the last frame of start.parts has them, a table parts.csv. Throws InputError.
+void place_walls(const TomlTable& root, const std::string& scene_path, std::vector<Wall>& walls);
+
 /// Reads the axes along which a scene repeats, and removes the walls of the container that close it there. The scene's container,
 /// walls and grains must have been read. Throws InputError, also when a wall is not uniform along such an axis.
 void load_periodic(const TomlTable& root, Scene& scene);

@@ -6,9 +6,11 @@
 #include <system_error>
 #include <vector>
 
+#include "common/motion.hpp"
 #include "common/nearest_word.hpp"
 #include "load_sections.hpp"
 #include "model/grain_shape.hpp"
+#include "model/wall.hpp"
 #include "state_table.hpp"
 
 namespace falling_particles {
@@ -38,6 +40,25 @@ std::array<double, size> read_numbers(const StateTable& table, const Row& row, c
   std::array<double, size> numbers{};
   for (std::size_t i = 0; i < size; ++i) numbers[i] = table.number(row, columns[i], allowed);
   return numbers;
+}
+
+std::array<double, 3> read_position(const StateTable& table, const Row& row) {
+  return read_numbers<3>(table, row, kPosition, Interval::closed(-kLargestLength, kLargestLength, "m"));
+}
+
+std::array<double, 4> read_orientation(const StateTable& table, const Row& row) {
+  const auto q = read_numbers<4>(table, row, kOrientation, Interval::closed(-2, 2, ""));
+  const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  if (std::abs(norm - 1) <= kUnitError) return q;
+  table.fail(row.line, "qw, qx, qy, qz are a quaternion of norm " + rounded(norm) + "; allowed: 1, to " + rounded(kUnitError));
+}
+
+std::array<double, 3> read_velocity(const StateTable& table, const Row& row) {
+  return read_numbers<3>(table, row, kVelocity, Interval::closed(-kLargestSpeed, kLargestSpeed, "m/s"));
+}
+
+std::array<double, 3> read_spin(const StateTable& table, const Row& row) {
+  return read_numbers<3>(table, row, kSpin, Interval::closed(-kLargestSpin, kLargestSpin, "rad/s"));
 }
 
 /// Reads the grains of a table as grains of a scene's kinds.
@@ -108,13 +129,11 @@ class StateReader {
     StartGrain grain{.kind = table_.is_dump() ? table_.whole_number(row, "type", 1, kinds_.size()) - 1 : read_kind(row)};
     grain.line = row.line;
     grain.scale = read_scale(row, kinds_[grain.kind]);
-    grain.position = read_numbers<3>(table_, row, kPosition, Interval::closed(-kLargestLength, kLargestLength, "m"));
-    grain.quaternion = read_orientation(row);
-    const Interval speeds = Interval::closed(-kLargestSpeed, kLargestSpeed, "m/s");
-    const Interval spins = Interval::closed(-kLargestSpin, kLargestSpin, "rad/s");
-    if (has_any(kVelocity)) grain.velocity = read_numbers<3>(table_, row, kVelocity, speeds);
+    grain.position = read_position(table_, row);
+    grain.quaternion = read_orientation(table_, row);
+    if (has_any(kVelocity)) grain.velocity = read_velocity(table_, row);
     if (has_any(kSpin)) {
-      grain.angular_velocity = read_numbers<3>(table_, row, kSpin, spins);
+      grain.angular_velocity = read_spin(table_, row);
     } else if (has_any(kAngularMomentum)) {
       const Interval any = Interval::finite("an angular momentum, kg m^2/s");
       grain.angular_velocity = spin_of(grain, read_numbers<3>(table_, row, kAngularMomentum, any));
@@ -173,13 +192,6 @@ class StateReader {
     }
   }
 
-  std::array<double, 4> read_orientation(const Row& row) const {
-    const auto q = read_numbers<4>(table_, row, kOrientation, Interval::closed(-2, 2, ""));
-    const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (std::abs(norm - 1) <= kUnitError) return q;
-    table_.fail(row.line, "qw, qx, qy, qz are a quaternion of norm " + rounded(norm) + "; allowed: 1, to " + rounded(kUnitError));
-  }
-
   /// rad/s, of a grain with this angular momentum in LAMMPS.
   Point spin_of(const StartGrain& grain, const Point& momentum) const {
     const supernormal::Vector3 spin = lammps_inertia(kinds_[grain.kind].kind, grain.scale, grain.quaternion)
@@ -193,32 +205,61 @@ class StateReader {
   std::vector<std::string> names_;
 };
 
-std::filesystem::path find_file(const TomlTable& section, const std::string& scene_path) {
-  const std::filesystem::path path = std::filesystem::path(scene_path).parent_path() / section.text("file");
+std::filesystem::path find_file(const TomlTable& section, const char* key, const char* allowed, const std::string& scene_path) {
+  const std::filesystem::path path = std::filesystem::path(scene_path).parent_path() / section.text(key);
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored)) return path;
-  section.fail("file",
-               "start.file: there is no file \"" + path.string() +
-                   "\"; allowed: final_state.csv or trajectory.csv of a run, another CSV file, or a text dump of LAMMPS, its "
-                   "path relative to the scene file");
+  section.fail(key, section.full_name(key) + ": there is no file \"" + path.string() + "\"; allowed: " + allowed +
+                        ", its path relative to the scene file");
+}
+
+std::optional<TomlTable> find_section(const TomlTable& root) { return root.find_table("start", {"file", "overlap", "parts"}); }
+
+/// Starts a wall where the row has it. The velocity of a free one is that of its centre of mass.
+void place(Wall& wall, const StateTable& table, const Row& row) {
+  const auto [x, y, z] = read_position(table, row);
+  const auto [w, i, j, k] = read_orientation(table, row);
+  wall.start = {{x, y, z}, Eigen::Quaterniond(w, i, j, k).normalized()};
+  if (!wall.flight) return;
+  const auto [vx, vy, vz] = read_velocity(table, row);
+  const auto [wx, wy, wz] = read_spin(table, row);
+  const Vector3 spin(wx, wy, wz);
+  wall.flight->velocity = {Vector3(vx, vy, vz) + spin.cross(wall.start.rotation * wall.flight->centre), spin};
 }
 
 }  // namespace
 
 std::optional<StartState> load_start(const TomlTable& root, const std::vector<GrainCount>& kinds, const std::string& scene_path) {
-  const std::optional<TomlTable> section = root.find_table("start", {"file", "overlap"});
+  const std::optional<TomlTable> section = find_section(root);
   if (!section) return std::nullopt;
   StartState start{.overlap = kOverlap};
   if (section->has("overlap")) {
     start.overlap = section->number("overlap", Interval::positive(1, "(of the smallest half-axis)"));
   }
-  start.file = find_file(*section, scene_path);
+  start.file = find_file(*section, "file", "final_state.csv or trajectory.csv of a run, another CSV file, or a text dump of LAMMPS",
+                         scene_path);
   const StateTable table(start.file);
   StateReader reader(table, kinds);
   start.time = table.time();
   start.has_velocities = reader.has_velocities();
   start.grains = reader.read();
   return start;
+}
+
+void place_walls(const TomlTable& root, const std::string& scene_path, std::vector<Wall>& walls) {
+  const std::optional<TomlTable> section = find_section(root);
+  if (!section || !section->has("parts")) return;
+  const std::filesystem::path path = find_file(*section, "parts", "parts.csv of a run", scene_path);
+  const StateTable table(path);
+  for (const auto& columns : {std::vector<std::string>{"part"}, kPosition, kOrientation, kVelocity, kSpin}) table.require(columns);
+  bool has_any = false;
+  for (const Row& row : table.rows()) {
+    const auto wall = std::ranges::find(walls, table.word(row, "part"), &Wall::name);
+    if (wall == walls.end()) continue;
+    place(*wall, table, row);
+    has_any = true;
+  }
+  if (!has_any) section->fail("parts", "start.parts: \"" + path.string() + "\" names no part of the scene; allowed: one that does");
 }
 
 }  // namespace falling_particles

@@ -57,6 +57,25 @@ struct Loaded {
   std::string text;
 };
 
+/// Loads the scene with a free brick "lid" and a table of parts.
+Loaded with_parts(const std::string& rows) {
+  const TemporaryFolder folder;
+  folder.write("grains.toml", kCatalogueText);
+  folder.write("state", kOneGrain);
+  folder.write("parts.csv",
+               "time_s,part,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s,"
+               "travel\n" +
+                   rows);
+  const std::string brick =
+      "[[part]]\nname = \"lid\"\nshape = \"box\"\nsize = [0.01, 0.01, 0.01]\nposition = [0, 0, 1]\n"
+      "[part.free]\nmass = 0.001\n";
+  const std::string path = folder.write("scene.toml", kSceneText + brick);
+  Loaded loaded(kOneGrain);
+  loaded.text =
+      without_folder(refusal_by([&] { loaded.scene = load_scene(path, {"start={file=\"state\",parts=\"parts.csv\"}"}); }), folder);
+  return loaded;
+}
+
 const std::vector<StartGrain>& grains_of(const Loaded& loaded) {
   CAPTURE(loaded.text);
   REQUIRE(loaded.scene.start.has_value());
@@ -64,6 +83,22 @@ const std::vector<StartGrain>& grains_of(const Loaded& loaded) {
 }
 
 }  // namespace
+
+TEST_CASE("start.parts: a part starts where the last frame of a table of parts has it, with its velocity") {
+  const Loaded loaded = with_parts(
+      "0,lid,9,9,9,1,0,0,0,9,9,9,9,9,9,\n1,other,8,8,8,1,0,0,0,8,8,8,8,8,8,\n"
+      "1,lid,0.1,0.2,0.3,0.6,0,0,0.8,1,2,3,4,5,6,0.5\n");
+  REQUIRE(loaded.text.empty());
+  const Wall& lid = loaded.scene.walls.back();
+  CHECK(lid.start.position == Vector3(0.1, 0.2, 0.3));
+  CHECK(lid.start.rotation.w() == 0.6);
+  CHECK(lid.start.rotation.z() == 0.8);
+  CHECK(lid.flight->velocity.linear == Vector3(1, 2, 3));
+  CHECK(lid.flight->velocity.angular == Vector3(4, 5, 6));
+  CHECK(loaded.scene.files.size() == 4);
+  check_says(with_parts("0,lod,9,9,9,1,0,0,0,9,9,9,9,9,9,\n").text, {"start.parts", "names no part of the scene"});
+  check_says(with_parts("0,lid,9,9,9,1,1,0,0,9,9,9,9,9,9,\n").text, {"parts.csv:2", "a quaternion of norm"});
+}
 
 TEST_CASE("start: a CSV file of one grain has its kind, pose and velocities, whatever the counts of the scene") {
   const Loaded loaded(kOneGrain);
