@@ -195,6 +195,11 @@ TEST_CASE("time of impact: invalid arguments are refused") {
   dBodySetLinearVel(body, 1, 0, 0);
   CHECK(snGeomTimeOfImpact(box, ball, 1, &impact) == 1);
   CHECK(snGeomTimeOfImpact(box, ball, 0, &impact) == 1);
+  const double spin = 0.5e75;  // rad/s; in 10 s the angle is out of range
+  if (spin > double{std::numeric_limits<dReal>::max()}) return;
+  dBodySetAngularVel(body, 0, 0, dReal(spin));
+  CHECK(snGeomTimeOfImpact(box, ball, dReal(0.1), &impact) == 1);
+  CHECK(refused(snGeomTimeOfImpact(box, ball, 10, &impact), "angular velocity of g2 = 5e+74 rad/s"));
 }
 
 TEST_CASE("time of impact: a heightfield without a pose is not asked for its pose") {
