@@ -2,22 +2,27 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "supernormal/contact/contact_manifold.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/raycast/ray.hpp"
+#include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "supernormal/shapes/superovoid.hpp"
+#include "support/draw.hpp"
 #include "support/reference_pairs.hpp"
 #include "support/refusal.hpp"
 #include "support/relative.hpp"
@@ -220,6 +225,48 @@ TEST_CASE("a limit of evaluations is kept, and the answer so far is a valid one"
     }
   }
   CHECK(limited > 5000);
+}
+
+TEST_CASE("each class of bodies takes its mean evaluations, and no more") {
+  struct Class {
+    std::string name;
+    double mean, most;  // measured, with a twentieth of the mean and half of the most in addition
+    std::shared_ptr<const Shape> (*draw)(Draw& draw, const Vector3& half);
+  };
+  const std::vector<Class> classes = {
+      {"superellipsoids", 8.2, 77,
+       [](Draw& draw, const Vector3& half) -> std::shared_ptr<const Shape> {
+         const double delta = draw.uniform(2.5, 22.5);
+         return std::make_shared<Superellipsoid>(half, delta, draw.uniform(2.5, 22.5));
+       }},
+      {"superovoids", 9.5, 93,
+       [](Draw& draw, const Vector3& half) -> std::shared_ptr<const Shape> {
+         const double taper = draw.uniform(0, 0.1), delta = draw.uniform(2.2, 6.2);
+         return std::make_shared<Superovoid>(half, delta, draw.uniform(2.2, 6.2), taper, taper);
+       }},
+      {"boxes", 5.1, 21, [](Draw&, const Vector3& half) -> std::shared_ptr<const Shape> { return std::make_shared<Box>(half); }},
+      {"rounded boxes", 4.8, 15, [](Draw&, const Vector3& half) -> std::shared_ptr<const Shape> {
+         return std::make_shared<Rounded>(std::make_shared<Box>(half), 0.1);
+       }}};
+  for (const Class& one : classes) {
+    CAPTURE(one.name);
+    Draw draw(3);
+    double sum = 0, most = 0;
+    const int pairs = draws(2000);
+    for (int i = 0; i < pairs; ++i) {
+      const auto half = [&] { return Vector3(draw.uniform(0.5, 1.5), draw.uniform(0.5, 1.5), draw.uniform(0.5, 1.5)); };
+      const auto first = one.draw(draw, half()), second = one.draw(draw, half());
+      const Matrix3 rotation = draw.rotation();
+      const Vector3 n = draw.direction();
+      const double width = first->support(n) + second->support(-(rotation.transpose() * n));
+      const Proximity out = find_proximity(*first, {}, *second, {draw.uniform(0.8, 1.2) * width * n, rotation});
+      CHECK(out.status == Status::Converged);
+      sum += out.evaluations;
+      most = std::max<double>(most, out.evaluations);
+    }
+    CHECK(sum / pairs <= one.mean);
+    CHECK(most <= one.most);
+  }
 }
 
 TEST_CASE("settings out of range are refused with name, value and range") {
