@@ -24,9 +24,6 @@ constexpr double kSmallMove = 1e-10;
 // method ends there where they change faster than the normal.
 constexpr double kLargestMove = 1e-8;
 
-// Gnomonic: a smaller step is rounding of the normal.
-constexpr double kNoStep = 1e-15;
-
 // A larger last step leaves derivatives that are no more than estimates.
 constexpr double kLargestStep = 1e-7;
 
@@ -178,7 +175,7 @@ bool CommonNormal::is_opposite(const Place& place, double move) const {
 /// Whether both the normal and the radii of curvature are known.
 bool CommonNormal::is_settled(const Place& place) const {
   const double step = place.step.norm();
-  return step <= kNoStep || (step <= kSmallStep && is_opposite(place, kSmallMove));
+  return step <= kSmallStep && is_opposite(place, kSmallMove);
 }
 
 bool CommonNormal::look_at(const Vector3& n, Place& place) {
@@ -368,7 +365,7 @@ void CommonNormal::finish(const Place& place) {
   is_converged_ = place.step.norm() <= kLargestStep && all_finite(point1_) && all_finite(lever2_);
   const double size1 = gap_.shape1().half_extents().norm(), size2 = gap_.shape2().half_extents().norm(),
                size = std::min(size1, size2);
-  is_strict_ = is_strict_ && (place.step.norm() <= kNoStep || is_opposite(place, kLargestMove));
+  is_strict_ = is_strict_ && is_opposite(place, kLargestMove);
   is_sharp_ = kNearby * size * place.response.G.norm() > kSharp;
   const auto is_beside_face = [&](const ShapeTraits& traits, const BodyCurvature& body, double own_size) {
     const bool is_flat_rim = body.flat_count > 0 && !place.has_active_set;

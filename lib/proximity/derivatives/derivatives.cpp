@@ -30,10 +30,6 @@ constexpr double kLeastBend = 1e-5;  // with 1e-6, 3 % fewer of these pairs have
 // these pairs have one.
 constexpr double kJump = 1e-3;
 
-// In sizes of the larger body: a longer radius of curvature is that of a flat side, whose normal does not move beside its body's
-// rotation.
-constexpr double kFlatSide = 10;
-
 // Of the smallest half-extent: the tolerance of a gap whose change over kNearby tells a slope to kLeastBend. With 1e-14, some
 // queries of sharp bodies end without an answer, and one more pair is refused without need.
 constexpr double kSlopeTolerance = 1e-12;
@@ -197,7 +193,7 @@ struct Change {
 };
 
 /// Whether the Jacobians at two poses that are nearly the same are so, too. They consist of these matrices. `largest`: m, the size
-/// of the larger body.
+/// of the larger body. A radius of curvature that is much longer belongs to a flat side, whose normal hardly moves.
 bool has_same_jacobians(const CommonNormal& common, const CommonNormal& found, double largest) {
   if (common.response().kind != TangentResponse::Kind::Regular) return true;  // there are none
   if (found.response().kind != TangentResponse::Kind::Regular || !found.is_strict()) return false;
@@ -207,8 +203,8 @@ bool has_same_jacobians(const CommonNormal& common, const CommonNormal& found, d
   const auto is_same = [&](const Matrix2& here, const Matrix2& there, double unit) {
     return (turn * there * turn.transpose() - here).norm() <= kBend * std::max(here.norm(), unit);
   };
-  return is_same(common.response().G, found.response().G, 1 / (kFlatSide * largest)) &&
-         is_same(common.response().B1, found.response().B1, 1) && is_same(common.response().B2, found.response().B2, 1);
+  return is_same(common.response().G, found.response().G, 1 / largest) && is_same(common.response().B1, found.response().B1, 1) &&
+         is_same(common.response().B2, found.response().B2, 1);
 }
 
 /// What a motion of body 2 does. Newton's method finds the common normal there, from what the derivatives foresee. Where it ends
