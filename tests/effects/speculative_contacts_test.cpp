@@ -146,7 +146,7 @@ TEST_CASE("speculative contacts: Newton's cradle passes the velocity on, whateve
         CAPTURE(step);
         const std::vector<double> velocities = cradle(gap, step, 1, order);
         for (std::size_t k = 0; k < 4; ++k) CHECK(std::abs(velocities[k]) < 0.01);
-        CHECK(velocities[4] == relative(1).epsilon(0.01));
+        CHECK(velocities[4] == relative(1).epsilon(1e-4));
       }
       // Each impact passes on the fraction (1 + e) / 2.
       const std::vector<double> velocities = cradle(gap, step, 0.9, {0, 1, 2, 3, 4});
@@ -155,7 +155,7 @@ TEST_CASE("speculative contacts: Newton's cradle passes the velocity on, whateve
       // The first ball comes back from a ball at a wall.
       for (const std::vector<int>& order : {std::vector{0, 1}, {1, 0}}) {
         const std::vector<double> from_wall = cradle(gap, step, 1, order, true);
-        CHECK(from_wall[0] == relative(-1).epsilon(0.01));
+        CHECK(from_wall[0] == relative(-1).epsilon(1e-4));
         CHECK(std::abs(from_wall[1]) < 0.01);
       }
     }
@@ -174,7 +174,7 @@ TEST_CASE("speculative contacts: a face bounces as one, also if a step ends betw
     dBodySetLinearVel(brick, 0, 0, -1);
     dGeomMoved(geom);
     scene.run_until(3 * kLongStep);
-    CHECK(speed_up(brick) == relative(1).epsilon(0.01));
+    CHECK(speed_up(brick) == relative(1).epsilon(1e-4));
     CHECK(norm(to_vec(dBodyGetAngularVel(brick))) * kRadius < 0.01);
   }
 }
@@ -218,8 +218,8 @@ TEST_CASE("speculative contacts: a program that attaches contacts of its own kee
   scene.step();
   CHECK(dJointIsEnabled(own) == 1);
   // Two balls that touch act as one.
-  CHECK(speed_up(balls[0]) == relative(1.0 / 3).epsilon(0.01));
-  CHECK(speed_up(balls[2]) == relative(-2.0 / 3).epsilon(0.01));
+  CHECK(speed_up(balls[0]) == relative(1.0 / 3).epsilon(1e-4));
+  CHECK(speed_up(balls[2]) == relative(-2.0 / 3).epsilon(1e-4));
 }
 
 // Without ODE's gyroscopic torques, which take up to a tenth of the energy of bodies that are not balls.
@@ -404,7 +404,7 @@ TEST_CASE("speculative contacts: bodies with restitution come to rest") {
     const dBodyID brick = scene.add_body({0.1, 0.07, 0.05}, 20, kDensity, {0, 0, 0.1});
     turn(brick, {1, 1, 0}, 5 * kDegree);
     scene.run_until(4);
-    CHECK(height_of(brick) == relative(0.05).epsilon(0.01));
+    CHECK(height_of(brick) == relative(0.05).epsilon(1e-4));
     CHECK(norm(to_vec(dBodyGetLinearVel(brick))) < 0.02 * kGravity * step);
     CHECK(norm(to_vec(dBodyGetAngularVel(brick))) < 0.02 * kGravity * step / 0.05);
   }

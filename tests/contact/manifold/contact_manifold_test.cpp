@@ -250,7 +250,7 @@ TEST_CASE("a body has the same manifold points on a box and on a plane") {
     REQUIRE(on_box.corner_count == 4);
     // Manifold points on a plane are points of the body. The others are in the plane of the contact.
     for (ManifoldCorner& corner : on_plane.corners) corner.point.z() = on_box.corners[0].point.z();
-    CHECK(distance_of_corners(on_plane, on_box) <= 1e-4);
+    CHECK(distance_of_corners(on_plane, on_box) <= 1e-14);
   }
 }
 
@@ -325,7 +325,7 @@ TEST_CASE("the manifold points do not depend on the order of the bodies or on th
     std::swap(swapped.point1, swapped.point2);
     const ContactManifold of_swapped = find_contact_manifold(upper, pose2, lower, pose1, swapped);
     CHECK(of_swapped.corner_count == manifold.corner_count);
-    CHECK(distance_of_corners(manifold, of_swapped) <= 1e-9);
+    CHECK(distance_of_corners(manifold, of_swapped) <= 1e-13);
 
     const Matrix3 turn = random.rotation();
     const auto moved = [&](const Pose& pose) { return Pose{turn * pose.position + far, turn * pose.rotation}; };

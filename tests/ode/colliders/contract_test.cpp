@@ -99,7 +99,7 @@ TEST_CASE("both call orders give the same contact with the reversed normal") {
         if (forth.empty()) continue;
         CHECK(forth[0].g1 == back[0].g2);
         CHECK(forth[0].g2 == back[0].g1);
-        CHECK(norm(to_vec(forth[0].normal) + to_vec(back[0].normal)) <= within_rounding(1e-6, 4));
+        CHECK(norm(to_vec(forth[0].normal) + to_vec(back[0].normal)) <= within_rounding(1e-8, 4));
         CHECK(forth[0].depth == relative(back[0].depth).epsilon(1e-8));
         if (warm_start) continue;
         for (int axis = 0; axis < 3; ++axis) {  // a pure function of the poses, to the last bit

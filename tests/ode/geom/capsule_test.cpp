@@ -70,7 +70,7 @@ TEST_CASE("capsule: a capsule that falls on its side, slightly tilted, stays sti
         CAPTURE(is_on_box);
         CAPTURE(step);
         CAPTURE(room);
-        CHECK(late_spin <= 0.01);  // a dCapsule on a dBox has 0.2, 1.5 and 1.9
+        CHECK(late_spin <= within_rounding(1e-6, 1000));  // a dCapsule on a dBox has 0.2, 1.5 and 1.9
         CHECK(dBodyGetPosition(body)[2] >= 0.0995);
       }
     }
