@@ -95,11 +95,11 @@ inline Vector3 level_normal(const Superellipsoid& shape, const Vector3& point) {
   return n.normalized();
 }
 
-/// An upper bound of the distance of a hit from the boundary: radially by the implicit equation, or to the boundary point with this
-/// normal.
+/// The distance of a hit from the boundary: to the parallel tangent plane by the implicit equation, or to the boundary point with
+/// this normal.
 inline double distance_to_boundary(const Superellipsoid& shape, const RayHit& hit) {
-  const double radial = std::abs(gauge(shape, hit.point) - 1) * hit.point.norm();
-  return std::min(radial, (shape.point(hit.normal) - hit.point).norm());
+  const double from_level = std::abs(gauge(shape, hit.point) - 1) * std::abs(level_normal(shape, hit.point).dot(hit.point));
+  return std::min(from_level, (shape.point(hit.normal) - hit.point).norm());
 }
 
 }  // namespace supernormal::test

@@ -35,7 +35,7 @@ void check_hit(const Superellipsoid& shape, const Ray& ray, const RayHit& hit, d
   const double along = std::abs(hit.normal.dot(ray.direction));
   CHECK((hit.from_inside ? hit.normal.dot(ray.direction) > 0 : hit.normal.dot(ray.direction) < 0));
 
-  CHECK(distance_to_boundary(shape, hit) <= 1e-9 * unit);
+  CHECK(distance_to_boundary(shape, hit) <= std::min(hit.boundary_error, boundary_tolerance * unit) + 1e-15 * size);
   CHECK(hit.boundary_error <= boundary_tolerance * unit);
   // The distance agrees with the implicit equation, up to the equation's rounding.
   CHECK(std::abs(hit.distance - expected) <= hit.distance_error + 1e-14 * (size + hit.distance) / along);
