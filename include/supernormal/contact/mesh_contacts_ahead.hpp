@@ -27,9 +27,9 @@ struct MeshManifold {
 /// ball's radius is the distance within which a triangle counts as near. Sweeping does not change the normals, and reduces the gaps
 /// by the radius. The rule for the border of a sheet asks the body itself.
 ///
-/// If the surface is at rest, the contacts without manifold points are points of the body's boundary, at present or with the
-/// orientation at the end of the step. Only an impact with friction of a body whose middle is off its centre of mass is moved into
-/// the body.
+/// If the surface is at rest, the contacts are points of the body's boundary, at present or with the orientation at the end of the
+/// step. The manifold points of a line are outside by at most two thousandths of the body's least extent. Only an impact with
+/// friction of a body whose middle is off its centre of mass is moved into the body.
 class SUPERNORMAL_API MeshContactsAhead {
  public:
   /// The region that the body and everything near it cover on the way, relative to the body's box.
@@ -69,6 +69,7 @@ class SUPERNORMAL_API MeshContactsAhead {
   SUPERNORMAL_LOCAL void add_continued(const Search& search, const Vector3& way);
   SUPERNORMAL_LOCAL bool is_apart_now(const Search& search, std::span<const MeshContact> contacts);
   SUPERNORMAL_LOCAL double approach_in_excess(const Search& search, const Proximity& there);
+  SUPERNORMAL_LOCAL ContactManifold manifold_of(const Search& search, const Pose& pose, const Proximity& there, double approach);
   SUPERNORMAL_LOCAL void add(const Search& search, Proximity there, int triangle, const Vector3& way);
 
   MeshContacts contacts_;

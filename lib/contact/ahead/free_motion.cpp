@@ -63,7 +63,10 @@ struct TwoBodies {
     return find_proximity(body1.shape, end1, body2.shape, motion.end2(), settings, &first);
   }
   ContactManifold manifold(const FreeMotion& motion, const Proximity& there) const {
-    return find_manifold_of_gaps(body1.shape, motion.end1(), body2.shape, motion.end2(), there, share);
+    // The contact of an overlap is within both bodies, but no overlap remains.
+    Proximity touching = there;
+    touching.contact = share * there.point1 + (1 - share) * there.point2 + (share - 0.5) * there.gap * there.normal;
+    return find_manifold_of_gaps(body1.shape, motion.end1(), body2.shape, motion.end2(), touching, share);
   }
   Impact impact(const FreeMotion& motion, const Vector3& normal) const {
     const Vector3 first = body1.pose.rotation.transpose() * normal;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -11,6 +12,7 @@
 #include "contact/ahead/meeting.hpp"
 #include "contact/ahead/nearness.hpp"
 #include "contact/ahead/small_rotation.hpp"
+#include "contact/manifold/corner_depth.hpp"
 #include "contact/mesh/mesh_triangle.hpp"
 #include "supernormal/impact/mesh_time_of_impact.hpp"
 #include "supernormal/proximity/solve.hpp"
@@ -294,8 +296,7 @@ std::optional<MeshManifold> MeshContactsAhead::find_after(const Search& search, 
     return MeshManifold{nearest.proximity, nearest.triangle};
   }
   nearest.proximity.contact += (0.5 - search.share) * nearest.proximity.gap * nearest.proximity.normal;
-  ContactManifold manifold = find_plane_manifold_of_gaps(shape, there, nearest.proximity);
-  draw_in_corners(manifold, search.triangles);
+  ContactManifold manifold = manifold_of(search, there, nearest.proximity, 0);
   const auto to_end = [&](Vector3& place) { place = frame.end.rotation * place + frame.end.position; };
   manifold.deepest.normal = frame.end.rotation * manifold.deepest.normal;
   for (Vector3* place : {&manifold.deepest.point1, &manifold.deepest.point2, &manifold.deepest.contact}) to_end(*place);
@@ -424,13 +425,25 @@ double MeshContactsAhead::approach_in_excess(const Search& search, const Proximi
   return std::max(0.0, rotation.dot(arm.cross(normal - hit.normal / cosine)));
 }
 
+/// The manifold of a contact with a face. Points that move in to a border stay on the body.
+ContactManifold MeshContactsAhead::manifold_of(const Search& search, const Pose& pose, const Proximity& there, double approach) {
+  const Shape& shape = search.body.shape;
+  ContactManifold manifold = find_plane_manifold_of_gaps(shape, pose, there, approach);
+  const std::array<ManifoldCorner, ContactManifold::kMaxCorners> corners = manifold.corners;
+  draw_in_corners(manifold, search.triangles);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(manifold.corner_count); ++k) {
+    Vector3& point = manifold.corners[k].point;
+    if (point != corners[k].point) point = find_boundary_point(shape, pose, there.normal, point, evaluations_);
+  }
+  return manifold;
+}
+
 void MeshContactsAhead::add(const Search& search, Proximity there, int triangle, const Vector3& way) {
   there.gap += approach_in_excess(search, there);
   const MotionAhead& motion = search.now.motion;
   const double overlap = approach_of(motion, search.surface, search.time, there.normal, there.gap + there.normal.dot(way)) +
                          growth_by_rotation(search.body, there.normal, there.point1, search.time);
-  ContactManifold manifold = find_plane_manifold_of_gaps(search.body.shape, search.body.pose, there, overlap);
-  draw_in_corners(manifold, search.triangles);
+  ContactManifold manifold = manifold_of(search, search.body.pose, there, overlap);
   take_back(manifold, way, Vector3::Zero(), search.share, manifold.deepest.gap);
   manifold.reach = search.reach_along(there.normal, way);
   limit_rotation(search.now, {search.now.shape, search.now.pose, search.surface}, search.time, search.share, manifold);

@@ -8,8 +8,8 @@
 #include "base/tangent_plane.hpp"
 #include "contact/ahead/nearness.hpp"
 #include "contact/manifold/convex_polygon.hpp"
+#include "contact/manifold/corner_depth.hpp"
 #include "supernormal/contact/body_box.hpp"
-#include "supernormal/raycast/ray.hpp"
 
 namespace supernormal {
 namespace {
@@ -35,15 +35,6 @@ Vector3 nearest_place(const ContactManifold& manifold, const Vector3& point) {
   bool is_inside = region.area() > 0;
   for (int k = 0; k < region.size(); ++k) is_inside = is_inside && cross(region[k], region[(k + 1) % region.size()]) >= 0;
   return is_inside ? point : frame.lift(region.nearest_to({0, 0}));
-}
-
-/// The point of the body's boundary nearest to the tangent plane on the line through `place` along the normal, which points out of
-/// the body; `place` itself if the line misses the body.
-Vector3 point_of(const BodyAhead& body, const Vector3& normal, const Vector3& place, int& evaluations) {
-  const Vector3 outside = place + 2 * body.shape.bounding_radius() * normal;
-  const RayHit hit = find_ray_hit(body.shape, body.pose, outside, -normal, HUGE_VAL);
-  evaluations += hit.evaluations;
-  return hit.hit ? hit.point : place;
 }
 
 /// The centre of the body's box, m.
@@ -203,8 +194,8 @@ void limit_rotation(const BodyAhead& body1, const BodyAhead& body2, double time,
   if (!(limit.approach() > 0)) return;
   const auto move = [&](Vector3& point, const Vector3& shift) {
     point += shift;
-    if (!shift.isZero(0) && share == 1) point = point_of(body1, normal, point, manifold.evaluations);
-    if (!shift.isZero(0) && share == 0) point = point_of(body2, -normal, point, manifold.evaluations);
+    if (!shift.isZero(0) && share == 1) point = find_boundary_point(body1.shape, body1.pose, normal, point, manifold.evaluations);
+    if (!shift.isZero(0) && share == 0) point = find_boundary_point(body2.shape, body2.pose, -normal, point, manifold.evaluations);
     point += limit.shift_for_friction(point);
   };
   Vector3& contact = manifold.deepest.contact;

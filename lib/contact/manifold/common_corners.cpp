@@ -80,7 +80,7 @@ CornerList corners_of(const ConvexPolygon& region, const Side& side1, const Side
 bool may_have_corners(const Shape& shape) { return !shape.traits().is_round && shape.half_extents().minCoeff() >= kMinLength; }
 
 std::optional<CornerList> find_common_corners(const SupportPolygon& polygon1, const SupportPolygon& polygon2, const Vector3& normal,
-                                              const Vector3& origin, const std::array<double, 2>& tilts) {
+                                              const Vector3& origin) {
   const bool is_on_edge2 = polygon2.is_long() && !polygon1.is_long();
   const ContactFrame frame{TangentPlane(normal, is_on_edge2 ? polygon2.axis() : polygon1.axis()), origin};
   const double thin = kThinnest * std::min(polygon1.size(), polygon2.size());
@@ -89,12 +89,7 @@ std::optional<CornerList> find_common_corners(const SupportPolygon& polygon1, co
   const ConvexPolygon region = common_region(side1.outline(), side2.outline());
   if (region.size() == 0) return std::nullopt;
   const Vector2 slope = frame.plane.project(polygon1.slope() + polygon2.slope());
-  CornerList corners = corners_of(region, side1, side2, frame, slope);
-  const auto rise = [](const SupportPolygon& polygon, const Vector3& point) {
-    return std::max(0.0, polygon.slope().dot(point - polygon.support_point()));
-  };
-  for (Vector3& point : corners.points) point += (tilts[1] * rise(polygon2, point) - tilts[0] * rise(polygon1, point)) * normal;
-  return corners;
+  return corners_of(region, side1, side2, frame, slope);
 }
 
 CornerList corners_over_plane(const SupportPolygon& polygon, const Vector3& normal) {

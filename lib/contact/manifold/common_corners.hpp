@@ -28,10 +28,9 @@ struct CornerList {
 bool may_have_corners(const Shape& shape);
 
 /// The corners of the intersection of two support polygons, counter-clockwise about the normal, in the plane through `origin`. The
-/// normal points from body 1 to body 2. `tilts`: how far the plane follows the tilted face of either body. Empty if the polygons do
-/// not intersect.
+/// normal points from body 1 to body 2. Empty if the polygons do not intersect.
 std::optional<CornerList> find_common_corners(const SupportPolygon& polygon1, const SupportPolygon& polygon2, const Vector3& normal,
-                                              const Vector3& origin, const std::array<double, 2>& tilts);
+                                              const Vector3& origin);
 
 /// The corners of a body over a plane; `normal` points from the body to the plane.
 CornerList corners_over_plane(const SupportPolygon& polygon, const Vector3& normal);

@@ -132,30 +132,35 @@ void put_deepest_first(std::span<ManifoldCorner> corners, double shallow) {
   }
 }
 
-/// Writes the manifold points of polygons whose deepest point has the gap `gap` (m), with their depths.
-using Write = void(const CornerList& corners, double allowed_separation, double gap, ContactManifold& manifold);
-
 ContactManifold find_manifold(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
-                              const Proximity& proximity, double approach, const std::array<double, 2>& tilts, Write* write) {
+                              const Proximity& proximity, double approach, std::optional<double> share) {
   ContactManifold manifold(proximity);
   if (proximity.status == Status::InvalidInput || !may_have_corners(shape1) || !may_have_corners(shape2)) return manifold;
   const Vector3& n = proximity.normal;
   const double depth = std::max({0.0, -proximity.gap, approach});
-  const SupportPolygon polygon1(shape1, pose1, n, proximity.point1, depth, shape2.half_extents().minCoeff());
+  const SupportPolygon::Rim rim = share ? SupportPolygon::Rim::NotSmall : SupportPolygon::Rim::Any;
+  const SupportPolygon polygon1(shape1, pose1, n, proximity.point1, depth, rim, shape2.half_extents().minCoeff());
   manifold.evaluations = polygon1.evaluations();
   if (!polygon1.has_width()) return manifold;
-  const SupportPolygon polygon2(shape2, pose2, -n, proximity.point2, depth, shape1.half_extents().minCoeff());
+  const SupportPolygon polygon2(shape2, pose2, -n, proximity.point2, depth, rim, shape1.half_extents().minCoeff());
   manifold.evaluations += polygon2.evaluations();
   if (!polygon2.has_width()) return manifold;
-  const std::optional<CornerList> corners = find_common_corners(polygon1, polygon2, n, proximity.contact, tilts);
-  if (corners) write(*corners, std::min(allowed_separation(polygon1), allowed_separation(polygon2)), proximity.gap, manifold);
+  const std::optional<CornerList> corners = find_common_corners(polygon1, polygon2, n, proximity.contact);
+  if (corners && share) {
+    write_gaps(*corners, proximity.gap, manifold);
+    if (*share == 1) put_on_body(shape1, pose1, polygon1, n, manifold);
+    if (*share == 0) put_on_body(shape2, pose2, polygon2, -n, manifold);
+  } else if (corners) {
+    const double allowed = std::min(allowed_separation(polygon1), allowed_separation(polygon2));
+    write_depths(*corners, allowed, proximity.gap, manifold);
+  }
   manifold.same_place = kSamePlace * std::min(polygon1.size(), polygon2.size());
   manifold.margin = std::max(0.0, polygon1.largest_separation() + polygon2.largest_separation() + proximity.gap);
   return manifold;
 }
 
 ContactManifold find_plane_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity, double approach,
-                                    Write* write) {
+                                    bool of_gaps) {
   ContactManifold manifold(proximity);
   if (proximity.status == Status::InvalidInput || !may_have_corners(shape)) return manifold;
   Vector3 stands_on = proximity.point1;
@@ -171,10 +176,17 @@ ContactManifold find_plane_manifold(const Shape& shape, const Pose& pose, const 
       gap -= below;
     }
   }
-  const SupportPolygon polygon(shape, pose, proximity.normal, stands_on, std::max({0.0, -gap, approach}));
+  const SupportPolygon::Rim rim = of_gaps ? SupportPolygon::Rim::NotSmall : SupportPolygon::Rim::Any;
+  const SupportPolygon polygon(shape, pose, proximity.normal, stands_on, std::max({0.0, -gap, approach}), rim);
   manifold.evaluations += polygon.evaluations();
   if (!polygon.has_width()) return manifold;
-  write(corners_over_plane(polygon, proximity.normal), allowed_separation(polygon), gap, manifold);
+  const CornerList corners = corners_over_plane(polygon, proximity.normal);
+  if (of_gaps) {
+    write_gaps(corners, gap, manifold);
+    put_on_body(shape, pose, polygon, proximity.normal, manifold);
+  } else {
+    write_depths(corners, allowed_separation(polygon), gap, manifold);
+  }
   manifold.same_place = kSamePlace * polygon.size();
   manifold.margin = std::max(0.0, polygon.largest_separation() + gap);
   return manifold;
@@ -185,25 +197,25 @@ ContactManifold find_plane_manifold(const Shape& shape, const Pose& pose, const 
 ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
                                       const Proximity& proximity) {
   if (!overlaps(proximity)) return proximity;
-  return find_manifold(shape1, pose1, shape2, pose2, proximity, 0, {0, 0}, write_depths);
+  return find_manifold(shape1, pose1, shape2, pose2, proximity, 0, std::nullopt);
 }
 
 ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity) {
   if (!overlaps(proximity)) return proximity;
-  return find_plane_manifold(shape, pose, proximity, 0, write_depths);
+  return find_plane_manifold(shape, pose, proximity, 0, false);
 }
 
 ContactManifold find_manifold_of_gaps(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
                                       const Proximity& proximity, double share, double approach) {
   Proximity placed = proximity;
   placed.contact += (0.5 - share) * proximity.gap * proximity.normal;
-  ContactManifold manifold = find_manifold(shape1, pose1, shape2, pose2, placed, approach, {share, 1 - share}, write_gaps);
+  ContactManifold manifold = find_manifold(shape1, pose1, shape2, pose2, placed, approach, share);
   manifold.shallow = kShallow * manifold.same_place;
   return manifold;
 }
 
 ContactManifold find_plane_manifold_of_gaps(const Shape& shape, const Pose& pose, const Proximity& proximity, double approach) {
-  ContactManifold manifold = find_plane_manifold(shape, pose, proximity, approach, write_gaps);
+  ContactManifold manifold = find_plane_manifold(shape, pose, proximity, approach, true);
   manifold.shallow = kShallow * manifold.same_place;
   return manifold;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/tangent_plane.hpp"
 #include "contact/manifold/unit_root.hpp"
@@ -40,6 +41,9 @@ constexpr double kFlatExponent = 6;
 
 // In half-extents; two ends nearer to each other than this differ by rounding. The body then ends in an edge or a vertex.
 constexpr double kLeastLength = 1e-6;
+
+// In smallest half-extents; a smaller ball is small (Rim). Flat superellipsoids have a smaller one.
+constexpr double kSmallBall = 0.2;
 
 // A polygon is long from this ratio of its sides on. Any ratio well above 1 does: a square polygon has no axis to tell from.
 constexpr double kLong = 2;
@@ -92,8 +96,9 @@ struct SupportPolygon::View {
   Vector3 support_point;        // m
   Vector3 support_point_there;  // m; in the frame that the pose refers to
   std::array<Vector3, 2> axes;
+  double rolling_radius;  // m; 0 if the ball takes nothing
 
-  View(const Shape& body, const Pose& pose_of_body, const Vector3& n, const Vector3& point)
+  View(const Shape& body, const Pose& pose_of_body, const Vector3& n, const Vector3& point, Rim rim)
       : shape(body),
         pose(pose_of_body),
         half_extents(body.half_extents()),
@@ -101,7 +106,10 @@ struct SupportPolygon::View {
         normal(to_body * n),
         support_point(to_body * (point - pose.position)),
         support_point_there(point),
-        axes(axes_in_plane(normal)) {}
+        axes(axes_in_plane(normal)),
+        rolling_radius(shape.rolling_radius()) {
+    if (rim == Rim::NotSmall && rolling_radius <= kSmallBall * half_extents.minCoeff()) rolling_radius = 0;
+  }
 };
 
 /// The points of a body whose normals are tilted against n by the same angle, in units of the half-extents.
@@ -118,7 +126,7 @@ class SupportPolygon::Tilts {
 
   Tilts(const View& view, double height, const std::array<double, 2>& extents, const std::array<double, 2>& tangents)
       : view_(view),
-        rolling_radius_(view.shape.rolling_radius()),
+        rolling_radius_(view.rolling_radius),
         extents_(extents),
         largest_({tangents[0] * height / extents[0], tangents[1] * height / extents[1]}),
         ends_of_body_(points_of(along_axes(largest_))),
@@ -167,6 +175,9 @@ class SupportPolygon::Tilts {
     }
     return fractions;
   }
+
+  /// Whether the points are those without the ball.
+  bool has_ball() const { return rolling_radius_ > 0; }
 
   SupportPoint point_of(const Tilt& tilt) const {
     const Vector3 offset = view_.shape.point(tilted(tilt).normalized()) - view_.support_point;
@@ -231,8 +242,8 @@ class SupportPolygon::Tilts {
 };
 
 SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth,
-                               double thickness)
-    : SupportPolygon(View(shape, pose, n, support_point), depth, thickness) {}
+                               Rim rim, double thickness)
+    : SupportPolygon(View(shape, pose, n, support_point, rim), depth, thickness) {}
 
 SupportPolygon::SupportPolygon(const View& view, double depth, double thickness)
     : support_point_(view.support_point_there), axes_({view.pose.rotation * view.axes[0], view.pose.rotation * view.axes[1]}) {
@@ -291,6 +302,7 @@ void SupportPolygon::place_vertices(const Tilts& tilts) {
   const double weight0 = widths_[0] * (1 - widths_[1]);
   const double weight1 = widths_[1] * (1 - widths_[0]);
   const double weight_of_diagonal = widths_[0] * widths_[1];
+  const bool is_one = std::max({weight0, weight1, weight_of_diagonal}) == 1;
   // Each diagonal lies between two ends.
   const auto mix = [&](const Four& ends, Four& diagonals) {
     diagonals = weight0 * Four(ends[0], ends[1], ends[1], ends[0]) + weight1 * Four(ends[2], ends[2], ends[3], ends[3]) +
@@ -305,8 +317,13 @@ void SupportPolygon::place_vertices(const Tilts& tilts) {
     const double share = beside_face > reach_ ? reach_ / beside_face : 1;
     vertices_[static_cast<std::size_t>(k)] = share * vertex;
     largest_separation_ = std::max(largest_separation_, share * points.separation[k]);
+    // A point of the tangent plane is on the boundary, too.
+    const bool is_known = points.separation[k] == 0 || (share == 1 && is_one && !tilts.has_ball());
+    separations_[static_cast<std::size_t>(k)] = is_known ? points.separation[k] : std::numeric_limits<double>::quiet_NaN();
   }
 }
+
+double SupportPolygon::rise() const { return (1 - std::min(widths_[0], widths_[1])) * kReach * least_extent_; }
 
 // Makes the first axis the short one. Merging joins the manifold points that differ along this axis, which must be at the same end.
 void SupportPolygon::put_axis_across() {
@@ -318,6 +335,7 @@ void SupportPolygon::put_axis_across() {
   std::swap(extents_[0], extents_[1]);
   std::swap(widths_[0], widths_[1]);
   std::rotate(vertices_.begin(), vertices_.begin() + 1, vertices_.end());
+  std::rotate(separations_.begin(), separations_.begin() + 1, separations_.end());
 }
 
 }  // namespace supernormal

@@ -26,10 +26,14 @@ namespace supernormal {
 /// lib/contact/theory.md has the proofs.
 class SupportPolygon {
  public:
+  /// What a ball that rolls in the body takes from its faces and edges: a rim, or nothing if the ball is small. Then the vertices
+  /// are points of the body.
+  enum class Rim { Any, NotSmall };
+
   /// `n`: unit, in the frame that the pose refers to. `support_point`: the body's point with this normal, m. `depth`: the depth of
   /// the overlap, or the one that would form in the step without contact forces, m. `thickness`: the smallest half-extent of the
   /// other body, m. It limits the polygon, because a pebble does not stand on what is flat at the scale of a boulder.
-  SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth,
+  SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth, Rim rim,
                  double thickness = HUGE_VAL);
 
   /// Whether the polygon is more than the support point.
@@ -40,6 +44,9 @@ class SupportPolygon {
   const std::array<Vector3, 4>& vertices() const { return vertices_; }
 
   const Vector3& support_point() const { return support_point_; }
+
+  /// The separation of the body from each vertex, m: the point of the boundary under it. NaN where a vertex is no support point.
+  const std::array<double, 4>& separations() const { return separations_; }
 
   /// The tilt of the face against the plane: the gradient of its separation, a vector in the plane.
   const Vector3& slope() const { return slope_; }
@@ -58,6 +65,10 @@ class SupportPolygon {
 
   /// m; the smallest of the half-height and the half-extents along the plane.
   double least_extent() const { return least_extent_; }
+
+  /// How far outside of the body the points of a line may be, m; 0 for a face. A body rolls on a line with the radius of its
+  /// equator, as long as its friction acts at this radius.
+  double rise() const;
 
   /// The largest separation of a vertex from the plane, m.
   double largest_separation() const { return largest_separation_; }
@@ -85,6 +96,7 @@ class SupportPolygon {
   Vector3 slope_ = Vector3::Zero();
   bool is_long_ = false;
   std::array<Vector3, 4> vertices_;
+  std::array<double, 4> separations_{};
   double largest_separation_ = 0;
   int evaluations_ = 0;
 };

@@ -5,7 +5,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 
@@ -13,6 +15,7 @@
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "support/draw.hpp"
 
@@ -70,6 +73,11 @@ ContactManifold find_on_plane(const BodyAhead& body) {
   return find_plane_contacts_ahead(body, kTime, find_plane_proximity(body.shape, body.pose, Vector3::UnitZ(), 0));
 }
 
+/// The distance of a point from the boundary of a body, m; negative inside.
+double distance_from(const BodyAhead& body, const Vector3& point) {
+  return find_proximity(body.shape, body.pose, Sphere(0), {point, Matrix3::Identity()}).gap;
+}
+
 }  // namespace
 
 TEST_CASE("places of contacts with a plane, or a box at rest, are on the body that moves, also in impacts") {
@@ -90,6 +98,36 @@ TEST_CASE("places of contacts with a plane, or a box at rest, are on the body th
       CHECK(in_body.cwiseQuotient(half_axes).norm() == doctest::Approx(1).epsilon(1e-6));
     }
   }
+}
+
+TEST_CASE("manifold points are on the body that moves; those of a line within 0.003 of its smallest half-extent") {
+  const Box box({1, 1, 0.5});
+  const BodyAhead floor = standing(box, {Vector3(0, 0, -0.5), Matrix3::Identity()});
+  test::Draw draw(61);
+  int points = 0;
+  for (int i = 0; i < test::draws(300); ++i) {
+    CAPTURE(i);
+    const double exponent = std::array{6.0, 8.0, 20.0, 60.0}[static_cast<std::size_t>(i % 4)];
+    const bool is_can = i % 3 == 0;
+    const Superellipsoid body({0.01, is_can ? 0.01 : 0.008, 0.005}, is_can ? 2 : exponent, exponent);
+    const bool is_face = i % 2 == 0 && exponent > 6;
+    const double tilt = i % 2 == 0 ? draw.log_uniform(1e-6, 0.02) : std::numbers::pi / 2;
+    const Matrix3 rotation = Eigen::AngleAxisd(tilt, draw.direction()).toRotationMatrix();
+    const double height = body.support(rotation.transpose() * -Vector3::UnitZ());
+    const Vector3 velocity(draw.uniform(-2, 2), draw.uniform(-2, 2), i % 5 == 0 ? 0 : -draw.log_uniform(0.01, 10));
+    const double above = draw.uniform(-1e-6, 1) * kTime * -velocity.z();
+    const BodyAhead there = moving(body, {Vector3(0, 0, height + above), rotation}, velocity);
+    for (const ContactManifold& found : {find_on_plane(there), find(there, floor), find(floor, there)}) {
+      for (int k = 0; k < found.corner_count; ++k) {
+        const ManifoldCorner& corner = found.corners[static_cast<std::size_t>(k)];
+        const double off = distance_from(there, corner.point);
+        CHECK(off > -std::max(0.0, corner.depth) - 1e-8);
+        CHECK(off < std::max(0.0, corner.depth) + (is_face ? 1e-8 : 3e-3 * 0.005));
+        ++points;
+      }
+    }
+  }
+  CHECK(points > test::draws(1000));
 }
 
 TEST_CASE("a ball that flies at a wall has one contact on the ball, with the present gap and the wall's normal") {
@@ -219,7 +257,15 @@ TEST_CASE("the end of a needle that swings into a floor within a step comes down
     if (overlap < 5e-4) continue;
     CHECK(known > overlap - 1.01e-4);  // a hundredth of the thickness is ignored
     CHECK(known < overlap + 1e-9);
-    CHECK(taken_away(body, find(body, floor)) == doctest::Approx(known).epsilon(1e-6));
+    const ContactManifold found = find(body, floor);
+    CHECK(taken_away(body, found) == doctest::Approx(known).epsilon(1e-6));
+    // Each place is on the body, as it is now or with its orientation at the end of the step.
+    for (int k = 0; k < found.corner_count; ++k) {
+      const ManifoldCorner& corner = found.corners[static_cast<std::size_t>(k)];
+      const double now = distance_from(body, corner.point);
+      const double then = distance_from({needle, {body.pose.position, end}, body.motion}, corner.point);
+      CHECK(std::min(std::abs(now), std::abs(then)) < std::max(0.0, corner.depth) + 1e-8);
+    }
     ++swung;
   }
   CHECK(swung > 100);

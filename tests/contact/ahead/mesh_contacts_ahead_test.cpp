@@ -3,13 +3,17 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <vector>
 
+#include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "support/draw.hpp"
 #include "support/mesh_samples.hpp"
@@ -239,6 +243,34 @@ TEST_CASE("places of contacts are on the body, also where they move to limit its
     }
   }
   CHECK(moved > draws(30));
+}
+
+TEST_CASE("manifold points at the border of a mesh are on the body") {
+  const std::vector<MeshTriangle> floor = floor_mesh(4, 0.2).placed();
+  const Superellipsoid body({0.1, 0.08, 0.05}, 8, 8);
+  MeshContactsAhead ahead;
+  Draw draw(58);
+  int points = 0;
+  for (int i = 0; i < draws(100); ++i) {
+    CAPTURE(i);
+    const Vector3 velocity(draw.uniform(-1, 1), draw.uniform(-1, 1), -draw.log_uniform(0.01, 10));
+    BodyAhead there = flying(body, draw.in_box({0.5, 0.5, 0}), velocity);
+    const Matrix3 turn = Eigen::AngleAxisd(draw.uniform(0, 6), Vector3::UnitZ()).toRotationMatrix();
+    there.pose.rotation = Eigen::AngleAxisd(draw.log_uniform(1e-6, 0.1), draw.direction()).toRotationMatrix() * turn;
+    const double lowest = body.support(there.pose.rotation.transpose() * -Vector3::UnitZ());
+    there.pose.position.z() = lowest - draw.uniform(0, 1) * 0.01 * velocity.z();
+    there.motion.centre = there.pose.position;
+    there.motion.turning = Matrix3::Identity() / 2e-3;
+    for (const MeshManifold& contact : ahead.find(there, {}, 0.01, floor)) {
+      for (int k = 0; k < contact.manifold.corner_count; ++k) {
+        const ManifoldCorner& corner = contact.manifold.corners[static_cast<std::size_t>(k)];
+        const double off = find_proximity(body, there.pose, Sphere(0), {corner.point, Matrix3::Identity()}).gap;
+        CHECK(std::abs(off) < std::max(0.0, corner.depth) + 1e-7);
+        ++points;
+      }
+    }
+  }
+  CHECK(points > draws(100));
 }
 
 TEST_CASE("a ball beside a tile has the tile's normal, on its surface, and rolls on over the border") {
