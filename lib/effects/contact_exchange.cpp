@@ -29,10 +29,11 @@ void ContactExchange::replace(const Place& place, std::span<const dContact> cont
 void ContactExchange::commit() {
   if (!is_possible_) exchanges_.clear();
   for (const Exchange& exchange : exchanges_) {
-    dJointDisable(exchange.old);
     const dBodyID body = exchange.body1 != nullptr ? exchange.body1 : exchange.body2;
     const dJointID joint = dJointCreateContact(dBodyGetWorld(body), joints_.get(), &exchange.contact);
     dJointAttach(joint, exchange.body1, exchange.body2);
+    if (exchange.old == nullptr) continue;
+    dJointDisable(exchange.old);
     dJointSetFeedback(joint, dJointGetFeedback(exchange.old));
   }
   exchanges_.clear();

@@ -26,6 +26,11 @@ class ContactExchange {
   /// contact is replaced.
   void replace(const Place& place, std::span<const dContact> contacts);
 
+  /// Adds a contact of its geoms' bodies.
+  void add(const dContact& contact) {
+    exchanges_.push_back({nullptr, contact, dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2)});
+  }
+
   /// Makes the joints.
   void commit();
 

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "effects/motion.hpp"
 #include "ode/geom/body.hpp"
@@ -22,19 +23,14 @@
 namespace supernormal::effects {
 namespace {
 
-// Relative to the smallest half-extent: the depth that bodies may reach that cannot bounce in this step. They bounce from there in
-// the next one. Their middles stay outside.
-constexpr double kShallow = 0.5;
-
 // A light body between two heavy ones bounces ever faster. After so many impacts a body has no other one in the step. With 8, gases
 // of bricks gain up to 3 % in 2 s at 50 ms, and up to 8 of 54 bricks that lose nothing leave a box if a heavy ball hits them at 20
 // ms. With 16 to 64 these gases change by 1 % at most.
 constexpr int kMostImpacts = 64;
 
-// Relative to the velocity after an impact; and sweeps over its contacts at most. With 10 sweeps the gas of bricks gains up to 2.8
-// % in 2 s, with 50 up to 0.2 %, with 400 up to 0.1 %.
-constexpr double kTolerance = 1e-6;
-constexpr int kSweeps = 100;
+// Relative to the largest velocity that an impact has to change: what counts as rounding. From 1e-2 to 1e-13 energies stay the
+// same.
+constexpr double kRounding = 1e-9;
 
 /// m; from the centre of a body to a contact, after the displacements of both bodies. dCollide divides the gap by the inverse
 /// masses when it places a contact, and so are the displacements. So both displacements move it to where the bodies touch.
@@ -69,18 +65,31 @@ std::optional<double> time_of_bounce(const PairMaterial& pair, const Separation&
   return touch->time;
 }
 
-/// The change of the separating velocity by a unit impulse, 1/kg.
-double response(const MeetingContact& c, const MovingBody& body1, const MovingBody& body2) {
-  const auto part = [&](const MovingBody& body, const MovingBody& other) {
-    const Vector3 moment = arm(c, body, other).cross(c.normal);
-    return body.inverse_mass + moment.dot(body.inverse_inertia * moment);
-  };
-  return part(body1, body2) + part(body2, body1);
-}
-
-void push(MovingBody& body, const Vector3& arm, const Vector3& impulse) {
-  body.velocity += body.inverse_mass * impulse;
-  body.angular_velocity += body.inverse_inertia * arm.cross(impulse);
+/// The impulses p >= 0 with the least p A p / 2 - b p: the velocity that A p lacks of b is 0 where an impulse acts, and at most 0
+/// elsewhere (Lawson and Hanson 1974, chapter 23). Exact impulses keep the energy. With 100 sweeps over the contacts, which
+/// converge slowly if these are near each other, ellipsoids gain up to 3 % in 100 impacts.
+Eigen::VectorXd solve_impulses(const Eigen::MatrixXd& responses, const Eigen::VectorXd& lacking) {
+  Eigen::VectorXd impulses = Eigen::VectorXd::Zero(lacking.size());
+  Eigen::VectorXd acts = impulses;  // 1 where an impulse acts
+  const Eigen::VectorXd all = Eigen::VectorXd::Ones(lacking.size());
+  for (Eigen::Index turn = 0, next = 0; turn < 3 * lacking.size(); ++turn) {
+    const Eigen::VectorXd left = (all - acts).cwiseProduct(lacking - responses * impulses);
+    if (!(left.maxCoeff(&next) > kRounding * lacking.maxCoeff())) break;
+    acts[next] = 1;
+    for (Eigen::Index first = 0; first >= 0;) {  // whose impulse becomes 0 first on the way to `solved`
+      Eigen::MatrixXd among = acts.asDiagonal() * responses * acts.asDiagonal();
+      among.diagonal() += responses(0, 0) * (all - acts);
+      const Eigen::VectorXd solved = among.ldlt().solve(acts.cwiseProduct(lacking));
+      double part = 1;
+      first = -1;
+      for (Eigen::Index k = 0; k < lacking.size(); ++k) {
+        if (impulses[k] + part * (solved[k] - impulses[k]) < 0) part = impulses[k] / (impulses[k] - solved[k]), first = k;
+      }
+      impulses += part * (solved - impulses);
+      if (first >= 0) impulses[first] = acts[first] = 0;
+    }
+  }
+  return impulses;
 }
 
 /// Overlapping bodies that part are not pushed apart: this would give them energy.
@@ -194,38 +203,37 @@ void Meeting::bring_to_touch(const Impact& impact) const {
   }
 }
 
-/// Finds the impulses with which the points part with their targets at least, and those without an impulse faster.
-void Meeting::solve_impulses() const {
-  bool is_solved = false;
-  for (int sweep = 0; sweep < kSweeps && !is_solved; ++sweep) {
-    is_solved = true;
-    for (MeetingContact& c : contacts) {
-      if (!c.is_struck) continue;
-      const double mobility = response(c, body1, body2);
-      const double lacking = c.target - Separation::at(c, body1, body2).velocity;
-      const double impulse = std::max(-c.impulse, lacking / mobility);
-      is_solved = is_solved && std::abs(impulse * mobility) <= kTolerance * std::abs(c.target);
-      c.impulse += impulse;
-      c.total += impulse;
-      push(body1, arm(c, body1, body2), impulse * c.normal);
-      push(body2, arm(c, body2, body1), -impulse * c.normal);
-    }
-  }
-}
-
 // All contacts that would touch within a step of the first one are struck. Otherwise the end of the step may divide the impact of
 // two faces.
 void Meeting::strike(const Impact& impact) const {
   if (may_be_moved()) bring_to_touch(impact);
+  std::vector<MeetingContact*> struck;
   for (MeetingContact& c : contacts) {
-    const Separation separation = Separation::at(c, body1, body2);
-    const double change = separation.acceleration * step / 2;
-    c.is_struck = time_of_bounce(pair, separation, step).has_value();
-    c.target = -pair.restitution * (separation.velocity + change) - change;
-    c.is_hit |= c.is_struck;
-    c.impulse = 0;
+    if (time_of_bounce(pair, Separation::at(c, body1, body2), step)) struck.push_back(&c);
   }
-  solve_impulses();
+  const auto count = static_cast<Eigen::Index>(struck.size());
+  Eigen::MatrixXd pushes(12, count);   // linear and angular impulses on both bodies by unit impulses
+  Eigen::MatrixXd changes(12, count);  // of the velocities by them
+  Eigen::VectorXd lacking(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const MeetingContact& c = *struck[static_cast<std::size_t>(k)];
+    const Separation separation = Separation::at(c, body1, body2);
+    lacking[k] = -(1 + pair.restitution) * (separation.velocity + separation.acceleration * step / 2);
+    const Vector3 moment1 = arm(c, body1, body2).cross(c.normal), moment2 = -arm(c, body2, body1).cross(c.normal);
+    pushes.col(k) << c.normal, moment1, -c.normal, moment2;
+    changes.col(k) << body1.inverse_mass * c.normal, body1.inverse_inertia * moment1, -body2.inverse_mass * c.normal,
+        body2.inverse_inertia * moment2;
+  }
+  const Eigen::VectorXd impulses = solve_impulses(pushes.transpose() * changes, lacking);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    struck[static_cast<std::size_t>(k)]->is_hit = true;
+    struck[static_cast<std::size_t>(k)]->total += impulses[k];
+  }
+  const Eigen::VectorXd change = changes * impulses;
+  body1.velocity += change.segment<3>(0);
+  body1.angular_velocity += change.segment<3>(3);
+  body2.velocity += change.segment<3>(6);
+  body2.angular_velocity += change.segment<3>(9);
   for (MovingBody* const body : {&body1, &body2}) {
     if (!(body->inverse_mass > 0)) continue;
     body->time = impact.time;

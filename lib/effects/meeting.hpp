@@ -11,6 +11,10 @@
 
 namespace supernormal::effects {
 
+/// Relative to the smallest half-extent: the depth that bodies may reach that cannot bounce in this step. They bounce from there in
+/// the next one. Their middles stay outside.
+inline constexpr double kShallow = 0.5;
+
 /// A body within a step. Its impacts move it and change its velocity before ODE does.
 struct MovingBody {
   static MovingBody of(dBodyID body);
@@ -33,13 +37,10 @@ struct MovingBody {
 struct MeetingContact {
   MeetingContact(const dContact& set_up) : contact(set_up), normal(ode::to_vector(set_up.geom.normal)) {}
 
-  dContact contact;        ///< at the start of the step, with friction and without a normal motion
-  Vector3 normal;          ///< unit, world frame, into body 1
-  double target = 0;       ///< m/s, of the separating velocity after the impact
-  double impulse = 0;      ///< N s, of the present impact
-  double total = 0;        ///< N s, of the impacts so far
-  bool is_struck = false;  ///< whether the present impact acts here
-  bool is_hit = false;     ///< whether any impact of the step has acted here
+  dContact contact;     ///< at the start of the step, with friction and without a normal motion
+  Vector3 normal;       ///< unit, world frame, into body 1
+  double total = 0;     ///< N s, of the impacts so far
+  bool is_hit = false;  ///< whether any impact of the step has acted here
 
   /// Whether the bodies touch here at the start of the step.
   bool touches() const { return !(contact.geom.depth < 0); }
@@ -71,7 +72,6 @@ struct Meeting {
  private:
   bool may_be_moved() const;
   void bring_to_touch(const Impact& impact) const;
-  void solve_impulses() const;
   struct Parting {
     double before, after;  // m/s
   };

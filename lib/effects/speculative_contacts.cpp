@@ -13,9 +13,13 @@
 #include <iterator>
 #include <queue>
 #include <tuple>
+#include <utility>
 
+#include "effects/motion.hpp"
+#include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/geom/look_ahead.hpp"
+#include "ode/geom/moved.hpp"
 
 namespace supernormal::effects {
 namespace {
@@ -37,6 +41,50 @@ bool is_attached(dBodyID body) {
     if (holds_place(dBodyGetJoint(body, k), dBodyGetWorld(body))) return true;
   }
   return false;
+}
+
+void set_velocities(dBodyID body, const Vector3& linear, const Vector3& angular) {
+  dBodySetLinearVel(body, ode::to_real(linear.x()), ode::to_real(linear.y()), ode::to_real(linear.z()));
+  dBodySetAngularVel(body, ode::to_real(angular.x()), ode::to_real(angular.y()), ode::to_real(angular.z()));
+}
+
+void set_place(dBodyID body, const Vector3& place) {
+  dBodySetPosition(body, ode::to_real(place.x()), ode::to_real(place.y()), ode::to_real(place.z()));
+}
+
+/// Appends the contacts ahead of a geom of a body and a wall to the std::vector<dContact> at `found`.
+void add_walls(void* found, dGeomID geom1, dGeomID geom2) {
+  if (dGeomIsSpace(geom1) != 0 || dGeomIsSpace(geom2) != 0) return dSpaceCollide2(geom1, geom2, found, add_walls);
+  // A plane pushes a body out from any depth.
+  if (dGeomGetClass(geom1) == dPlaneClass || dGeomGetClass(geom2) == dPlaneClass) return;
+  const auto is_free = [](dBodyID body) { return body != nullptr && dBodyIsKinematic(body) == 0; };
+  dBodyID body = dGeomGetBody(geom1), other = dGeomGetBody(geom2);
+  if (is_free(body) == is_free(other)) return;
+  if (!is_free(body)) std::swap(body, other);
+  if (dAreConnectedExcluding(body, other, dJointTypeContact) != 0) return;
+  std::array<dContact, 8> contacts{};
+  const int count = dCollide(geom1, geom2, static_cast<int>(contacts.size()), &contacts[0].geom, sizeof(dContact));
+  const std::span<dContact> all(contacts.data(), static_cast<std::size_t>(count));
+  const auto is_ahead = [](const dContact& contact) { return contact.geom.depth < 0; };
+  std::ranges::copy_if(all, std::back_inserter(*static_cast<std::vector<dContact>*>(found)), is_ahead);
+}
+
+/// Whether the geoms of a contact would part along its normal if their body `moving` were at `place`.
+bool pushes_back(const MovingBody& moving, const Vector3& place, const dContactGeom& contact) {
+  set_place(moving.id, place);
+  dContactGeom there;
+  const bool touch = dCollide(contact.g1, contact.g2, 1, &there, sizeof there) > 0 && there.depth > 0;
+  set_place(moving.id, moving.centre);
+  return touch && ode::to_vector(there.normal).dot(ode::to_vector(contact.normal)) > 0;
+}
+
+/// The contacts of a geom with walls that its body may meet in the step.
+std::vector<dContact> find_walls(dGeomID geom) {
+  dGeomID all = geom;
+  while (dGeomGetSpace(all) != nullptr) all = reinterpret_cast<dGeomID>(dGeomGetSpace(all));
+  std::vector<dContact> found;
+  if (all != geom) dSpaceCollide2(geom, all, &found, add_walls);
+  return found;
 }
 
 }  // namespace
@@ -138,9 +186,41 @@ void SpeculativeSetup::move_bodies() const {
     if (body.displacement.isZero(0)) continue;
     const Vector3 place = body.centre + body.displacement;
     const Vector3 velocity = ode::to_vector(dBodyGetLinearVel(body.id)) + body.gain;
-    dBodySetLinearVel(body.id, ode::to_real(velocity.x()), ode::to_real(velocity.y()), ode::to_real(velocity.z()));
-    dBodySetPosition(body.id, ode::to_real(place.x()), ode::to_real(place.y()), ode::to_real(place.z()));
+    set_velocities(body.id, velocity, ode::to_vector(dBodyGetAngularVel(body.id)));
+    set_place(body.id, place);
   }
+}
+
+/// Limits a rebound by the walls behind, of which a program gets no contacts: these are of the motion before the impact. A body
+/// may be in a wall by kShallow, as after any impact, and bounces there in the next step; or deeper in a thick wall, which pushes
+/// it back also if it is deeper by its smallest half-extent. Without this, 29 of 480 heaps hit by a heavy body lose a body through
+/// a thin floor; with it 2.
+void SpeculativeSetup::limit_rebound(MovingBody& body) {
+  const Vector3 velocity = ode::to_vector(dBodyGetLinearVel(body.id)), spin = ode::to_vector(dBodyGetAngularVel(body.id));
+  set_velocities(body.id, body.velocity, body.angular_velocity);
+  for (dGeomID geom = dBodyGetFirstGeom(body.id); geom != nullptr; geom = dBodyGetNextGeom(geom)) {
+    const ode::Body* const ours = ode::find_body(geom);
+    if (ours == nullptr || body.velocity.norm() * step_ <= kShallow * ours->size()) continue;
+    ode::set_moved(geom);  // the bounding box covers the motion
+    for (dContact& wall : find_walls(geom)) {
+      const Vector3 normal = (wall.geom.g1 == geom ? 1 : -1) * ode::to_vector(wall.geom.normal);
+      const Vector3 point = ode::to_vector(wall.geom.pos);
+      const double height = normal.dot(body.centre - point);
+      const double room = std::max(0.0, normal.dot(body.displacement) - double{wall.geom.depth} + kShallow * height);
+      const Vector3 moves = velocity_at(dGeomGetBody(wall.geom.g1 == geom ? wall.geom.g2 : wall.geom.g1), point);
+      const double lacking = -room / step_ - normal.dot(body.velocity + step_ * body.acceleration - moves);
+      if (lacking > 0) {
+        const Vector3 end =
+            body.centre + body.displacement + step_ * (body.velocity + step_ * body.acceleration) - ours->size() * normal;
+        if (pushes_back(body, end, wall.geom)) continue;
+        body.velocity += lacking * normal, ++body.impacts;
+      }
+      ode::from_vector(body.centre + body.displacement - height * normal, wall.geom.pos);
+      let_close(wall, room, step_);
+      joints_.add(wall);
+    }
+  }
+  set_velocities(body.id, velocity, spin);
 }
 
 void SpeculativeSetup::resolve() {
@@ -148,6 +228,9 @@ void SpeculativeSetup::resolve() {
   if (std::ranges::any_of(records_, &Record::is_planned)) {
     list_records();
     run_impacts();
+    for (MovingBody& body : bodies_) {
+      if (body.impacts > 0 && body.inverse_mass > 0) limit_rebound(body);
+    }
     for (std::size_t k = 0; k < records_.size(); ++k) exchange(k);
     joints_.commit();
     move_bodies();

@@ -52,6 +52,7 @@ class SpeculativeSetup {
   void set_up_alone(Record& record, std::span<dContact> contacts);
   void list_records();
   void run_impacts();
+  void limit_rebound(MovingBody& body);
   void exchange(std::size_t index);
   void move_bodies() const;
 

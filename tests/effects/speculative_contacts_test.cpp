@@ -512,6 +512,54 @@ TEST_CASE("speculative contacts: bricks thrown at a wall keep their energy at re
   }
 }
 
+TEST_CASE(
+    "speculative contacts: an elastic ellipsoid between walls, also of ours, keeps its energy at a motion of its size a step") {
+  for (const double wall_exponent : {0.0, 8.0, 60.0}) {  // 0: a box
+    for (const double motion : {0.75, 1.0, 2.0}) {
+      CAPTURE(wall_exponent);
+      CAPTURE(motion);
+      EffectsWorld scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, 0.01);
+      dWorldSetQuickStepNumIterations(scene.id(), 40);
+      constexpr double kThick = 0.5, kWide = 200;  // m; half-extents of a wall
+      for (const double side : {-1.0, 1.0}) {
+        const dSpaceID space = scene.world.space();
+        const auto thick = dReal(kThick), wide = dReal(kWide), e = dReal(wall_exponent);
+        place(e > 0 ? snCreateSuperellipsoid(space, thick, wide, wide, e, e) : dCreateBox(space, 2 * thick, 2 * wide, 2 * wide),
+              {side * (0.5 + kThick), 0, 0});
+      }
+      const dBodyID body = scene.add_body({0.1, 0.08, 0.05}, 2, kDensity, {0.05, 0, 0});
+      dBodySetGyroscopicMode(body, 0);
+      Random random(3);
+      random.turn(dBodyGetFirstGeom(body));
+      throw_body(body, {motion * 0.1 / 0.01, 0, 0});
+      const double start = kinetic_energy(body);
+      scene.run_until(8);
+      CHECK(kinetic_energy(body) == relative(start).epsilon(1e-3));
+    }
+  }
+}
+
+TEST_CASE("speculative contacts: a body that an impact throws at a wall behind does not pass it") {
+  for (const double room : {0.5, 2.0, 20.0}) {           // in radii
+    for (const double motion : {0.7, 1.1, 2.0, 10.0}) {  // of the room
+      CAPTURE(room);
+      CAPTURE(motion);
+      EffectsWorld scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, 0.01);
+      const double end = kRadius * (1 + room / 2);
+      for (const double side : {-1.0, 1.0})
+        place(dCreateBox(scene.world.space(), dReal(0.2 * kRadius), 100, 100), {side * (end + 0.1 * kRadius), 0, 0});
+      const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, 0});
+      throw_body(ball, {motion * room * kRadius / 0.01, 0, 0});
+      const double start = kinetic_energy(ball);
+      for (int step = 0; step < 40; ++step) {
+        scene.step();
+        CHECK(std::abs(dBodyGetPosition(ball)[0]) < end);
+        CHECK(kinetic_energy(ball) < 1.01 * start);
+      }
+    }
+  }
+}
+
 TEST_CASE("speculative contacts: a ball joint with ERP 0 ties velocities only: its bodies are moved to touch, others are not") {
   for (const bool holds_place : {false, true}) {
     const double step = 10e-3;
