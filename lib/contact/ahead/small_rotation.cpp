@@ -74,13 +74,15 @@ class LeverLimit {
                                   (1 - share) * normal_.dot(contact.contact - middle_of(body2)) + std::min(0.0, contact.gap))) {
     const Vector3 under = under_centre(contact.contact);
     const Vector3 closed = time * (velocity_at(body1, under) - velocity_at(body2, under));
-    slip_ = closed - normal_.dot(closed) * normal_;
+    const Vector3 slip = closed - normal_.dot(closed) * normal_;
+    slip_ = slip.norm();
+    along_ = slip.normalized();
     const double impact = normal_.dot(closed) - std::max(0.0, contact.gap);
     impact_ = std::max(0.0, impact);
     approach_ = impact + time * gained_speed(body1.motion, body2.motion, time);
-    const Vector3 torque = (under - centre_).cross(slip_.normalized());
+    const Vector3 torque = (under - centre_).cross(along_);
     const Vector3 axis = turning_ * torque;
-    by_friction_ = axis.norm() * std::min(impact_, slip_.norm() / (1 + torque.dot(axis)));
+    by_friction_ = axis.norm() * std::min(impact_, slip_ / (1 + torque.dot(axis)));
   }
 
   /// The overlap that would form under the centre of mass without contact forces, m.
@@ -100,10 +102,10 @@ class LeverLimit {
 
   /// The shift along the normal of a body whose middle is off its centre of mass, m.
   Vector3 shift_for_friction(const Vector3& place) const {
-    const double displacement = std::min(slip_.norm(), impact_);
+    const double displacement = std::min(slip_, impact_);
     if (!(is_eccentric_ && displacement > 0)) return Vector3::Zero();
     const Vector3 arm = under_centre(place) - centre_;
-    return (fraction_for_small_rotation(arm, slip_.normalized(), displacement) - 1) * arm;
+    return (fraction_for_small_rotation(arm, along_, displacement) - 1) * arm;
   }
 
  private:
@@ -149,7 +151,8 @@ class LeverLimit {
   double largest_rotation_;  // rad; limit for an impact
   bool is_eccentric_;        // whether the middle is off the centre of mass
   double height_;            // m; limit for the approach of the middles, neither beyond the plane
-  Vector3 slip_;             // m; along the plane, under the centre of mass
+  double slip_;              // m; along the plane, under the centre of mass
+  Vector3 along_;            // unit; of the slip, 0 without one
   double impact_;            // m; the approach that an impact stops. The weight rolls the body in steps of any length
   double approach_;          // m; with the weight
   // rad; by friction, which is at most as large as the force of the impact, and ends when sliding ends. Its lever arm is the height
