@@ -54,6 +54,7 @@ struct Body {
   Vector3 velocity = Vector3::Zero();          ///< m/s
   Vector3 angular_velocity = Vector3::Zero();  ///< rad/s
   double inverse_mass = 0;                     ///< 1/kg; 0 for what no force moves
+  int struck = 0;                              ///< the passes of a sweep that struck it, one after the other
   Vector3 moved = Vector3::Zero();             ///< m, since the step began
   Vector3 rotated = Vector3::Zero();           ///< rad, since the step began
 

@@ -69,6 +69,28 @@ TEST_CASE("balls and bricks bounce with their restitution at every step") {
   }
 }
 
+TEST_CASE("what lands flat without restitution does not begin to spin") {
+  OdeSession session;
+  for (const double step : {0.001, 0.005, 0.01, 0.033}) {
+    for (const double exponent : {8, 60}) {
+      for (const double floor : {0.0, 0.1}) {
+        StepperWorld scene(step);
+        scene.surface.mu = dReal(0.5);
+        scene.world.add_plane();
+        if (floor > 0) scene.add_brick(exponent, 1000, {0.02, 0.01, 0.05});
+        const dBodyID brick = scene.add_brick(exponent, 1000, {0, 0, floor + 0.1 + 0.05});
+        turn(brick, {0, 0, 1}, 0.3);
+        set_velocity(brick, {0, 0, -1});
+        for (double time = 0; time < 0.3; time += step) {
+          scene.step();
+          CHECK_MESSAGE(norm(spin_of(brick)) * step < 1e-3, step);
+        }
+        CHECK(place_of(brick)[2] == doctest::Approx(floor + 0.05).epsilon(0.01));
+      }
+    }
+  }
+}
+
 TEST_CASE("a ball under gravity rises to the square of its restitution times its height, and rests in the end") {
   OdeSession session;
   for (const double step : {0.001, 0.01, 0.033}) {
