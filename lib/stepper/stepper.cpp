@@ -63,6 +63,7 @@ double Stepper::step(double time) {
   double done = 0;
   int made = 0;
   do {
+    settings.is_last = made + 1 == count;
     sub_step(made++, settings);
     done = made < count ? made * sub_step_time : time;
   } while (made < count && !has_left_path(done));

@@ -72,8 +72,9 @@ class Sweeper {
     double velocity = row.direction.dot(system_.velocity(contact)) - surface.motion[0];
     Softness softness;
     if (gap > 0) {
-      // What may bounce in the next sub-step keeps its velocity.
-      if (!is_biased() && surface.bounce > 0 && row.impulse == 0) return false;
+      // What may bounce in the next sub-step keeps its velocity, and what may meet in the next step, which has other contacts: an
+      // edge between two tiles is none there.
+      if (!is_biased() && row.impulse == 0 && (surface.bounce > 0 || settings_.is_last)) return false;
       velocity += gap / settings_.time;
     } else if (is_biased() || surface.cfm > 0) {
       softness = *contact.softness;

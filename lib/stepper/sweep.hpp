@@ -12,6 +12,7 @@ enum class Sweep { Biased, Relaxing };
 struct SweepSettings {
   Sweep kind = Sweep::Biased;
   bool is_backward = false;
+  bool is_last = false;    ///< of the step
   double time = 0;         ///< s, of the sub-step
   double elapsed = 0;      ///< s, since the step began
   double fastest_out = 0;  ///< m/s; overlaps are corrected no faster

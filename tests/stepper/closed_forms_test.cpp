@@ -47,6 +47,26 @@ TEST_CASE("a brick below the angle of friction does not creep, and above it slid
   }
 }
 
+TEST_CASE("a brick slides over flush tiles as over a floor: no edge between two of them brakes it") {
+  OdeSession session;
+  for (const double step : {0.01, 0.02}) {
+    for (const double speed : {2, 3, 5}) {
+      for (const double angle : {0.0, 0.6}) {
+        StepperWorld scene(step);
+        for (int i = 0; i < 10; ++i) {
+          const dGeomID tile = dCreateBox(scene.world.space(), dReal(0.5), 2, dReal(0.1));
+          dGeomSetPosition(tile, dReal(0.25 + 0.5 * i), 0, dReal(-0.05));
+        }
+        const dBodyID brick = scene.add_brick(60, 1000, {0.3, 0, 0.05});
+        turn(brick, {0, 0, 1}, angle);
+        set_velocity(brick, {speed, 0, 0});
+        scene.run(4 / speed);
+        CHECK(velocity_of(brick)[0] == relative(speed).epsilon(1e-3));
+      }
+    }
+  }
+}
+
 TEST_CASE("a ball that slides ends up rolling at five sevenths of its velocity") {
   OdeSession session;
   StepperWorld scene(0.01);
