@@ -36,9 +36,7 @@ void Joint::set_rows(const System& system) {
   const Vector3 axis2 = two.rotation * sides_[1].axis;
   arm1 = slides_ ? Vector3(away1 - apart) : away1;  // what slides is held where body 2 is
   arm2 = away2;
-  across_ -= across_.dot(axis1) * axis1;
-  across_ = across_.norm() > 0.1 ? across_.normalized() : axis1.unitOrthogonal();  // if a program has turned the body
-  const Vector3 across = axis1.cross(across_);
+  const Vector3 across = two.rotation * sides_[1].axis.unitOrthogonal();
   const Matrix3 turn = one.rotation * turned_.transpose() * two.rotation.transpose();
   const Vector3 turned = 0.5 * Vector3(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
   const std::array<Vector3, 3> world = {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
@@ -57,8 +55,7 @@ void Joint::set_rows(const System& system) {
     ++count;
   };
   const auto add_both = [&](const Vector3& errors) {
-    add(across_, errors.dot(across_));
-    add(across, errors.dot(across));
+    for (const Vector3& direction : {across, Vector3(axis2.cross(across))}) add(direction, errors.dot(direction));
   };
   const auto add_all = [&](const Vector3& errors) {
     for (int k = 0; k < 3; ++k) add(world[std::size_t(k)], errors[k]);

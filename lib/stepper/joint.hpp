@@ -75,7 +75,6 @@ class Joint : public Link {
   bool slides_ = false;                    // whether the free axis is one of displacement
   std::array<Side, 2> sides_;
   Matrix3 turned_;  // the orientation of body 1 in the frame of body 2, that the joint keeps
-  Vector3 across_;  // unit, world frame; across the axis, and carried along with it
   std::array<FreeAxis, 2> axes_;
   std::array<Row, kMostRows> rows_;
   Eigen::LLT<Square> factor_;           // of the mobility of the held rows

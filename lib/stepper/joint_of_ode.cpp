@@ -98,7 +98,6 @@ bool Joint::read(dJointID id) {
     sides_[0] = {first, Vector3::Zero(), axis_in1};
     sides_[1] = {second, frame2.rotation.transpose() * (frame1.origin - frame2.origin), frame2.rotation.transpose() * axis1};
     turned_ = frame2.rotation.transpose() * frame1.rotation;
-    across_ = axis1.unitOrthogonal();
     aim_.setZero(held_);
     forces_.setZero(count_);
   }

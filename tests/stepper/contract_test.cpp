@@ -175,8 +175,7 @@ TEST_CASE("a step that is far shorter than the others, as what rounding leaves o
     StepperWorld scene(0.02);
     scene.surface.mu = dReal(0.5);
     scene.world.add_plane();
-    std::array<dBodyID, 5> tower{};
-    for (std::size_t i = 0; i < 5; ++i) tower[i] = scene.add_brick(8, 1000, {0, 0, 0.05 + 0.1 * double(i)});
+    const std::vector<dBodyID> tower = scene.add_tower(5);
     // One falls, so that the short step has an impact.
     const dBodyID falling = scene.add_brick(8, 1000, {0.5, 0, 0.05 + 0.5 * kGravity * 0.25 * 0.25});
     scene.run(0.24);
@@ -324,11 +323,8 @@ TEST_CASE("bodies at rest fall asleep together, stay, and wake together") {
   StepperWorld scene(0.01);
   scene.surface.mu = dReal(0.5);
   scene.world.add_plane();
-  dWorldSetAutoDisableFlag(scene.world.id(), 1);
-  dWorldSetAutoDisableTime(scene.world.id(), dReal(0.2));
-  dWorldSetAutoDisableAverageSamplesCount(scene.world.id(), 5);
-  std::array<dBodyID, 12> tower{};
-  for (std::size_t i = 0; i < 12; ++i) tower[i] = scene.add_brick(8, 1000, {0, 0, 0.05 + 0.1 * double(i)});
+  scene.let_sleep();
+  const std::vector<dBodyID> tower = scene.add_tower(12);
   const dBodyID apart = scene.add_ball(0.05, {1, 0, 0.05});
   set_velocity(apart, {0, 0.5, 0});
   scene.run(2);
@@ -384,8 +380,7 @@ TEST_CASE("contacts that are added twice carry as those that are added once") {
   StepperWorld scene(0.01);
   scene.surface.mu = dReal(0.5);
   scene.world.add_plane();
-  std::array<dBodyID, 6> tower{};
-  for (std::size_t i = 0; i < tower.size(); ++i) tower[i] = scene.add_brick(8, 1000, {0, 0, 0.05 + 0.1 * double(i)});
+  const std::vector<dBodyID> tower = scene.add_tower(6);
   for (int i = 0; i < 200; ++i) {
     scene.collide();
     scene.collide();
@@ -400,8 +395,7 @@ TEST_CASE("a kinematic body that jumps into a pile throws nothing faster than it
   StepperWorld scene(0.01);
   scene.surface.mu = dReal(0.5);
   scene.world.add_plane();
-  std::array<dBodyID, 3> tower{};
-  for (std::size_t i = 0; i < tower.size(); ++i) tower[i] = scene.add_brick(8, 1000, {0, 0, 0.05 + 0.1 * double(i)});
+  const std::vector<dBodyID> tower = scene.add_tower(3);
   const dBodyID block = scene.add_brick(8, 1000, {1, 0, 0.05});
   dBodySetKinematic(block);
   scene.run(0.5);

@@ -1,7 +1,7 @@
 // A world whose bodies a stepper moves, as in a program.
 #pragma once
 
-#include <functional>
+#include <vector>
 
 #include "support/ode_world.hpp"
 
@@ -35,6 +35,19 @@ class StepperWorld {
   dBodyID add_brick(double exponent, double density, const Vec& at) {
     const auto e = dReal(exponent);
     return add(snCreateSuperellipsoid(world.space(), dReal(0.1), dReal(0.07), dReal(0.05), e, e), density, at);
+  }
+
+  /// Bricks of exponent 8, one on another.
+  std::vector<dBodyID> add_tower(int bricks) {
+    std::vector<dBodyID> tower;
+    for (int i = 0; i < bricks; ++i) tower.push_back(add_brick(8, 1000, {0, 0, 0.05 + 0.1 * i}));
+    return tower;
+  }
+  /// What has been slow for 0.2 s falls asleep.
+  void let_sleep() const {
+    dWorldSetAutoDisableFlag(world.id(), 1);
+    dWorldSetAutoDisableTime(world.id(), dReal(0.2));
+    dWorldSetAutoDisableAverageSamplesCount(world.id(), 5);
   }
 
   void collide() {
