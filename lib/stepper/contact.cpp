@@ -14,20 +14,14 @@ void set_rows(System& system, Contact& contact, const Vector3& place, const Vect
   contact.arm2 = place - two.centre();
   const Vector3 first = (along - along.dot(normal) * normal).normalized();
   const std::array<Vector3, 3> directions = {normal, first, normal.cross(first)};
-  const auto set = [&](Row& row, const Vector3& direction, const Vector3& lever1, const Vector3& lever2) {
-    row.direction = direction;
-    row.response1 = one.world_inverse_inertia * lever1;
-    row.response2 = two.world_inverse_inertia * lever2;
-    row.mobility = lever1.dot(row.response1) + lever2.dot(row.response2);
-  };
   for (std::size_t k = 0; k < 3; ++k) {
-    set(contact.rows[k], directions[k], contact.arm1.cross(directions[k]), contact.arm2.cross(directions[k]));
+    contact.rows[k].set(directions[k], one, contact.arm1.cross(directions[k]), two, contact.arm2.cross(directions[k]));
     contact.rows[k].mobility += one.inverse_mass + two.inverse_mass;
   }
   if (Rolling* const torques = system.rolling_of(contact)) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Vector3& axis = directions[(k + 1) % 3];
-      set((*torques)[k], axis, axis, axis);
+      (*torques)[k].set(axis, one, axis, two, axis);
     }
   }
   // One mass for all directions across the normal, the smallest: then friction opposes the slip. The exact 2 x 2 solution, cut to

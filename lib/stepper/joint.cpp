@@ -48,9 +48,7 @@ void Joint::set_rows(const System& system) {
     const auto k = std::size_t(count);
     lever1[k] = is_linear(count) ? arm1.cross(direction) : direction;
     lever2[k] = is_linear(count) ? arm2.cross(direction) : direction;
-    rows_[k].direction = direction;
-    rows_[k].response1 = one.world_inverse_inertia * lever1[k];
-    rows_[k].response2 = two.world_inverse_inertia * lever2[k];
+    rows_[k].set(direction, one, lever1[k], two, lever2[k]);
     if (count < held_) error_[count] = error;
     ++count;
   };

@@ -18,6 +18,15 @@ struct Row {
   double impulse = 0;            ///< N s or N m s; in the present sub-step, so far
   double later = 0;              ///< N s or N m s; the part of the last impulse that follows after the positions
   double total = 0;              ///< N s; so far in the step; along the normal without impacts
+
+  /// For the levers of a force along `towards` or of a torque about it: an impulse there turns the bodies about them. The mobility
+  /// is that of the rotations alone.
+  void set(const Vector3& towards, const Body& one, const Vector3& lever1, const Body& two, const Vector3& lever2) {
+    direction = towards;
+    response1 = one.world_inverse_inertia * lever1;
+    response2 = two.world_inverse_inertia * lever2;
+    mobility = lever1.dot(response1) + lever2.dot(response2);
+  }
 };
 
 struct Link {
