@@ -26,9 +26,9 @@ class ContactExchange {
   /// contact is replaced.
   void replace(const Place& place, std::span<const dContact> contacts);
 
-  /// Adds a contact of its geoms' bodies.
-  void add(const dContact& contact) {
-    exchanges_.push_back({nullptr, contact, dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2)});
+  /// Adds contacts that a program has not attached.
+  void add(std::span<const dContact> contacts, dBodyID body1, dBodyID body2) {
+    for (const dContact& contact : contacts) exchanges_.push_back({nullptr, contact, body1, body2});
   }
 
   /// Makes the joints.

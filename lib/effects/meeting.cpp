@@ -241,6 +241,24 @@ void Meeting::strike(const Impact& impact) const {
   }
 }
 
+// The force acts towards the centre of mass: linear in a rotation of any size, a corner would gain energy.
+void Meeting::stop_at_wall() const {
+  for (MeetingContact& c : contacts) {
+    MeetingContact central = c;
+    const Vector3 out = body1.centre - ode::to_vector(c.contact.geom.pos);
+    ode::from_vector(body1.centre - c.normal.dot(out) * c.normal, central.contact.geom.pos);
+    const Separation now = Separation::at(central, body1, body2);
+    const double room = std::max(0.0, now.gap) + kShallow * least_half_extent(c.contact.geom);
+    const double lacking = -room / step - now.velocity - step * now.acceleration;
+    if (!may_bounce) c = central;
+    if (!(lacking > 0)) continue;
+    c = central;
+    c.total = 0;
+    body1.velocity += lacking * c.normal;
+    ++body1.impacts;
+  }
+}
+
 /// The velocities with which the bodies part at a place, before the step and after it.
 Meeting::Parting Meeting::parting_at(const Vector3& point, const Vector3& normal) const {
   const auto before = [&](const MovingBody& body) { return Vector3(velocity_at(body.id, point - body.displacement) + body.gain); };

@@ -66,6 +66,9 @@ struct Meeting {
   /// Gives the bodies the velocities after the next impact, and moves them to touch before their first one.
   void strike(const Impact& impact) const;
 
+  /// Lets body 1 come into a wall, body 2, by kShallow at most after its impacts.
+  void stop_at_wall() const;
+
   /// The contact for ODE, so that the step ends with the velocities after the impacts so far.
   dContact row_of(const MeetingContact& at) const;
 

@@ -38,7 +38,8 @@ class SpeculativeSetup {
     const PairMaterial* pair;
     std::size_t body1, body2;  // in bodies_
     std::size_t first, count;  // in contacts_; none if the pair cannot bounce
-    std::size_t attached;      // contacts that the program attaches
+    std::size_t attached;      // contacts that the program attaches; 0 for a wall that was found after impacts
+    dGeomID geom1, geom2;
     bool may_bounce = false;
     bool is_planned = false;  // whether there is an impact if no other body comes in between
     int impacts = 0;
@@ -52,7 +53,15 @@ class SpeculativeSetup {
   void set_up_alone(Record& record, std::span<dContact> contacts);
   void list_records();
   void run_impacts();
-  void limit_rebound(MovingBody& body);
+  /// What a search for walls needs: of one body, with the pair that struck it, and whether it bounces there or stops.
+  struct Search {
+    SpeculativeSetup* setup;
+    std::size_t body;
+    const PairMaterial* pair;
+    bool bounces;
+  };
+  void find_walls();
+  static void add_wall(void* data, dGeomID geom1, dGeomID geom2);
   void exchange(std::size_t index);
   void move_bodies() const;
 
