@@ -73,6 +73,7 @@ void Body::read(const Vector3& gravity, bool is_rest) {
     torque_ = torque;
   }
   inverse_mass = 0;
+  size = std::numeric_limits<double>::infinity();
   world_inverse_inertia.setZero();
   if (is_free) {
     read_mass();
@@ -105,6 +106,7 @@ void Body::restore_forces() const {
 void Body::hold_still() {
   velocity = angular_velocity = acceleration_ = Vector3::Zero();
   inverse_mass = 0;
+  size = std::numeric_limits<double>::infinity();
   world_inverse_inertia.setZero();
 }
 

@@ -4,6 +4,7 @@
 #include <ode/ode.h>
 
 #include <Eigen/Geometry>
+#include <limits>
 
 #include "supernormal/shapes/shape.hpp"
 
@@ -58,18 +59,18 @@ struct Body {
   Vector3 moved = Vector3::Zero();             ///< m, since the step began
   Vector3 rotated = Vector3::Zero();           ///< rad, since the step began
 
-  dBodyID id = nullptr;                             ///< null: what does not move
-  Vector3 start = Vector3::Zero();                  ///< m; the centre of mass when the step began
-  Eigen::Quaterniond orientation{1, 0, 0, 0};       ///< now
-  Matrix3 rotation = Matrix3::Identity();           ///< now
-  Matrix3 world_inverse_inertia = Matrix3::Zero();  ///< 1/(kg m^2), when the step began; now, if is_followed
-  double size = 0;                                  ///< m; the smallest radius of gyration
-  bool is_touched = false;                          ///< whether it has a contact
-  bool is_borne = false;                            ///< whether it touches what it has a contact with
-  bool is_followed = false;                         ///< whether a contact or a joint follows its motion within the step
-  bool is_free = false;                             ///< whether it is not kinematic
-  bool stirs = false;                               ///< whether it wakes what it touches: kinematic bodies at rest do not
-  bool is_awake = false;                            ///< whether it moves; spreads by contacts
+  dBodyID id = nullptr;                                   ///< null: what does not move
+  Vector3 start = Vector3::Zero();                        ///< m; the centre of mass when the step began
+  Eigen::Quaterniond orientation{1, 0, 0, 0};             ///< now
+  Matrix3 rotation = Matrix3::Identity();                 ///< now
+  Matrix3 world_inverse_inertia = Matrix3::Zero();        ///< 1/(kg m^2), when the step began; now, if is_followed
+  double size = std::numeric_limits<double>::infinity();  ///< m; the smallest radius of gyration; infinite for what no force moves
+  bool is_touched = false;                                ///< whether it has a contact
+  bool is_borne = false;                                  ///< whether it touches what it has a contact with
+  bool is_followed = false;                               ///< whether a contact or a joint follows its motion within the step
+  bool is_free = false;                                   ///< whether it is not kinematic
+  bool stirs = false;                                     ///< whether it wakes what it touches: kinematic bodies at rest do not
+  bool is_awake = false;                                  ///< whether it moves; spreads by contacts
   bool is_held = false;     ///< whether a joint holds it for which quickstep must move it; spreads by contacts and joints
   bool is_centred = false;  ///< whether its sub-steps are centred in time; spreads by contacts
   bool is_restless = true;  ///< whether it must not sleep; spreads by contacts

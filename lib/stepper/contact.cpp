@@ -40,10 +40,9 @@ Contact contact_of(System& system, const Given& given) {
   contact.body1 = given.body1;
   contact.body2 = given.body2;
   contact.gap = contact.first_gap = -double{geometry.depth};
-  contact.size = kAny;
+  contact.size = system.size(contact);
   for (Body* const body : {&system.body1(contact), &system.body2(contact)}) {
     if (!body->is_dynamic()) continue;
-    contact.size = std::min(contact.size, body->size);
     body->is_touched = true;
     body->is_borne = body->is_borne || contact.gap <= 0;
   }

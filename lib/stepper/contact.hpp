@@ -35,7 +35,7 @@ struct Contact : Link {
   double impact = 0;        ///< N s; along the normal, of all impacts so far in the step
   double first_gap = 0;     ///< m; when the step began
   double gap = 0;           ///< m; when the bodies last moved
-  double size = 0;          ///< m; of the smaller of its moving bodies
+  double size = 0;          ///< m; System::size
   double tangent_mass = 0;  ///< kg; for both directions across the normal
   const Given* given = nullptr;
   const Softness* softness = nullptr;
@@ -85,6 +85,9 @@ struct System {
   Rolling* rolling_of(const Contact& contact) {
     return contact.rolling < 0 ? nullptr : &rolling[static_cast<std::size_t>(contact.rolling)];
   }
+
+  /// m; of the smaller of the bodies that move.
+  double size(const Link& link) const { return std::min(body1(link).size, body2(link).size); }
 
   /// m/s; of body 1 against body 2.
   Vector3 velocity(const Link& link) const {

@@ -8,14 +8,6 @@
 
 namespace supernormal::stepper {
 
-double Joint::size(const System& system) const {
-  double least = kAny;
-  for (const Body* const body : {&system.body1(*this), &system.body2(*this)}) {
-    if (body->is_dynamic()) least = std::min(least, body->size);
-  }
-  return least;
-}
-
 void Joint::begin(System& system, double time) {
   force_ = torque1_ = torque2_ = Vector3::Zero();
   part_before = std::min(system.body1(*this).part_before(), system.body2(*this).part_before());

@@ -50,7 +50,6 @@ class Joint : public Link {
   std::span<Row> rows() { return {rows_.data(), static_cast<std::size_t>(count_)}; }
   std::span<const Row> rows() const { return {rows_.data(), static_cast<std::size_t>(count_)}; }
   int held() const { return held_; }
-  double size(const System& system) const;
   dJointID id() const { return id_; }
   dBodyID body(int side) const { return sides_[static_cast<std::size_t>(side)].body; }
 

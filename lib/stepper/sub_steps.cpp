@@ -46,7 +46,7 @@ void SubSteps::learn(const System& system, double time) {
     spin = std::max(spin, (system.body1(contact).angular_velocity - system.body2(contact).angular_velocity).norm());
   }
   for (const Joint* const joint : system.joints) {
-    const double size = joint->size(system);
+    const double size = system.size(*joint);
     for (int i = 0; i < joint->held(); ++i) {
       const Row& row = joint->rows()[std::size_t(i)];
       stiffness =

@@ -180,8 +180,7 @@ TEST_CASE("a step that is far shorter than the others, as what rounding leaves o
     const dBodyID falling = scene.add_brick(8, 1000, {0.5, 0, 0.05 + 0.5 * kGravity * 0.25 * 0.25});
     scene.run(0.24);
     for (int i = 0; i < 3; ++i) {
-      scene.collide();
-      REQUIRE(snStepperStep(scene.stepper, dReal(rest)) > 0);
+      scene.step(rest);
       scene.step();
       CHECK(std::abs(velocity_of(tower.back())[2]) < 0.05);
     }
@@ -417,13 +416,7 @@ TEST_CASE("steps whose length changes, and a mass ratio of a million, throw noth
   const dBodyID light = scene.add_brick(8, 1e-3, {0, 0, 0.05});
   const dBodyID heavy = scene.add_brick(8, 1e3, {0, 0, 0.15});
   for (int i = 0; i < 300; ++i) {
-    double left = i % 3 == 0 ? 1e-4 : i % 3 == 1 ? 0.02 : 3e-3;
-    while (left > 0) {
-      scene.collide();
-      const double done = snStepperStep(scene.stepper, dReal(left));
-      REQUIRE(done > 0);
-      left = done >= left ? 0 : left - done;
-    }
+    scene.step(i % 3 == 0 ? 1e-4 : i % 3 == 1 ? 0.02 : 3e-3);
     for (const dBodyID body : {light, heavy}) {
       REQUIRE(std::isfinite(norm(place_of(body)) + norm(velocity_of(body)) + norm(spin_of(body))));
       REQUIRE(norm(velocity_of(body)) < 10);

@@ -56,9 +56,9 @@ class StepperWorld {
   }
 
   /// A whole step, in parts if it ends early.
-  void step() {
+  void step() { step(step_); }
+  void step(double left) {
     parts = 0;
-    double left = step_;
     for (; left > 0; ++parts) {
       collide();
       const double done = snStepperStep(stepper, dReal(left));
