@@ -35,24 +35,31 @@ class Sweeper {
  public:
   Sweeper(System& system, const SweepSettings& settings) : system_(system), settings_(settings) {}
 
-  /// Solves all pairs, and in later passes those of bodies that the last one struck. Whether a body was struck.
-  bool solve_pairs(int pass) const {
+  /// Solves everything, and in later passes what holds or touches a body that the last one struck. Whether a body was struck.
+  bool pass(int number) const {
+    // Contacts have the last word: what overlaps harms more than a joint that gives way.
+    const std::size_t joints = system_.joints.size();
+    for (std::size_t i = 0; i < joints; ++i) {
+      Joint& joint = *system_.joints[at(i, joints)];
+      if (struck(joint) >= number) joint.solve(system_, settings_);
+    }
     bool has_struck = false;
     for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
       const std::span<Contact> contacts = system_.contacts_of(system_.pairs[at(i, system_.pairs.size())]);
-      Body& one = system_.body1(contacts.front());
-      Body& two = system_.body2(contacts.front());
-      if (std::max(one.struck, two.struck) < pass || !solve(contacts)) continue;
+      const Contact& first = contacts.front();
+      if (struck(first) < number || !solve(contacts)) continue;
       has_struck = true;
-      for (Body* const body : {&one, &two}) body->struck = body->is_dynamic() ? pass + 1 : 0;
+      for (Body* const body : {&system_.body1(first), &system_.body2(first)}) body->struck = body->is_dynamic() ? number + 1 : 0;
     }
     return has_struck;
   }
 
+ private:
   /// In this order forwards, or backwards.
   std::size_t at(std::size_t i, std::size_t count) const { return settings_.is_backward ? count - 1 - i : i; }
 
- private:
+  int struck(const Link& link) const { return std::max(system_.body1(link).struck, system_.body2(link).struck); }
+
   /// Solves all contacts of a pair. Whether it was struck.
   bool solve(std::span<Contact> contacts) const {
     const std::size_t count = contacts.size();
@@ -149,10 +156,7 @@ void sweep(System& system, const SweepSettings& settings) {
   }
   for (Body& body : system.bodies) body.struck = 0;
   const Sweeper sweeper(system, settings);
-  // Contacts have the last word: what overlaps harms more than a joint that gives way.
-  const std::size_t joints = system.joints.size();
-  for (std::size_t i = 0; i < joints; ++i) system.joints[sweeper.at(i, joints)]->solve(system, settings);
-  for (int pass = 0; pass < kMostPasses && sweeper.solve_pairs(pass);) ++pass;
+  for (int pass = 0; pass < kMostPasses && sweeper.pass(pass);) ++pass;
 }
 
 }  // namespace supernormal::stepper
