@@ -39,8 +39,8 @@ class StepperWorld {
 
   /// Bricks of exponent 8, one on another.
   std::vector<dBodyID> add_tower(int bricks) {
-    std::vector<dBodyID> tower;
-    for (int i = 0; i < bricks; ++i) tower.push_back(add_brick(8, 1000, {0, 0, 0.05 + 0.1 * i}));
+    std::vector<dBodyID> tower(std::size_t(bricks), nullptr);
+    for (std::size_t i = 0; i < tower.size(); ++i) tower[i] = add_brick(8, 1000, {0, 0, 0.05 + 0.1 * double(i)});
     return tower;
   }
   /// What has been slow for 0.2 s falls asleep.
