@@ -112,6 +112,13 @@ TEST_CASE("a submerged body weighs less by the displaced fluid, and a body above
   CHECK(dBodyGetLinearVel(above)[2] == relative(-kGravity * kLongStep).epsilon(1e-6));
 }
 
+TEST_CASE("without gravity a fluid does not lift") {
+  EffectsWorld scene({fx::Gravity{{0, 0, 0}}, fx::Buoyancy{1000, 0}}, kLongStep);
+  const dBodyID under = scene.add_body({0.1, 0.1, 0.1}, 6, 400, {0, 0, -1});
+  scene.step();
+  CHECK(norm(to_vec(dBodyGetLinearVel(under))) == 0);
+}
+
 TEST_CASE("damped velocities decay exponentially at any step") {
   for (const double step : {1e-3, 0.05}) {
     EffectsWorld scene({fx::Damping{2, 3}}, step);

@@ -1,6 +1,9 @@
 // Tests of Coulomb's cone: how far bodies slide, when they start to slide, and that the force stays in the cone.
 #include <doctest/doctest.h>
 
+#include <utility>
+#include <vector>
+
 #include "effects/effects_world.hpp"
 #include "support/relative.hpp"
 
@@ -128,6 +131,24 @@ TEST_CASE("materials combine by the geometric mean, unless the pair is listed") 
     const double time = 0.1;
     scene.run_until(time);
     CHECK(dBodyGetLinearVel(puck)[0] == relative(kSpeed - c.expected * kGravity * time).epsilon(5e-3));
+  }
+}
+
+TEST_CASE("anisotropic friction of one side acts whichever side it is, and of both the lower material's") {
+  const auto of = [](double coefficient, int material) {
+    return fx::AnisotropicFriction{coefficient, coefficient, {1, 0, 0}, fx::MaterialSelector::of(material)};
+  };
+  for (const bool puck_is_lower : {true, false}) {
+    for (const auto& [list, expected] : std::vector<std::pair<std::vector<fx::Effect>, double>>{
+             {{earth(), of(0.3, 1)}, 0.3}, {{earth(), of(0.3, 2)}, 0.3}, {{earth(), of(0.2, 1), of(0.4, 2)}, 0.2}}) {
+      OnPlane scene(list, kStep);
+      scene.material_of = [&](dGeomID geom) { return (dGeomGetBody(geom) != nullptr) == puck_is_lower ? 1 : 2; };
+      const dBodyID puck = add_puck(scene);
+      scene.run_until(0.05);
+      dBodySetLinearVel(puck, dReal(kSpeed), 0, 0);
+      scene.run_until(0.1);
+      CHECK(dBodyGetLinearVel(puck)[0] == relative(kSpeed - expected * kGravity * 0.1).epsilon(0.01));
+    }
   }
 }
 
