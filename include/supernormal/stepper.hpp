@@ -4,7 +4,7 @@
 ///     supernormal::ode::Stepper stepper(world);                  // in place of dWorldQuickStep; throws what it refuses
 ///     stepper.add_body(body);                                    // each body that it moves
 ///     … in the near callback, in place of a contact joint:
-///         stepper.add_contact(contact, dGeomGetBody(g1), dGeomGetBody(g2));
+///         stepper.add_contact(contact, dGeomGetBody(g1), dGeomGetBody(g2));   // catch there: ODE's spaces stay locked otherwise
 ///     for (double left = step; left > 0; left -= stepper.step(left)) dSpaceCollide(space, data, near_callback);
 #pragma once
 

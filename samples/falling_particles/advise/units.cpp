@@ -18,8 +18,7 @@ void add_doubts_about_units(const Scene& scene, std::vector<std::string>& doubts
   const double narrower = std::min(plan.width[0], plan.width[1]);
   if (!(widest > 0 && narrower >= kMillimetres * widest)) return;
   doubts.push_back("the container is " + rounded(narrower) + " m wide, " + rounded(narrower / widest) +
-                   " times the largest grain, " + rounded(widest) +
-                   " m: lengths are in m; millimetres would give this factor (container, grain.half_axes)");
+                   " times the largest grain, " + rounded(widest) + " m: lengths are in m; millimetres would give this factor");
 }
 
 }  // namespace falling_particles

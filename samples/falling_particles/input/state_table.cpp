@@ -107,7 +107,8 @@ StateTable::StateTable(const std::filesystem::path& path) : path_(path), text_(r
   is_dump_ = text_.starts_with("ITEM:");
   Lines lines(text_);
   is_dump_ ? read_dump(lines) : read_csv(lines);
-  if (rows_.empty()) fail(std::max(lines.number(), 1U), "the file has no grains and no bonds; allowed: a line for each of them");
+  if (rows_.empty())
+    fail(std::max(lines.number(), 1U), "the file has only its head, or nothing; allowed: a line for each grain, bond or part");
 }
 
 void StateTable::fail(unsigned line, const std::string& text) const { throw InputError(path_.string(), line, text); }

@@ -191,8 +191,8 @@ TEST_CASE("start: mistakes in a CSV file are refused with line and column") {
   }
   const std::string head = "body,grain,x_m,y_m,z_m,qw,qx,qy,qz\n4,pea,0.01,0.01,0.01,1,0,0,0\n";
   check_says(Loaded(head + "4,pea,0.02,0.02,0.02,1,0,0,0\n").text, {"state:3: body is 4, which another line has"});
-  check_says(Loaded("grain,x_m,y_m,z_m,qw,qx,qy,qz\n").text, {"state:1: the file has no grains and no bonds"});
-  check_says(Loaded("").text, {"state:1: the file has no grains and no bonds"});
+  check_says(Loaded("grain,x_m,y_m,z_m,qw,qx,qy,qz\n").text, {"state:1: the file has only its head, or nothing"});
+  check_says(Loaded("").text, {"state:1: the file has only its head, or nothing"});
   check_says(Loaded("grain,x,y,z\npea,0,0,0\n").text, {R"(state:1: unknown column "x"; did you mean "x_m"?)"});
   check_says(Loaded("grain;x_m;y_m\npea;0,1;0,2\n").text,
              {"state:1: the line with the names of the columns is \"grain;x_m;y_m\", without a comma",
