@@ -280,7 +280,8 @@ void refuse_missing(const TomlTable& root) {
   for (const char* key : {"seed", "catalogue", "time", "container", "grain", "solver"}) {
     if (!root.has(key)) missing.emplace_back(key);
   }
-  if (missing.size() > 1) root.fail("", join(missing) + " are missing; every scene has them, and samples/scenes/short.toml is a small one");
+  if (missing.size() > 1)
+    root.fail("", join(missing) + " are missing; every scene has them, and samples/scenes/short.toml is a small one");
 }
 
 Scene load(const TomlFile& file, const std::string& path, const std::string& called, const std::vector<std::string>& overrides) {
