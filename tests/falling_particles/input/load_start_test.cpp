@@ -72,7 +72,7 @@ Loaded with_parts(const std::string& rows) {
   const std::string path = folder.write("scene.toml", kSceneText + brick);
   Loaded loaded(kOneGrain);
   loaded.text =
-      without_folder(refusal_by([&] { loaded.scene = load_scene(path, {"start={file=\"state\",parts=\"parts.csv\"}"}); }), folder);
+      without_folder(refusal_by([&] { loaded.scene = load_scene(path, {R"(start={file="state",parts="parts.csv"})"}); }), folder);
   return loaded;
 }
 
