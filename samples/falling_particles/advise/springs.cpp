@@ -15,6 +15,7 @@
 #include "doubts.hpp"
 #include "model/grain_mesh.hpp"
 #include "model/grain_shape.hpp"
+#include "model/material.hpp"
 #include "step.hpp"
 
 namespace falling_particles {
@@ -73,7 +74,7 @@ Spring spring_of(const fx::Effect& effect, const Scene& scene, double mobility) 
   }
   const auto& hertz = std::get<fx::Hertz>(effect);
   const double radius = scene.smallest_half_axis() / 2, speed = largest_speed(scene);
-  const double modulus = hertz.youngs_modulus / (1 - hertz.poisson_ratio * hertz.poisson_ratio) / 2;
+  const double modulus = contact_modulus(hertz);
   const double depth = std::pow(15 * speed * speed / (16 * mobility * modulus * std::sqrt(radius)), 0.4);
   return {"hertz.youngs_modulus", "Pa", hertz.youngs_modulus, 2 * modulus * std::sqrt(radius * depth), 0.8};
 }

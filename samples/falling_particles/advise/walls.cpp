@@ -7,6 +7,7 @@
 
 #include "common/interval.hpp"
 #include "doubts.hpp"
+#include "model/material.hpp"
 #include "model/wall_doubts.hpp"
 #include "observe/wall_mesh.hpp"
 #include "step.hpp"
@@ -69,7 +70,7 @@ double contact_stiffness(const supernormal::effects::Effect& effect, double diam
   if (const auto* const spring = std::get_if<supernormal::effects::Compliance>(&effect)) return spring->stiffness;
   const auto* const hertz = std::get_if<supernormal::effects::Hertz>(&effect);
   if (hertz == nullptr) return 0;
-  const double modulus = hertz->youngs_modulus / (2 * (1 - hertz->poisson_ratio * hertz->poisson_ratio));
+  const double modulus = contact_modulus(*hertz);
   return std::cbrt(6 * modulus * modulus * diameter / 2 * force);
 }
 

@@ -15,6 +15,11 @@ constexpr auto kGrainOnWall = supernormal::effects::MaterialSelector::between(kG
 /// The largest number of walls with coefficients of their own.
 inline constexpr int kMostWallMaterials = 60;
 
+/// Pa; the contact modulus E* of two bodies of this material (Johnson, Contact Mechanics, 4.2).
+inline double contact_modulus(const supernormal::effects::Hertz& hertz) {
+  return hertz.youngs_modulus / (2 * (1 - hertz.poisson_ratio * hertz.poisson_ratio));
+}
+
 /// The common material of walls, or a material of its own for a wall with coefficients of its own.
 supernormal::effects::Material material_of_wall(const std::vector<Wall>& walls, std::size_t index);
 

@@ -140,8 +140,7 @@ Contacts find_contacts(const Scene& scene, const Law& law, const Extremes& extre
   double impact = 0, stiffness = 0;  // s, of the lightest pair; N/m
   if (law.hertz != nullptr) {
     words << "hertz " << law.hertz->youngs_modulus << ' ' << law.hertz->poisson_ratio;
-    const double modulus = law.hertz->youngs_modulus / (2 * (1 - law.hertz->poisson_ratio * law.hertz->poisson_ratio));
-    const double k = 4.0 / 3 * modulus * std::sqrt(smallest / 2);
+    const double k = 4.0 / 3 * contact_modulus(*law.hertz) * std::sqrt(smallest / 2);
     const double fastest = std::max(speed, 0.1);
     impact = kHertzImpact * std::pow(1.25 * lightest / 2 * fastest * fastest / k, 0.4) / fastest;
   } else {
