@@ -118,6 +118,36 @@ TEST_CASE("lammps: a rod across a drum lies on both of its ends") {
   CHECK(contacts[0].normal.x() == relative(-contacts[1].normal.x()).epsilon(1e-9));
 }
 
+TEST_CASE("lammps: the energy of a rod in a drum has no jump where one contact becomes two, and the torque is its slope") {
+  constexpr double kTurn = 1e-4;  // rad
+  Floor drum;
+  drum.wall = std::make_shared<CylinderWall>(Vector3::Zero(), Vector3::UnitY(), 0.05);
+  const ContactMaterial material = prepared({.stiffness = 1e5});
+  for (const double exponent : {2.0, 3.0, 6.0}) {
+    Particle rod({0.03, 0.004, 0.004}, 2, exponent);
+    for (const double aside : {0.0, 0.0007}) {
+      CAPTURE(exponent);
+      CAPTURE(aside);
+      double miss = 0, least = 1;
+      int fewest = 2, most = 0;
+      WallForce last;
+      for (double yaw = 0; yaw <= 0.5 * std::numbers::pi; yaw += kTurn) {
+        rod.place({aside, 0, -0.0461}, Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Vector3::UnitZ())));
+        const WallForce force = drum.find(rod, material, 0);
+        const double work = 0.5 * kTurn * (last.torque + force.torque).z();
+        if (yaw > 0) miss = std::max(miss, std::abs(force.energy - last.energy + work));
+        least = std::min(least, force.energy);
+        fewest = std::min(fewest, force.contacts);
+        most = std::max(most, force.contacts);
+        last = force;
+      }
+      CHECK(most == 2);
+      if (exponent == 2) CHECK(fewest == 1);
+      CHECK(miss < 5e-3 * least);
+    }
+  }
+}
+
 TEST_CASE("lammps: a floor of triangles has the contacts of a plane") {
   MeshWall mesh(square(0.5));
   PlaneWall plane(Vector3::Zero(), Vector3::UnitZ());

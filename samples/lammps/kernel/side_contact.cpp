@@ -371,6 +371,7 @@ std::optional<FaceContact> find_pipe_contact(const Body& body, const Pipe& pipe,
   contact.share = tilt.share;
   contact.share_by_turn = tilt.by_turn;
   for (const int sign : {-1, 1}) {
+    if (which >= normals.size()) break;
     const PipeEnd end = find_pipe_end(body, *side, sign, pipe, normals[which]);
     const auto nearest = std::ranges::max_element(normals, {}, [&](const Vector3& one) { return one.dot(end.normal); });
     if (nearest == normals.begin() + static_cast<std::ptrdiff_t>(which)) add_end(end.depth, end.point, end.normal, contact);

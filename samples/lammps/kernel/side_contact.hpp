@@ -20,7 +20,7 @@ std::optional<FaceContact> find_side_pair_contact(const Body& body1, const Body&
 
 /// The contact of a side that runs around a body with a pipe along it, at the contact `which` of those with these normals (unit,
 /// outwards). Each end of the side is a corner of the contact whose normal is nearest to the normal of the end: askew, a can
-/// touches with each end at another place.
+/// touches with each end at another place. No corner belongs to a `which` past the last.
 std::optional<FaceContact> find_pipe_contact(const Body& body, const Pipe& pipe, std::span<const Vector3> normals,
                                              std::size_t which);
 

@@ -12,7 +12,11 @@
 namespace granular {
 namespace {
 
-constexpr int kIntervals = 32;  // subdivision of the arc of normals along which the body can protrude
+// Subdivision of the arc of normals along which the body can protrude, and of an interval with a maximum in it. Two maxima within
+// the last are one. Where a rod of exponent 3 gets its second contact, its energy jumps by 0.2 of itself with a second number of 1,
+// by 2e-2 with 3, and by 2e-3 with 7. Odd: the middle of the arc, where a symmetrical body has a minimum, is no border.
+constexpr int kIntervals = 33;
+constexpr int kFine = 7;
 
 /// The support function of a body for directions perpendicular to an axis through the origin.
 class Outline {
@@ -30,7 +34,8 @@ class Outline {
     return pose_.position + pose_.rotation * shape_.body.point(pose_.rotation.transpose() * u);
   }
 
-  /// The derivatives of value().
+  /// The derivative of value(), alone and with the second one.
+  double rise(double angle) const { return along(angle).dot(point(direction(angle))); }
   ArcSlope slope(double angle) const {
     const Vector3 u = direction(angle), t = along(angle), t_body = pose_.rotation.transpose() * t;
     const supernormal::Jet jet = shape_.body.jet(pose_.rotation.transpose() * u);
@@ -65,21 +70,36 @@ void CylinderWall::add_contacts(const ParticleShape& shape, const supernormal::P
   const double reach = radius_ - shape.bounding_radius, distance = offset.norm();
   const double half = reach > -distance ? std::acos(reach / distance) : std::numbers::pi;
   const double spacing = 2 * half / kIntervals;
-  double low = middle - half, low_value = outline.value(low);
-  for (int k = 1; k <= kIntervals; ++k) {
-    const double high = middle - half + k * spacing, high_value = outline.value(high);
+  // Appends the maximum or the minimum between two angles with these slopes.
+  const auto add_extremum = [&](double low, double slope_low, double high, double slope_high) {
+    const double sign = slope_low > 0 ? 1 : -1;
+    if (slope_low == 0 || sign * slope_high > 0) return;
+    if (sign < 0 && std::min(outline.value(low), outline.value(high)) <= radius_) return;
+    const auto uphill = [&](double here) -> ArcSlope {
+      const ArcSlope slope = outline.slope(here);
+      return {sign * slope.first, sign * slope.second};
+    };
+    const double angle = find_maximum_on_arc(uphill, low, high);
+    const Vector3 u = outline.direction(angle), along = outline.along(angle);
+    const double depth = outline.value(angle) - radius_;
+    if (depth <= (sign > 0 ? -shape.bulge : 0)) return;
+    contacts.push_back({u, outline.point(u) + point_, depth, -along * along.transpose() / radius_, std::nullopt, pipe, sign < 0});
+  };
+  double low_value = outline.value(middle - half);
+  for (int k = 0; k < kIntervals; ++k) {
+    const double low = middle - half + k * spacing, high_value = outline.value(low + spacing);
     // The two tangents intersect no farther out than this between the two normals.
     const bool may_stick_out = std::max(low_value, high_value) > (radius_ - shape.bulge) * std::cos(0.5 * spacing);
-    if (may_stick_out && outline.slope(low).first > 0 && outline.slope(high).first <= 0) {
-      const double angle = find_maximum_on_arc([&](double here) { return outline.slope(here); }, low, high);
-      const Vector3 u = outline.direction(angle), along = outline.along(angle);
-      const double depth = outline.value(angle) - radius_;
-      if (depth > -shape.bulge) {
-        contacts.push_back({u, outline.point(u) + point_, depth, -along * along.transpose() / radius_, std::nullopt, pipe});
-      }
-    }
-    low = high;
     low_value = high_value;
+    if (!may_stick_out) continue;
+    const double at_low = outline.rise(low), at_high = outline.rise(low + spacing);
+    const int parts = at_low > 0 && at_high <= 0 ? kFine : 1;
+    double slope = at_low;
+    for (int part = 1; part <= parts; ++part) {
+      const double next = part < parts ? outline.rise(low + part * spacing / parts) : at_high;
+      add_extremum(low + (part - 1) * spacing / parts, slope, low + part * spacing / parts, next);
+      slope = next;
+    }
   }
 }
 

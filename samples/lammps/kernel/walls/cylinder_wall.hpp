@@ -9,7 +9,8 @@ namespace granular {
 ///
 /// A body K protrudes from a cylinder by max |p - axis| - radius over its points p. |p| is the largest p.u over the unit vectors u
 /// perpendicular to the axis. So the protrusion is the largest support function h(u) of the body, relative to the axis, minus the
-/// radius. This leaves one unknown angle. Each maximum is a contact, so a long particle rests on both of its ends.
+/// radius. This leaves one unknown angle. Each maximum is a contact, so a long particle rests on both of its ends. The minimum
+/// between two of them is subtracted.
 class CylinderWall final : public Wall {
  public:
   /// A point of the axis, m; its direction, any length but 0; the radius, m, > 0. Throws std::invalid_argument otherwise.

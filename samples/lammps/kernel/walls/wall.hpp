@@ -23,6 +23,9 @@ struct WallContact {
   Matrix3 curvature = Matrix3::Zero();  ///< 1/m; of the wall; negative where it is concave
   std::optional<Ground> ground{};       ///< on which faces and sides rest; until the next query
   std::optional<Pipe> pipe{};           ///< along which sides lie
+  /// Whether the depth is a minimum between two contacts. Its energy and force are subtracted: where one contact becomes two, the
+  /// minimum is as deep as they are, and the sum goes on without a jump.
+  bool is_between = false;
 };
 
 /// A wall at rest in its own frame.

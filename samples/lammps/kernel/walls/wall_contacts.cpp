@@ -40,10 +40,14 @@ std::optional<FaceContact> find_faces(std::span<const WallContact> contacts, std
   }
   if (!found.pipe || which >= WallHistory::kMost) return std::nullopt;
   std::array<Vector3, WallHistory::kMost> normals;
-  const std::size_t count = std::min(contacts.size(), normals.size());
-  for (std::size_t k = 0; k < count; ++k) normals.at(k) = wall.rotation * contacts[k].normal;
+  std::size_t count = 0, own = normals.size();
+  for (std::size_t k = 0; k < std::min(contacts.size(), normals.size()); ++k) {
+    if (contacts[k].is_between) continue;
+    if (k == which) own = count;
+    normals.at(count++) = wall.rotation * contacts[k].normal;
+  }
   const Pipe pipe{wall.position + wall.rotation * found.pipe->point, wall.rotation * found.pipe->axis, found.pipe->radius};
-  return find_pipe_contact(particle, pipe, std::span(normals).first(count), which);
+  return find_pipe_contact(particle, pipe, std::span(normals).first(count), own);
 }
 
 }  // namespace
@@ -78,12 +82,13 @@ WallForce find_wall_force(Wall& wall, const Body& wall_body, const ParticleShape
                                      : contact_force(contact, elastic, material, particle, wall_body, step, one);
     one.normal = contact.normal;
     if (kept.count < WallHistory::kMost) kept.contacts.at(static_cast<std::size_t>(kept.count++)) = one;
-    sum.force += force.force;
-    sum.torque += contact.arm1.cross(force.force) + force.torque;
-    sum.wall_torque -= contact.arm2.cross(force.force) + force.torque;
-    sum.energy += force.energy;
+    const double sign = found.is_between ? -1 : 1;
+    sum.force += sign * force.force;
+    sum.torque += sign * (contact.arm1.cross(force.force) + force.torque);
+    sum.wall_torque -= sign * (contact.arm2.cross(force.force) + force.torque);
+    sum.energy += sign * force.energy;
     sum.depth = std::max(sum.depth, found.depth);
-    ++sum.contacts;
+    sum.contacts += found.is_between ? 0 : 1;
   }
   if (step > 0) history = kept;
   return sum;
