@@ -47,6 +47,14 @@ class Stepper {
     return done;
   }
 
+  /// Whether the stepper moved this body of its in the last step. Otherwise dWorldQuickStep did: a joint holds it, or one that it
+  /// is joined to or touches, that the stepper does not solve.
+  bool moves(dBodyID body) const {
+    const int moved = snStepperMoves(handle_.get(), body);
+    accepted(moved >= 0);
+    return moved == 1;
+  }
+
   /// sag: the largest overlap of a contact at rest, relative to the least radius of gyration of its bodies, in [1e-12, 1]. least
   /// and most: sub-steps of a step, in [1, 1000000].
   void set_accuracy(dReal sag = dReal(2e-3), int least = 8, int most = 64) {

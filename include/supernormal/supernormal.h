@@ -446,9 +446,13 @@ SUPERNORMAL_ODE_API int snStepperAddContact(snStepperID stepper, const dContact*
  * done, s. It is less than `step` if bodies have left the paths for which their contacts were found, as after an impact: then
  * collide again, and call it with the rest. Forces and torques on bodies act for the whole step, and are removed as by a step of
  * ODE. In the call with the rest they act on, unless the body has been given a force or a torque since: then that acts in their
- * place. dWorldQuickStep moves what other joints hold (snStepperAddBody). Returns a number < 0 (and snLastError) if it refuses; it
+ * place. dWorldQuickStep moves what other joints hold (snStepperMoves). Returns a number < 0 (and snLastError) if it refuses; it
  * has then changed nothing. */
 SUPERNORMAL_ODE_API dReal snStepperStep(snStepperID stepper, dReal step);
+
+/** Who moved a body in the last snStepperStep: 1 the stepper; 0 dWorldQuickStep, because the body, or one that it is joined to or
+ * touches, has a joint that the stepper does not solve (snStepperAddBody); -1 (and snLastError) if it is none of its bodies. */
+SUPERNORMAL_ODE_API int snStepperMoves(snStepperID stepper, dBodyID body);
 
 /** sag: the largest overlap of a contact at rest, relative to the least radius of gyration of its bodies, in [1e-12, 1]; default
  * 2e-3. least and most: sub-steps of a step, in [1, 1000000]; default 8 and 64. The loads decide between them. Returns 1; 0 (and

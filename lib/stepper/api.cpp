@@ -61,6 +61,14 @@ extern "C" dReal snStepperStep(snStepperID stepper, dReal step) {
   });
 }
 
+extern "C" int snStepperMoves(snStepperID stepper, dBodyID body) {
+  return guarded("snStepperMoves", -1, [&] {
+    require_not_null("stepper", stepper);
+    require_not_null("body", body);
+    return stepper->moves(body) ? 1 : 0;
+  });
+}
+
 extern "C" int snStepperSetAccuracy(snStepperID stepper, dReal sag, int least, int most) {
   return guarded("snStepperSetAccuracy", 0, [&] {
     constexpr int kMostSubSteps = 1000000;

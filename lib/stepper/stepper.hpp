@@ -31,6 +31,9 @@ class Stepper {
   /// The time done, s: less than `time` if bodies have left the paths that their contacts were found for.
   double step(double time);
 
+  /// Whether the last step moved a body itself, and quickstep did not.
+  bool moves(dBodyID moved) const { return !body(index_of("body", moved)).is_held; }
+
   std::vector<double> save(std::span<const dGeomID> geoms) const;
   void load(std::span<const dGeomID> geoms, std::span<const double> numbers);
 

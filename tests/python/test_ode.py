@@ -464,6 +464,7 @@ def tower(look_ahead):
 
 def test_a_stepper_holds_a_tower(tower):
     step, stepper, bodies, collide = tower
+    assert stepper.moves(bodies[0])
     for _ in range(60):
         left = step
         while left > 0:

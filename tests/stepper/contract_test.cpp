@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <string>
 
 #include "stepper/stepper_world.hpp"
 
@@ -370,6 +371,10 @@ TEST_CASE("quickstep moves bodies that were not added, and bodies of other joint
     REQUIRE(snStepperContactForce(scene.stepper, i, force) == 1);
     on_floor += std::abs(double{force[2]});
   }
+  for (const dBodyID body : {left, right, top}) CHECK(snStepperMoves(scene.stepper, body) == 0);
+  CHECK(snStepperMoves(scene.stepper, aside) == 1);
+  CHECK(snStepperMoves(scene.stepper, free) == -1);
+  CHECK(std::string(snLastError()) == "snStepperMoves: body is not a body of the stepper: add it by snStepperAddBody");
   const double weight = kGravity * (2 * mass_of(left) + 2 * mass_of(top) + mass_of(aside));  // the brick on top is carried twice
   CHECK(on_floor == doctest::Approx(weight).epsilon(0.05));
 }

@@ -227,6 +227,7 @@ void bind_stepper(py::module_& m) {
       .def("add_contact", [](Stepper& stepper, const py::handle& contact, py::ssize_t slot, Number body1,
                              Number body2) { stepper.add_contact(read_contact(contact, slot), body(body1), body(body2)); })
       .def("step", [](Stepper& stepper, double time) { return stepper.step(real(time)); })
+      .def("moves", [](const Stepper& stepper, Number b) { return stepper.moves(body(b)); })
       .def("set_accuracy", [](Stepper& stepper, double sag, int least, int most) { stepper.set_accuracy(real(sag), least, most); })
       .def("save", [](const Stepper& stepper, const std::vector<Number>& geoms) { return stepper.save(all_geoms(geoms)); })
       .def("load", [](Stepper& stepper, const std::vector<Number>& geoms,

@@ -383,6 +383,13 @@ class Stepper:
         """
         return self._stepper.step(time)
 
+    def moves(self, body: Any) -> bool:
+        """Whether the stepper moved this ode.Body in the last step.
+
+        Otherwise World.quickStep() did: a joint that the stepper does not solve holds the body, or one that it is joined to or touches.
+        """
+        return self._stepper.moves(self._number("body", body))
+
     def setAccuracy(self, sag: float = 2e-3, least: int = 8, most: int = 64) -> None:
         """Sets the largest overlap of a contact at rest and the numbers of sub-steps of a step.
 
