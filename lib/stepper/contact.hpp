@@ -31,12 +31,13 @@ struct Given {
 };
 
 struct Contact : Link {
-  std::array<Row, 3> rows;  ///< along the normal, and two across it
-  double impact = 0;        ///< N s; along the normal, of all impacts so far in the step
-  double first_gap = 0;     ///< m; when the step began
-  double gap = 0;           ///< m; when the bodies last moved
-  double size = 0;          ///< m; System::size
-  double tangent_mass = 0;  ///< kg; for both directions across the normal
+  std::array<Row, 3> rows;   ///< along the normal, and two across it
+  double impact = 0;         ///< N s; along the normal, of all impacts so far in the step
+  double first_gap = 0;      ///< m; when the step began
+  double gap = 0;            ///< m; when the bodies last moved
+  double size = 0;           ///< m; System::size
+  double tangent_mass = 0;   ///< kg; for both directions across the normal
+  bool will_bounce = false;  ///< in a later sub-step, by the velocities that the bodies had before this one's sweeps
   const Given* given = nullptr;
   const Softness* softness = nullptr;
   int rolling = -1;  ///< in System::rolling; -1: none

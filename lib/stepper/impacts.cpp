@@ -86,6 +86,11 @@ void bounce(System& system, double time) {
     has_bounced = false;
     for (const Pair& pair : system.pairs) has_bounced = striker.strike(pair) || has_bounced;
   }
+  if (!system.has_bounces) return;
+  for (Contact& contact : system.contacts) {
+    const Surface& surface = contact.surface();
+    contact.will_bounce = surface.bounce > 0 && striker.approach(contact) > surface.bounce_speed && !striker.meets(contact);
+  }
 }
 
 }  // namespace supernormal::stepper

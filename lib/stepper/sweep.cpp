@@ -73,6 +73,7 @@ class Sweeper {
   }
 
   bool solve_normal(Contact& contact) const {
+    if (contact.will_bounce) return false;  // closed by a correction, it would stop the body
     Row& row = contact.normal();
     const Surface& surface = contact.surface();
     const double gap = contact.gap - surface.motion[0] * settings_.elapsed;  // from a surface that moves

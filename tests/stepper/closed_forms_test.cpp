@@ -170,6 +170,25 @@ TEST_CASE("a cradle passes its momentum on, whether its balls touch or not") {
   }
 }
 
+TEST_CASE("two balls that strike a cradle are passed on, though corrections of overlaps close the gap before the ball that comes") {
+  OdeSession session;
+  constexpr double kStep = 0.001, kRadius = 0.1;
+  for (const auto& [gap, way] : {std::pair(0.04, 0.1985), {0.05, 0.1975}, {0.06, 0.1985}, {0.07, 0.198}}) {  // in radii
+    const double speed = way * kRadius / kStep;
+    StepperWorld scene(kStep);
+    scene.surface.mode |= dContactBounce;
+    scene.surface.bounce = 1;
+    dWorldSetGravity(scene.world.id(), 0, 0, 0);
+    std::array<dBodyID, 6> balls{};
+    for (std::size_t i = 0; i < 6; ++i) {
+      balls[i] = scene.add_ball(kRadius, {double(i) * (2 + gap) * kRadius - (i < 2 ? 4 * kRadius : 0), 0, 0});
+      if (i < 2) set_velocity(balls[i], {speed, 0, 0});
+    }
+    scene.run(60 * kStep);
+    for (std::size_t i = 0; i < 6; ++i) CHECK(std::abs(velocity_of(balls[i])[0] - (i < 4 ? 0 : speed)) < 0.01 * speed);
+  }
+}
+
 TEST_CASE("a free body keeps its angular momentum and its energy") {
   OdeSession session;
   StepperWorld scene(0.01);
