@@ -173,7 +173,8 @@ TEST_CASE("a circular equator rolls down an incline with the acceleration of the
   for (const double step : {1e-3, 5e-3, 2e-2}) {
     CAPTURE(step);
     CHECK(acceleration(2, step, true) == relative(0.714286).epsilon(1e-4));
-    CHECK(acceleration(8, step, true) == relative(0.673540).epsilon(1e-4));
+    // The points of the line are on the body, so the radius of their friction is smaller by a thousandth.
+    CHECK(acceleration(8, step, true) == relative(1 / (1 + (1 / 0.673540 - 1) / (0.999 * 0.999))).epsilon(2e-5));
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "supernormal/proximity/pose.hpp"
 #include "supernormal/proximity/proximity.hpp"
@@ -14,6 +15,13 @@ struct ManifoldCorner {
   Vector3 point = Vector3::Zero();  ///< m; in the frame of the query
   double depth = 0;                 ///< m; of the overlap at `point`, from 0 to the depth of the deepest point. Contacts ahead
                                     ///< (contacts_ahead.hpp) have minus the gap, which is negative where the bodies are apart
+};
+
+/// The body on whose boundary the points of a contact ahead are.
+struct PlacedOn {
+  const Shape* shape;  ///< must outlive the manifold
+  Pose pose;           ///< with which the points are on the body
+  Vector3 outwards;    ///< unit; the normal of the contact, out of the body
 };
 
 /// The deepest point of an overlap and, if the bodies are flat, the manifold points: the `corners` of the region on which they
@@ -43,7 +51,8 @@ struct ContactManifold {
   double reach = 0;                                   ///< m; a point with a larger gap is no contact
   /// m; a point this much above the deepest, or as far above it as the overlap is deep, has the least weight when two are merged
   double shallow = 0;
-  int evaluations = 0;  ///< number of boundary points of one body that were evaluated for the manifold points
+  std::optional<PlacedOn> placed_on;  ///< empty if the points are within both bodies, or between them
+  int evaluations = 0;                ///< number of boundary points of one body that were evaluated for the manifold points
 };
 
 /// The manifold of two bodies with a known proximity. Only overlapping bodies have manifold points. These lie in the plane of
@@ -56,7 +65,8 @@ SUPERNORMAL_API ContactManifold find_plane_contact_manifold(const Shape& shape, 
 
 /// Reduces the manifold to at most `max_contacts` contacts. They are the manifold points at distinct places, deepest first, or the
 /// deepest point if there are no manifold points. The first contact has the depth of the overlap. For two or three contacts,
-/// neighbouring points are merged at a place between them. The result is as continuous as the manifold.
+/// neighbouring points are merged at a place between them, which is on the body of ContactManifold::placed_on. The result is as
+/// continuous as the manifold.
 SUPERNORMAL_API ContactManifold reduced_to(ContactManifold manifold, int max_contacts);
 
 }  // namespace supernormal

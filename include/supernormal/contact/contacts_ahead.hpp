@@ -19,10 +19,9 @@ namespace supernormal {
 ///
 /// The depth of a point is minus its gap, which is negative where the bodies are apart. `share` in [0, 1] sets the place of the
 /// contacts along the normal, between the two boundaries: 1 is on body 1, 0 on body 2. Use body 1's fraction of the motion, the
-/// inverse of its mass over the sum of both inverses. At 1 and 0 the manifold points are on the boundary of this body. Those of a
-/// line, on which it may roll, are outside by at most two thousandths of its least extent. Other places in a wide gap would give a
-/// force a lever arm that it does not have when the bodies touch. The result is symmetric under swapping the bodies. reduced_to()
-/// sorts the points by increasing gap.
+/// inverse of its mass over the sum of both inverses. At 1 and 0 the manifold points are on the boundary of this body. Other places
+/// in a wide gap would give a force a lever arm that it does not have when the bodies touch. The result is symmetric under swapping
+/// the bodies. reduced_to() sorts the points by increasing gap.
 SUPERNORMAL_API ContactManifold find_manifold_of_gaps(const Shape& shape1, const Pose& pose1, const Shape& shape2,
                                                       const Pose& pose2, const Proximity& proximity, double share,
                                                       double approach = 0);

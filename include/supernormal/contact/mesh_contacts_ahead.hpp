@@ -28,8 +28,7 @@ struct MeshManifold {
 /// by the radius. The rule for the border of a sheet asks the body itself.
 ///
 /// If the surface is at rest, the contacts are points of the body's boundary, at present or with the orientation at the end of the
-/// step. The manifold points of a line are outside by at most two thousandths of the body's least extent. Only an impact with
-/// friction of a body whose middle is off its centre of mass is moved into the body.
+/// step. Only an impact with friction of a body whose middle is off its centre of mass is moved into the body.
 class SUPERNORMAL_API MeshContactsAhead {
  public:
   /// The region that the body and everything near it cover on the way, relative to the body's box.

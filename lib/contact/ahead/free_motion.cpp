@@ -188,6 +188,7 @@ void FreeMotion::take_back(double share, ContactManifold& contacts) const {
   deepest.point2 -= time_ * motion2_.velocity;
   deepest.contact -= displacement;
   deepest.gap += closed_at(deepest.contact, deepest.normal);
+  if (contacts.placed_on) contacts.placed_on->pose.position -= displacement;
   for (ManifoldCorner& corner : contacts.corners) {
     corner.point -= displacement;
     corner.depth -= closed_at(corner.point, deepest.normal);

@@ -40,6 +40,7 @@ void take_back(ContactManifold& manifold, const Vector3& displacement1, const Ve
   manifold.deepest.point1 -= displacement1;
   manifold.deepest.point2 -= displacement2;
   manifold.deepest.contact -= displacement;
+  if (manifold.placed_on) manifold.placed_on->pose.position -= displacement;
   for (ManifoldCorner& corner : manifold.corners) corner = {corner.point - displacement, depth_now(corner.depth)};
 }
 

@@ -83,7 +83,10 @@ class FirstImpact {
     hits_ = true;
     time_ = meeting.time;
     there_ = meeting.there;
-    there_.contact -= 0.5 * there_.gap * there_.normal;  // on the body
+    const Pose pose{body_->pose.position + time_ * body_->motion.velocity, body_->pose.rotation};
+    const RayHit on_body = find_ray_hit(body_->shape, pose, there_.contact + size_ * there_.normal, -there_.normal, 2 * size_);
+    evaluations_ += on_body.evaluations;
+    if (on_body.hit) there_.contact = on_body.point;
     return true;
   }
 
@@ -301,6 +304,7 @@ std::optional<MeshManifold> MeshContactsAhead::find_after(const Search& search, 
   manifold.deepest.normal = frame.end.rotation * manifold.deepest.normal;
   for (Vector3* place : {&manifold.deepest.point1, &manifold.deepest.point2, &manifold.deepest.contact}) to_end(*place);
   for (ManifoldCorner& corner : manifold.corners) to_end(corner.point);
+  if (manifold.placed_on) manifold.placed_on = {&shape, motion.end1(), manifold.deepest.normal};
   motion.take_back(search.share, manifold);
   manifold.reach = search.reach_along(manifold.deepest.normal, Vector3::Zero());
   return MeshManifold{manifold, nearest.triangle};
@@ -433,7 +437,7 @@ ContactManifold MeshContactsAhead::manifold_of(const Search& search, const Pose&
   draw_in_corners(manifold, search.triangles);
   for (std::size_t k = 0; k < static_cast<std::size_t>(manifold.corner_count); ++k) {
     Vector3& point = manifold.corners[k].point;
-    if (point != corners[k].point) point = find_boundary_point(shape, pose, there.normal, point, evaluations_);
+    if (point != corners[k].point) put_on_boundary(manifold, point);
   }
   return manifold;
 }

@@ -192,13 +192,11 @@ void act_between_centres(const BodyAhead& body1, const BodyAhead& body2, double 
 }
 
 void limit_rotation(const BodyAhead& body1, const BodyAhead& body2, double time, double share, ContactManifold& manifold) {
-  const Vector3& normal = manifold.deepest.normal;
   const LeverLimit limit(body1, body2, time, share, manifold.deepest);
   if (!(limit.approach() > 0)) return;
   const auto move = [&](Vector3& point, const Vector3& shift) {
     point += shift;
-    if (!shift.isZero(0) && share == 1) point = find_boundary_point(body1.shape, body1.pose, normal, point, manifold.evaluations);
-    if (!shift.isZero(0) && share == 0) point = find_boundary_point(body2.shape, body2.pose, -normal, point, manifold.evaluations);
+    if (!shift.isZero(0)) put_on_boundary(manifold, point);
     point += limit.shift_for_friction(point);
   };
   Vector3& contact = manifold.deepest.contact;

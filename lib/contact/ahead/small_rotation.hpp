@@ -6,8 +6,8 @@
 namespace supernormal {
 
 /// Moves the contacts of a manifold at the present poses in the tangent plane, towards the line through the centre of mass, as far
-/// as needed to limit the rotation within `time`. `share` is the share of body 1 in the mobilities. If only one body moves, the
-/// contacts stay on its boundary: along the normal a place changes nothing but the lever arm of friction.
+/// as needed to limit the rotation within `time`. `share` is the share of body 1 in the mobilities. The contacts stay on the
+/// boundary of ContactManifold::placed_on: along the normal a place changes nothing but the lever arm of friction.
 ///
 /// Contacts are linear in the motion, so they are valid for small rotations only. An impact with lever arm a stops the body at the
 /// contact, but its centre keeps the fraction a^2 / (a^2 + k^2) of its velocity, with the radius of gyration k. If the displacement

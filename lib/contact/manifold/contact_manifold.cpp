@@ -135,8 +135,10 @@ void put_deepest_first(std::span<ManifoldCorner> corners, double shallow) {
 ContactManifold find_manifold(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
                               const Proximity& proximity, double approach, std::optional<double> share) {
   ContactManifold manifold(proximity);
-  if (proximity.status == Status::InvalidInput || !may_have_corners(shape1) || !may_have_corners(shape2)) return manifold;
   const Vector3& n = proximity.normal;
+  if (share == 1) manifold.placed_on = {&shape1, pose1, n};
+  if (share == 0) manifold.placed_on = {&shape2, pose2, -n};
+  if (proximity.status == Status::InvalidInput || !may_have_corners(shape1) || !may_have_corners(shape2)) return manifold;
   const double depth = std::max({0.0, -proximity.gap, approach});
   const SupportPolygon::Rim rim = share ? SupportPolygon::Rim::NotSmall : SupportPolygon::Rim::Any;
   const SupportPolygon polygon1(shape1, pose1, n, proximity.point1, depth, rim, shape2.half_extents().minCoeff());
@@ -148,8 +150,7 @@ ContactManifold find_manifold(const Shape& shape1, const Pose& pose1, const Shap
   const std::optional<CornerList> corners = find_common_corners(polygon1, polygon2, n, proximity.contact);
   if (corners && share) {
     write_gaps(*corners, proximity.gap, manifold);
-    if (*share == 1) put_on_body(shape1, pose1, polygon1, n, manifold);
-    if (*share == 0) put_on_body(shape2, pose2, polygon2, -n, manifold);
+    put_on_body(*share == 1 ? polygon1 : polygon2, manifold);
   } else if (corners) {
     const double allowed = std::min(allowed_separation(polygon1), allowed_separation(polygon2));
     write_depths(*corners, allowed, proximity.gap, manifold);
@@ -162,6 +163,7 @@ ContactManifold find_manifold(const Shape& shape1, const Pose& pose1, const Shap
 ContactManifold find_plane_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity, double approach,
                                     bool of_gaps) {
   ContactManifold manifold(proximity);
+  if (of_gaps) manifold.placed_on = {&shape, pose, proximity.normal};
   if (proximity.status == Status::InvalidInput || !may_have_corners(shape)) return manifold;
   Vector3 stands_on = proximity.point1;
   double gap = proximity.gap;
@@ -183,7 +185,7 @@ ContactManifold find_plane_manifold(const Shape& shape, const Pose& pose, const 
   const CornerList corners = corners_over_plane(polygon, proximity.normal);
   if (of_gaps) {
     write_gaps(corners, gap, manifold);
-    put_on_body(shape, pose, polygon, proximity.normal, manifold);
+    put_on_body(polygon, manifold);
   } else {
     write_depths(corners, allowed_separation(polygon), gap, manifold);
   }
@@ -230,6 +232,7 @@ ContactManifold reduced_to(ContactManifold manifold, int max_contacts) {
   if (max_contacts < 2) manifold.corner_count = 0;
   if (manifold.corner_count == 0) return manifold;
   std::array<ManifoldCorner, ContactManifold::kMaxCorners>& corners = manifold.corners;
+  const std::array<ManifoldCorner, ContactManifold::kMaxCorners> given = corners;
   const bool may_arrive = std::max(manifold.reach, manifold.deepest.gap) > 0;
   if (max_contacts == 2 && may_arrive && is_face(manifold)) {
     manifold.corner_count = 0;
@@ -242,6 +245,10 @@ ContactManifold reduced_to(ContactManifold manifold, int max_contacts) {
   if (max_contacts < 4) merge(corners[0], corners[1], depth - shallow, least_weight);
   if (max_contacts < 3) merge(corners[2], corners[3], depth - shallow, least_weight);
   join_near(manifold);
+  for (ManifoldCorner& corner : std::span(corners).first(static_cast<std::size_t>(manifold.corner_count))) {
+    const auto is_here = [&](const ManifoldCorner& other) { return other.point == corner.point; };
+    if (std::ranges::none_of(given, is_here)) put_on_boundary(manifold, corner.point);
+  }
   put_deepest_first({corners.begin(), static_cast<std::size_t>(manifold.corner_count)}, shallow);
   corners[0].depth = depth;  // equal up to rounding
   return manifold;

@@ -48,14 +48,17 @@ void write_gaps(const CornerList& corners, double gap, ContactManifold& manifold
   manifold.corner_count = ContactManifold::kMaxCorners;
 }
 
-Vector3 find_boundary_point(const Shape& shape, const Pose& pose, const Vector3& normal, const Vector3& place, int& evaluations) {
-  const RayHit hit = find_ray_hit(shape, pose, place + 2 * shape.bounding_radius() * normal, -normal, HUGE_VAL);
-  evaluations += hit.evaluations;
-  return hit.hit ? hit.point : place;
+void put_on_boundary(ContactManifold& manifold, Vector3& point) {
+  if (!manifold.placed_on) return;
+  const auto& [shape, pose, outwards] = *manifold.placed_on;
+  const RayHit hit = find_ray_hit(*shape, pose, point + 2 * shape->bounding_radius() * outwards, -outwards, HUGE_VAL);
+  manifold.evaluations += hit.evaluations;
+  if (hit.hit) point = hit.point;
 }
 
-void put_on_body(const Shape& shape, const Pose& pose, const SupportPolygon& polygon, const Vector3& normal,
-                 ContactManifold& manifold) {
+void put_on_body(const SupportPolygon& polygon, ContactManifold& manifold) {
+  if (!manifold.placed_on) return;
+  const Vector3& normal = manifold.placed_on->outwards;
   for (ManifoldCorner& corner : manifold.corners) {
     const Vector3 offset = corner.point - polygon.support_point();
     const Vector3 place = offset - normal.dot(offset) * normal;
@@ -63,12 +66,12 @@ void put_on_body(const Shape& shape, const Pose& pose, const SupportPolygon& pol
     for (std::size_t k = 0; k < polygon.vertices().size(); ++k) {
       if ((polygon.vertices()[k] - place).norm() <= kSameVertex * polygon.size()) separation = polygon.separations()[k];
     }
-    const Vector3 in_plane = polygon.support_point() + place;
+    corner.point = polygon.support_point() + place;
     if (std::isnan(separation)) {
-      separation = normal.dot(in_plane - find_boundary_point(shape, pose, normal, in_plane, manifold.evaluations));
+      put_on_boundary(manifold, corner.point);
+    } else {
+      corner.point -= separation * normal;
     }
-    const double of_rounding = separation - std::max(0.0, polygon.slope().dot(place));
-    corner.point = in_plane - (separation - std::clamp(of_rounding, 0.0, polygon.rise())) * normal;
   }
 }
 

@@ -18,13 +18,11 @@ void write_gaps(const CornerList& corners, double gap, ContactManifold& manifold
 /// `allowed_separation` (m), the point moves in towards the deepest point, to where the gap is just as much.
 void write_depths(const CornerList& corners, double allowed_separation, double gap, ContactManifold& manifold);
 
-/// The outermost point of the body's boundary on the line through `place` along `normal` (unit, out of the body); `place` itself if
-/// the line misses the body. Adds to `evaluations`.
-Vector3 find_boundary_point(const Shape& shape, const Pose& pose, const Vector3& normal, const Vector3& place, int& evaluations);
+/// Moves a point along the normal to the boundary of manifold.placed_on, if it is placed on a body and the line meets the body.
+/// Adds to the evaluations of the manifold.
+void put_on_boundary(ContactManifold& manifold, Vector3& point);
 
-/// Moves the manifold points of the tangent plane with this normal, which points out of the body, to the body's boundary. The
-/// points of a line stay outside, on the sloped line, by at most SupportPolygon::rise().
-void put_on_body(const Shape& shape, const Pose& pose, const SupportPolygon& polygon, const Vector3& normal,
-                 ContactManifold& manifold);
+/// Moves the manifold points, which are in a plane along the tangent plane, to the boundary of manifold.placed_on.
+void put_on_body(const SupportPolygon& polygon, ContactManifold& manifold);
 
 }  // namespace supernormal

@@ -323,8 +323,6 @@ void SupportPolygon::place_vertices(const Tilts& tilts) {
   }
 }
 
-double SupportPolygon::rise() const { return (1 - std::min(widths_[0], widths_[1])) * kReach * least_extent_; }
-
 // Makes the first axis the short one. Merging joins the manifold points that differ along this axis, which must be at the same end.
 void SupportPolygon::put_axis_across() {
   const double length0 = widths_[0] * extents_[0];

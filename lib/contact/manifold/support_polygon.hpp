@@ -66,10 +66,6 @@ class SupportPolygon {
   /// m; the smallest of the half-height and the half-extents along the plane.
   double least_extent() const { return least_extent_; }
 
-  /// How far outside of the body the points of a line may be, m; 0 for a face. A body rolls on a line with the radius of its
-  /// equator, as long as its friction acts at this radius.
-  double rise() const;
-
   /// The largest separation of a vertex from the plane, m.
   double largest_separation() const { return largest_separation_; }
 

@@ -100,34 +100,34 @@ TEST_CASE("places of contacts with a plane, or a box at rest, are on the body th
   }
 }
 
-TEST_CASE("manifold points are on the body that moves; those of a line within 0.003 of its smallest half-extent") {
+TEST_CASE("manifold points are on the body that moves: of faces and lines, of any flatness, all, three or two of them") {
   const Box box({1, 1, 0.5});
   const BodyAhead floor = standing(box, {Vector3(0, 0, -0.5), Matrix3::Identity()});
   test::Draw draw(61);
   int points = 0;
   for (int i = 0; i < test::draws(300); ++i) {
     CAPTURE(i);
-    const double exponent = std::array{6.0, 8.0, 20.0, 60.0}[static_cast<std::size_t>(i % 4)];
+    const double exponent = std::array{5.0, 6.0, 8.0, 20.0, 60.0}[static_cast<std::size_t>(i % 5)];
     const bool is_can = i % 3 == 0;
     const Superellipsoid body({0.01, is_can ? 0.01 : 0.008, 0.005}, is_can ? 2 : exponent, exponent);
-    const bool is_face = i % 2 == 0 && exponent > 6;
     const double tilt = i % 2 == 0 ? draw.log_uniform(1e-6, 0.02) : std::numbers::pi / 2;
     const Matrix3 rotation = Eigen::AngleAxisd(tilt, draw.direction()).toRotationMatrix();
     const double height = body.support(rotation.transpose() * -Vector3::UnitZ());
-    const Vector3 velocity(draw.uniform(-2, 2), draw.uniform(-2, 2), i % 5 == 0 ? 0 : -draw.log_uniform(0.01, 10));
+    const Vector3 velocity(draw.uniform(-2, 2), draw.uniform(-2, 2), i % 7 == 0 ? 0 : -draw.log_uniform(0.01, 10));
     const double above = draw.uniform(-1e-6, 1) * kTime * -velocity.z();
     const BodyAhead there = moving(body, {Vector3(0, 0, height + above), rotation}, velocity);
     for (const ContactManifold& found : {find_on_plane(there), find(there, floor), find(floor, there)}) {
-      for (int k = 0; k < found.corner_count; ++k) {
-        const ManifoldCorner& corner = found.corners[static_cast<std::size_t>(k)];
-        const double off = distance_from(there, corner.point);
-        CHECK(off > -std::max(0.0, corner.depth) - 1e-8);
-        CHECK(off < std::max(0.0, corner.depth) + (is_face ? 1e-8 : 3e-3 * 0.005));
-        ++points;
+      for (const int room : {2, 3, 4}) {
+        const ContactManifold reduced = reduced_to(found, room);
+        for (int k = 0; k < reduced.corner_count; ++k) {
+          const ManifoldCorner& corner = reduced.corners[static_cast<std::size_t>(k)];
+          CHECK(std::abs(distance_from(there, corner.point)) < std::max(0.0, corner.depth) + 1e-9);
+          ++points;
+        }
       }
     }
   }
-  CHECK(points > test::draws(1000));
+  CHECK(points > test::draws(2000));
 }
 
 TEST_CASE("a ball that flies at a wall has one contact on the ball, with the present gap and the wall's normal") {

@@ -245,12 +245,12 @@ TEST_CASE("places of contacts are on the body, also where they move to limit its
   CHECK(moved > draws(30));
 }
 
-TEST_CASE("manifold points at the border of a mesh are on the body, those of a line nearly") {
+TEST_CASE("manifold points at the border of a mesh are on the body") {
   const std::vector<MeshTriangle> floor = floor_mesh(4, 0.2).placed();
   const Superellipsoid body({0.1, 0.08, 0.05}, 8, 8);
   MeshContactsAhead ahead;
   Draw draw(58);
-  int points = 0, lines = 0;
+  int points = 0;
   for (int i = 0; i < draws(100); ++i) {
     CAPTURE(i);
     const Vector3 velocity(draw.uniform(-1, 1), draw.uniform(-1, 1), -draw.log_uniform(0.01, 10));
@@ -265,15 +265,12 @@ TEST_CASE("manifold points at the border of a mesh are on the body, those of a l
       for (int k = 0; k < contact.manifold.corner_count; ++k) {
         const ManifoldCorner& corner = contact.manifold.corners[static_cast<std::size_t>(k)];
         const double off = find_proximity(body, there.pose, Sphere(0), {corner.point, Matrix3::Identity()}).gap;
-        const double excess = std::abs(off) - std::max(0.0, corner.depth);
-        CHECK(excess < 0.003 * 0.05);  // of a line
-        lines += excess > 1e-7 ? 1 : 0;
+        CHECK(std::abs(off) < std::max(0.0, corner.depth) + 1e-8);
         ++points;
       }
     }
   }
   CHECK(points > draws(100));
-  CHECK(50 * lines <= points);
 }
 
 TEST_CASE("a ball beside a tile has the tile's normal, on its surface, and rolls on over the border") {

@@ -96,6 +96,11 @@ ContactManifold to_world(ContactManifold local, const Pose& frame) {
     Vector3& point = local.corners[static_cast<std::size_t>(k)].point;
     point = frame.rotation * point + frame.position;
   }
+  if (local.placed_on) {
+    auto& [shape, pose, outwards] = *local.placed_on;
+    pose = {frame.rotation * pose.position + frame.position, frame.rotation * pose.rotation};
+    outwards = frame.rotation * outwards;
+  }
   return local;
 }
 
@@ -168,6 +173,11 @@ void look_ahead(HeightfieldProbe& probe, const Visitor& visitor, const Pose& fra
   first.evaluations = kept.mesh_ahead.evaluations();
   count_query(first, false);
   for (const MeshManifold& contact : found) kept.manifolds.push_back({to_world(contact.manifold, frame), -1});
+  // A body wholly below the surface has no contact ahead, but must be pushed up.
+  Proximity upward;
+  if (found.empty() && !is_above_all(probe, visitor) && find_upward_contact(probe, visitor, upward)) {
+    kept.manifolds.push_back({to_world(upward, frame), -1});
+  }
 }
 
 /// Appends the contacts of the overlap to heightfield_scratch().manifolds, in the world frame.
@@ -240,9 +250,11 @@ int collide_with_heightfield(dGeomID ours, dGeomID collider, int flags, dContact
     const ContactArray out{ours, collider, flags, contacts, skip};
     std::vector<LocatedManifold>& manifolds = heightfield_scratch().manifolds;
     manifolds.clear();
-    if (require_body(ours).look_ahead() > 0) look_ahead(probe, visitor, frame, ours, collider);
-    // A body wholly below the surface has no contact ahead, but must be pushed up.
-    if (manifolds.empty() && !is_above_all(probe, visitor)) look_at_overlap(probe, visitor, frame, out.max_contacts());
+    if (require_body(ours).look_ahead() > 0) {
+      look_ahead(probe, visitor, frame, ours, collider);
+    } else if (!is_above_all(probe, visitor)) {
+      look_at_overlap(probe, visitor, frame, out.max_contacts());
+    }
     return write_contacts(manifolds, out);
   });
 }
