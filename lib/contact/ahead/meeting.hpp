@@ -1,11 +1,61 @@
-// The positions of two bodies at their impact, or at the end of the time step.
+// Which bodies are near enough for a contact, and their positions at their impact, or at the end of the time step.
 #pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 #include "supernormal/contact/contacts_ahead.hpp"
 #include "supernormal/proximity/proximity.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {
+
+// A push within the same step may close a gap up to this fraction of the smaller half-extent.
+inline constexpr double kSlack = 0.01;
+
+/// The farthest that rotation moves a point of the body within `time`, m: at most to the other side.
+inline double shift_by_rotation(const MotionAhead& motion, double time) {
+  return motion.arm * std::min(2.0, motion.angular_velocity.norm() * time);
+}
+
+/// How much faster two bodies may approach after `time`, m/s. One of two falling bodies may be held by others.
+inline double gained_speed(const MotionAhead& motion1, const MotionAhead& motion2, double time) {
+  return time * std::max(motion1.acceleration.norm(), motion2.acceleration.norm());
+}
+
+/// How much more than by their velocities two bodies may approach within `time`, m.
+inline double nearness_of_both(const MotionAhead& motion1, const MotionAhead& motion2, double time, double size) {
+  return shift_by_rotation(motion1, time) + shift_by_rotation(motion2, time) + gained_speed(motion1, motion2, time) * time +
+         kSlack * size;
+}
+
+/// How far two bodies would overlap after `time` at their velocities, along the unit normal from body 1 to body 2, m. Negative:
+/// they stay apart. The weight of a body that rests does not count: it turns nothing over.
+inline double approach_of(const MotionAhead& motion1, const MotionAhead& motion2, double time, const Vector3& normal, double gap) {
+  return normal.dot(motion1.velocity - motion2.velocity) * time - gap;
+}
+
+/// How much farther along `direction` (unit) a body extends after it has turned for `time`, m. `point`: where it extends farthest
+/// now.
+inline double growth_by_rotation(const BodyAhead& body, const Vector3& direction, const Vector3& point, double time) {
+  const Vector3 turn = time * body.motion.angular_velocity.cross(direction);
+  if (turn.isZero(0)) return 0;
+  const double extent = body.shape.support(body.pose.rotation.transpose() * (direction - turn).normalized());
+  return std::clamp(extent - direction.dot(point - body.pose.position), 0.0, turn.norm() * body.motion.arm);
+}
+
+inline bool is_finite(const MotionAhead& motion) {
+  return motion.velocity.allFinite() && motion.centre.allFinite() && motion.turning.allFinite() &&
+         motion.angular_velocity.allFinite() && motion.acceleration.allFinite() && motion.angular_acceleration.allFinite() &&
+         std::isfinite(motion.arm) && std::isfinite(motion.mobility);
+}
+
+/// The share of body 1 in the sum of the mobilities.
+inline double share_of_first(const MotionAhead& motion1, const MotionAhead& motion2) {
+  const double sum = motion1.mobility + motion2.mobility;
+  return sum > 0 ? motion1.mobility / sum : 0.5;
+}
 
 // An overlap below this fraction of the size during the motion is no impact.
 inline constexpr double kGraze = 0.01;

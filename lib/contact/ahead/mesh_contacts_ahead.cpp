@@ -10,9 +10,8 @@
 
 #include "contact/ahead/free_motion.hpp"
 #include "contact/ahead/meeting.hpp"
-#include "contact/ahead/nearness.hpp"
 #include "contact/ahead/small_rotation.hpp"
-#include "contact/manifold/corner_depth.hpp"
+#include "contact/manifold/common_corners.hpp"
 #include "contact/mesh/mesh_triangle.hpp"
 #include "supernormal/impact/mesh_time_of_impact.hpp"
 #include "supernormal/proximity/solve.hpp"

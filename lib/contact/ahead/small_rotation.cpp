@@ -6,9 +6,9 @@
 #include <cstddef>
 
 #include "base/tangent_plane.hpp"
-#include "contact/ahead/nearness.hpp"
+#include "contact/ahead/meeting.hpp"
+#include "contact/manifold/common_corners.hpp"
 #include "contact/manifold/convex_polygon.hpp"
-#include "contact/manifold/corner_depth.hpp"
 #include "supernormal/contact/body_box.hpp"
 
 namespace supernormal {

@@ -5,7 +5,6 @@
 
 #include "base/validation.hpp"
 #include "contact/manifold/convex_polygon.hpp"
-#include "contact/manifold/unit_root.hpp"
 
 namespace supernormal {
 namespace {

@@ -35,4 +35,8 @@ std::optional<CornerList> find_common_corners(const SupportPolygon& polygon1, co
 /// The corners of a body over a plane; `normal` points from the body to the plane.
 CornerList corners_over_plane(const SupportPolygon& polygon, const Vector3& normal);
 
+/// Moves a point along the normal to the boundary of manifold.placed_on, if it is placed on a body and the line meets the body.
+/// Adds to the evaluations of the manifold.
+void put_on_boundary(ContactManifold& manifold, Vector3& point);
+
 }  // namespace supernormal

@@ -1,14 +1,16 @@
 #include "supernormal/contact/contact_manifold.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "contact/manifold/common_corners.hpp"
-#include "contact/manifold/corner_depth.hpp"
 #include "contact/manifold/support_polygon.hpp"
 #include "supernormal/contact/contacts_ahead.hpp"
+#include "supernormal/raycast/ray.hpp"
 
 namespace supernormal {
 namespace {
@@ -29,6 +31,15 @@ constexpr double kToWhole = 0x1.8p52;
 // The weight of a shallow point (ContactManifold::shallow) when two points are merged, as a fraction of its height above the
 // deepest.
 constexpr double kLeastWeight = 0.01;
+
+// Allowed separation of a manifold point beyond the depth, as a fraction of the reach. With a larger fraction, bodies fall asleep
+// tilted. The allowed separation is smaller if all vertices are within kSmallPolygon least extents of the deepest point, as for a
+// stubby capsule. The same separation is a larger angle there.
+constexpr double kAllowedSeparation = 0.5;
+constexpr double kSmallPolygon = 0.5;
+
+// A manifold point is a vertex of the polygon if it differs by less than this fraction of the smallest extent along the plane.
+constexpr double kSameVertex = 1e-9;
 
 /// At any depth: a resting body has a depth of rounding only, and a body that stands on one point for a step slides.
 bool overlaps(const Proximity& proximity) { return proximity.status != Status::Apart && proximity.gap < 0; }
@@ -132,6 +143,60 @@ void put_deepest_first(std::span<ManifoldCorner> corners, double shallow) {
   }
 }
 
+/// m; a manifold point on the polygon whose separation exceeds the depth by more than this is in the air. Faces count as flat
+/// between the manifold points. So only differences of their separations matter (lib/contact/theory.md).
+double allowed_separation(const SupportPolygon& polygon) {
+  double farthest = 0;
+  for (const Vector3& vertex : polygon.vertices()) farthest = std::max(farthest, vertex.norm());
+  return kAllowedSeparation * polygon.reach() * std::min(1.0, farthest / (kSmallPolygon * polygon.least_extent()));
+}
+
+/// Writes the manifold points of an overlap for a solver that knows no gaps. A point has at least the depth 0. If its gap exceeds
+/// `allowed_separation` (m), the point moves in towards the deepest point, to where the gap is just as much.
+void write_depths(const CornerList& corners, double allowed_separation, double gap, ContactManifold& manifold) {
+  const double depth = -gap;
+  const double least = *std::min_element(corners.separations.begin(), corners.separations.end());
+  const Vector3& deepest = manifold.deepest.contact;
+  const double margin_at_deepest = std::max(0.0, depth + allowed_separation + std::min(0.0, least));
+  for (std::size_t k = 0; k < corners.points.size(); ++k) {
+    const double separation = corners.separations[k] - least;
+    const double margin = depth + allowed_separation - separation;
+    const double fraction = margin < 0 ? margin_at_deepest / (margin_at_deepest - margin) : 1;
+    manifold.corners[k] = {deepest + fraction * (corners.points[k] - deepest), std::max(0.0, depth - fraction * separation)};
+  }
+  manifold.corner_count = ContactManifold::kMaxCorners;
+}
+
+/// Writes the manifold points for a solver that knows the gap of each, which is minus its depth. `gap` (m) is the gap of the point
+/// with the smallest separation. The allowed separation does not count: a point in the air supports nothing until it has come down.
+void write_gaps(const CornerList& corners, double gap, ContactManifold& manifold) {
+  const double least = *std::min_element(corners.separations.begin(), corners.separations.end());
+  for (std::size_t k = 0; k < corners.points.size(); ++k) {
+    manifold.corners[k] = {corners.points[k], least - corners.separations[k] - gap};
+  }
+  manifold.corner_count = ContactManifold::kMaxCorners;
+}
+
+/// Moves the manifold points, which are in a plane along the tangent plane, to the boundary of manifold.placed_on.
+void put_on_body(const SupportPolygon& polygon, ContactManifold& manifold) {
+  if (!manifold.placed_on) return;
+  const Vector3& normal = manifold.placed_on->outwards;
+  for (ManifoldCorner& corner : manifold.corners) {
+    const Vector3 offset = corner.point - polygon.support_point();
+    const Vector3 place = offset - normal.dot(offset) * normal;
+    double separation = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t k = 0; k < polygon.vertices().size(); ++k) {
+      if ((polygon.vertices()[k] - place).norm() <= kSameVertex * polygon.size()) separation = polygon.separations()[k];
+    }
+    corner.point = polygon.support_point() + place;
+    if (std::isnan(separation)) {
+      put_on_boundary(manifold, corner.point);
+    } else {
+      corner.point -= separation * normal;
+    }
+  }
+}
+
 ContactManifold find_manifold(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
                               const Proximity& proximity, double approach, std::optional<double> share) {
   ContactManifold manifold(proximity);
@@ -195,6 +260,14 @@ ContactManifold find_plane_manifold(const Shape& shape, const Pose& pose, const 
 }
 
 }  // namespace
+
+void put_on_boundary(ContactManifold& manifold, Vector3& point) {
+  if (!manifold.placed_on) return;
+  const auto& [shape, pose, outwards] = *manifold.placed_on;
+  const RayHit hit = find_ray_hit(*shape, pose, point + 2 * shape->bounding_radius() * outwards, -outwards, HUGE_VAL);
+  manifold.evaluations += hit.evaluations;
+  if (hit.hit) point = hit.point;
+}
 
 ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
                                       const Proximity& proximity) {

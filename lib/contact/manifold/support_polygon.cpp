@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/tangent_plane.hpp"
-#include "contact/manifold/unit_root.hpp"
+#include "contact/manifold/convex_polygon.hpp"
 #include "shapes/lanes/four_normals.hpp"
 #include "shapes/lanes/lane_body_of.hpp"
 

@@ -1,9 +1,42 @@
-// A body over a convex edge. The one unknown is the angle of the normal between the normals of the two faces.
+// Support points of a body, and a body over a convex edge. There the one unknown is the angle of the normal between the normals of
+// the two faces.
 #pragma once
 
-#include "contact/mesh/support_probe.hpp"
+#include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {
+
+/// The point of the body farthest against a normal of the surface: the deepest point over a plane with this normal.
+struct DeepestPoint {
+  Vector3 point;      ///< m
+  double height = 0;  ///< m; normal . point
+};
+
+/// Evaluates support points and counts the evaluations. The frame has the axes of the world and the origin of the body. So a large
+/// distance from the world's origin costs no digits, and the normals of a level floor stay exact.
+class SupportProbe {
+ public:
+  SupportProbe(const Shape& shape, const Matrix3& rotation) : shape_(&shape), rotation_(rotation) {}
+
+  /// `normal`: unit, out of the surface. Does the operations of find_plane_proximity() in the same order, for equal digits.
+  DeepestPoint deepest(const Vector3& normal) {
+    Jet jet;
+    shape_->evaluate(-(rotation_.transpose() * normal), Order::Point, jet);
+    ++evaluations_;
+    return {rotation_ * jet.r, -jet.h};
+  }
+
+  const Shape& shape() const { return *shape_; }
+  const Matrix3& rotation() const { return rotation_; }
+
+  int evaluations() const { return evaluations_; }
+  void count(int evaluations) { evaluations_ += evaluations; }
+
+ private:
+  const Shape* shape_;
+  Matrix3 rotation_;
+  int evaluations_ = 0;
+};
 
 /// The gap at one normal of the arc, and its slope.
 struct ArcSample {
@@ -47,5 +80,12 @@ bool have_maximum_between(const ArcSample& low, const ArcSample& high, double le
 /// `tolerance`: of the gap, m.
 ArcMaximum maximize_between(SupportProbe& probe, const Arc& arc, ArcSample low, ArcSample high, double tolerance,
                             int max_evaluations);
+
+/// Searches the whole arc from `low` to `high` for a normal with a gap above `known` (m). If there is one, `low` and `high` become
+/// the samples around the highest, ready for maximize_between(). A gap less than `tolerance` (m) higher does not count.
+///
+/// Every point of the body bounds the gap from above for all normals: gap(n) <= n . (point - edge_point). The lower of the bounds
+/// of two adjacent samples rules out most arcs without another evaluation. Otherwise its maximum is the next angle to evaluate.
+bool find_higher_maximum(SupportProbe& probe, const Arc& arc, ArcSample& low, ArcSample& high, double known, double tolerance);
 
 }  // namespace supernormal

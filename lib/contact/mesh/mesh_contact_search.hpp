@@ -7,7 +7,6 @@
 
 #include "contact/mesh/arc.hpp"
 #include "contact/mesh/distinct_contacts.hpp"
-#include "contact/mesh/support_probe.hpp"
 #include "contact/mesh/surface.hpp"
 #include "supernormal/contact/body_box.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"

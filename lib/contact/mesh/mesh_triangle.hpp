@@ -1,4 +1,4 @@
-// Validation and tolerances of triangles.
+// Validation and tolerances of triangles, and the proximity of one.
 #pragma once
 
 #include <algorithm>
@@ -22,5 +22,9 @@ inline double longest_side(const MeshTriangle& triangle) {
   const std::array<Vector3, 3>& v = triangle.vertices;
   return std::max({(v[1] - v[0]).norm(), (v[2] - v[1]).norm(), (v[0] - v[2]).norm()});
 }
+
+/// Calls find_proximity() with the two-sided triangle as body 2. `vertices`: m, in the frame of the pose.
+Proximity find_triangle_proximity(const Shape& shape, const Pose& pose, const std::array<Vector3, 3>& vertices,
+                                  const Settings& settings, const Vector3* first_normal = nullptr);
 
 }  // namespace supernormal

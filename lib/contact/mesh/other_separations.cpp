@@ -4,7 +4,6 @@
 #include <limits>
 #include <optional>
 
-#include "contact/mesh/arc_search.hpp"
 #include "contact/mesh/mesh_contact_search.hpp"
 
 namespace supernormal {

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "contact/mesh/triangle_proximity.hpp"
+#include "contact/mesh/mesh_triangle.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "support/mesh_samples.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "contact/mesh/triangle_proximity.hpp"
+#include "contact/mesh/mesh_triangle.hpp"
 #include "supernormal/contact/body_box.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "contact/mesh/triangle_proximity.hpp"
+#include "contact/mesh/mesh_triangle.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 #include "support/mesh_samples.hpp"
 #include "support/relative.hpp"
