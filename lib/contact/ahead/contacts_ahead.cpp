@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "contact/ahead/free_motion.hpp"
-#include "contact/ahead/meeting.hpp"
+#include "contact/ahead/motion_in_step.hpp"
 #include "contact/ahead/small_rotation.hpp"
 #include "contact/manifold/common_corners.hpp"
 #include "supernormal/impact/time_of_impact.hpp"

@@ -8,8 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "contact/ahead/free_motion.hpp"
-#include "contact/ahead/meeting.hpp"
+#include "contact/ahead/motion_in_step.hpp"
 #include "contact/ahead/small_rotation.hpp"
 #include "contact/manifold/common_corners.hpp"
 #include "contact/mesh/mesh_triangle.hpp"

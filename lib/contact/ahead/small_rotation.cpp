@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "base/tangent_plane.hpp"
-#include "contact/ahead/meeting.hpp"
+#include "contact/ahead/motion_in_step.hpp"
 #include "contact/manifold/common_corners.hpp"
 #include "contact/manifold/convex_polygon.hpp"
 #include "supernormal/contact/body_box.hpp"

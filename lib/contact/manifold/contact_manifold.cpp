@@ -151,28 +151,22 @@ double allowed_separation(const SupportPolygon& polygon) {
   return kAllowedSeparation * polygon.reach() * std::min(1.0, farthest / (kSmallPolygon * polygon.least_extent()));
 }
 
-/// Writes the manifold points of an overlap for a solver that knows no gaps. A point has at least the depth 0. If its gap exceeds
-/// `allowed_separation` (m), the point moves in towards the deepest point, to where the gap is just as much.
-void write_depths(const CornerList& corners, double allowed_separation, double gap, ContactManifold& manifold) {
+/// Writes the manifold points, where `gap` (m) is the gap of the one with the smallest separation. If the solver knows the gap of
+/// each, a depth is minus its gap, and none moves: a point in the air supports nothing until it has come down. Otherwise a point
+/// has at least the depth 0. If its gap exceeds `allowed_separation` (m), it moves in towards the deepest point, to where the gap
+/// is just as much.
+void write_corners(const CornerList& corners, bool of_gaps, double allowed_separation, double gap, ContactManifold& manifold) {
   const double depth = -gap;
   const double least = *std::min_element(corners.separations.begin(), corners.separations.end());
   const Vector3& deepest = manifold.deepest.contact;
   const double margin_at_deepest = std::max(0.0, depth + allowed_separation + std::min(0.0, least));
   for (std::size_t k = 0; k < corners.points.size(); ++k) {
-    const double separation = corners.separations[k] - least;
-    const double margin = depth + allowed_separation - separation;
+    ManifoldCorner& corner = manifold.corners[k] = {corners.points[k], depth - (corners.separations[k] - least)};
+    if (of_gaps) continue;
+    const double margin = corner.depth + allowed_separation;
     const double fraction = margin < 0 ? margin_at_deepest / (margin_at_deepest - margin) : 1;
-    manifold.corners[k] = {deepest + fraction * (corners.points[k] - deepest), std::max(0.0, depth - fraction * separation)};
-  }
-  manifold.corner_count = ContactManifold::kMaxCorners;
-}
-
-/// Writes the manifold points for a solver that knows the gap of each, which is minus its depth. `gap` (m) is the gap of the point
-/// with the smallest separation. The allowed separation does not count: a point in the air supports nothing until it has come down.
-void write_gaps(const CornerList& corners, double gap, ContactManifold& manifold) {
-  const double least = *std::min_element(corners.separations.begin(), corners.separations.end());
-  for (std::size_t k = 0; k < corners.points.size(); ++k) {
-    manifold.corners[k] = {corners.points[k], least - corners.separations[k] - gap};
+    corner.point = deepest + fraction * (corner.point - deepest);
+    corner.depth = std::max(0.0, depth - fraction * (depth - corner.depth));
   }
   manifold.corner_count = ContactManifold::kMaxCorners;
 }
@@ -205,22 +199,20 @@ ContactManifold find_manifold(const Shape& shape1, const Pose& pose1, const Shap
   if (share == 0) manifold.placed_on = {&shape2, pose2, -n};
   if (proximity.status == Status::InvalidInput || !may_have_corners(shape1) || !may_have_corners(shape2)) return manifold;
   const double depth = std::max({0.0, -proximity.gap, approach});
-  const SupportPolygon::Rim rim = share ? SupportPolygon::Rim::NotSmall : SupportPolygon::Rim::Any;
-  const SupportPolygon polygon1(shape1, pose1, n, proximity.point1, depth, rim, shape2.half_extents().minCoeff());
+  const SupportPolygon polygon1(shape1, pose1, n, proximity.point1, depth, !share, shape2.half_extents().minCoeff());
   manifold.evaluations = polygon1.evaluations();
   if (!polygon1.has_width()) return manifold;
-  const SupportPolygon polygon2(shape2, pose2, -n, proximity.point2, depth, rim, shape1.half_extents().minCoeff());
+  const SupportPolygon polygon2(shape2, pose2, -n, proximity.point2, depth, !share, shape1.half_extents().minCoeff());
   manifold.evaluations += polygon2.evaluations();
   if (!polygon2.has_width()) return manifold;
   const std::optional<CornerList> corners = find_common_corners(polygon1, polygon2, n, proximity.contact);
-  if (corners && share) {
-    write_gaps(*corners, proximity.gap, manifold);
-    put_on_body(*share == 1 ? polygon1 : polygon2, manifold);
-  } else if (corners) {
+  if (corners) {
     const double allowed = std::min(allowed_separation(polygon1), allowed_separation(polygon2));
-    write_depths(*corners, allowed, proximity.gap, manifold);
+    write_corners(*corners, share.has_value(), allowed, proximity.gap, manifold);
+    put_on_body(share == 1 ? polygon1 : polygon2, manifold);
   }
   manifold.same_place = kSamePlace * std::min(polygon1.size(), polygon2.size());
+  if (share) manifold.shallow = kShallow * manifold.same_place;
   manifold.margin = std::max(0.0, polygon1.largest_separation() + polygon2.largest_separation() + proximity.gap);
   return manifold;
 }
@@ -243,18 +235,14 @@ ContactManifold find_plane_manifold(const Shape& shape, const Pose& pose, const 
       gap -= below;
     }
   }
-  const SupportPolygon::Rim rim = of_gaps ? SupportPolygon::Rim::NotSmall : SupportPolygon::Rim::Any;
-  const SupportPolygon polygon(shape, pose, proximity.normal, stands_on, std::max({0.0, -gap, approach}), rim);
+  const SupportPolygon polygon(shape, pose, proximity.normal, stands_on, std::max({0.0, -gap, approach}), !of_gaps);
   manifold.evaluations += polygon.evaluations();
   if (!polygon.has_width()) return manifold;
   const CornerList corners = corners_over_plane(polygon, proximity.normal);
-  if (of_gaps) {
-    write_gaps(corners, gap, manifold);
-    put_on_body(polygon, manifold);
-  } else {
-    write_depths(corners, allowed_separation(polygon), gap, manifold);
-  }
+  write_corners(corners, of_gaps, allowed_separation(polygon), gap, manifold);
+  put_on_body(polygon, manifold);
   manifold.same_place = kSamePlace * polygon.size();
+  if (of_gaps) manifold.shallow = kShallow * manifold.same_place;
   manifold.margin = std::max(0.0, polygon.largest_separation() + gap);
   return manifold;
 }
@@ -284,15 +272,11 @@ ContactManifold find_manifold_of_gaps(const Shape& shape1, const Pose& pose1, co
                                       const Proximity& proximity, double share, double approach) {
   Proximity placed = proximity;
   placed.contact += (0.5 - share) * proximity.gap * proximity.normal;
-  ContactManifold manifold = find_manifold(shape1, pose1, shape2, pose2, placed, approach, share);
-  manifold.shallow = kShallow * manifold.same_place;
-  return manifold;
+  return find_manifold(shape1, pose1, shape2, pose2, placed, approach, share);
 }
 
 ContactManifold find_plane_manifold_of_gaps(const Shape& shape, const Pose& pose, const Proximity& proximity, double approach) {
-  ContactManifold manifold = find_plane_manifold(shape, pose, proximity, approach, true);
-  manifold.shallow = kShallow * manifold.same_place;
-  return manifold;
+  return find_plane_manifold(shape, pose, proximity, approach, true);
 }
 
 // Which points are merged does not depend on their places, and points that approach each other move together before they become

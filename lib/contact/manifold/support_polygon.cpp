@@ -42,9 +42,6 @@ constexpr double kFlatExponent = 6;
 // In half-extents; two ends nearer to each other than this differ by rounding. The body then ends in an edge or a vertex.
 constexpr double kLeastLength = 1e-6;
 
-// In smallest half-extents; a smaller ball is small (Rim). Flat superellipsoids have a smaller one.
-constexpr double kSmallBall = 0.2;
-
 // A polygon is long from this ratio of its sides on. Any ratio well above 1 does: a square polygon has no axis to tell from.
 constexpr double kLong = 2;
 
@@ -98,7 +95,7 @@ struct SupportPolygon::View {
   std::array<Vector3, 2> axes;
   double rolling_radius;  // m; 0 if the ball takes nothing
 
-  View(const Shape& body, const Pose& pose_of_body, const Vector3& n, const Vector3& point, Rim rim)
+  View(const Shape& body, const Pose& pose_of_body, const Vector3& n, const Vector3& point, bool without_ball)
       : shape(body),
         pose(pose_of_body),
         half_extents(body.half_extents()),
@@ -107,9 +104,7 @@ struct SupportPolygon::View {
         support_point(to_body * (point - pose.position)),
         support_point_there(point),
         axes(axes_in_plane(normal)),
-        rolling_radius(shape.rolling_radius()) {
-    if (rim == Rim::NotSmall && rolling_radius <= kSmallBall * half_extents.minCoeff()) rolling_radius = 0;
-  }
+        rolling_radius(without_ball ? shape.rolling_radius() : 0) {}
 };
 
 /// The points of a body whose normals are tilted against n by the same angle, in units of the half-extents.
@@ -242,8 +237,8 @@ class SupportPolygon::Tilts {
 };
 
 SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth,
-                               Rim rim, double thickness)
-    : SupportPolygon(View(shape, pose, n, support_point, rim), depth, thickness) {}
+                               bool without_ball, double thickness)
+    : SupportPolygon(View(shape, pose, n, support_point, without_ball), depth, thickness) {}
 
 SupportPolygon::SupportPolygon(const View& view, double depth, double thickness)
     : support_point_(view.support_point_there), axes_({view.pose.rotation * view.axes[0], view.pose.rotation * view.axes[1]}) {

@@ -26,15 +26,13 @@ namespace supernormal {
 /// lib/contact/theory.md has the proofs.
 class SupportPolygon {
  public:
-  /// What a ball that rolls in the body takes from its faces and edges: a rim, or nothing if the ball is small. Then the vertices
-  /// are points of the body.
-  enum class Rim { Any, NotSmall };
-
   /// `n`: unit, in the frame that the pose refers to. `support_point`: the body's point with this normal, m. `depth`: the depth of
   /// the overlap, or the one that would form in the step without contact forces, m. `thickness`: the smallest half-extent of the
   /// other body, m. It limits the polygon, because a pebble does not stand on what is flat at the scale of a boulder.
-  SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth, Rim rim,
-                 double thickness = HUGE_VAL);
+  /// `without_ball`: a ball that rolls in the body takes a rim from its faces and edges. Otherwise the vertices are points of the
+  /// body.
+  SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth,
+                 bool without_ball, double thickness = HUGE_VAL);
 
   /// Whether the polygon is more than the support point.
   bool has_width() const { return widths_[0] > 0 || widths_[1] > 0; }
