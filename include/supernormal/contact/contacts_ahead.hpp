@@ -40,8 +40,9 @@ struct MotionAhead {
   Vector3 acceleration = Vector3::Zero();      ///< m/s^2; by gravity and known forces
   /// rad/s^2; by known torques, and of a body that rotates about no principal axis; constant in the time looked ahead
   Vector3 angular_acceleration = Vector3::Zero();
-  double arm = 0;       ///< m; an upper bound on the distance of the body's points from the centre of rotation
-  double mobility = 0;  ///< 1/kg; the inverse of the mass; 0 for a body that does not move under a force
+  double arm = 0;                    ///< m; an upper bound on the distance of the body's points from the centre of rotation
+  bool turns_along_tangent = false;  ///< a step turns the body by 2 atan(angle / 2), as ODE does without finite rotation
+  double mobility = 0;               ///< 1/kg; the inverse of the mass; 0 for a body that does not move under a force
 };
 
 /// m; how much nearer to another body a body may come within `time` (s) than its velocity predicts. Rotation and forces contribute,

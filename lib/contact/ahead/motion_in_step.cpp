@@ -74,21 +74,34 @@ Meeting find_meeting(const BodyAhead& body1, const BodyAhead& body2, double time
 }
 
 FreeMotion::FreeMotion(const BodyAhead& body1, const BodyAhead& body2, double time)
-    : time_(time), centre1_(body1.motion.centre), centre2_(body2.motion.centre), motion1_(of(body1)), motion2_(of(body2)) {
+    : time_(time),
+      centre1_(body1.motion.centre),
+      centre2_(body2.motion.centre),
+      motion1_(of(body1)),
+      motion2_(of(body2)),
+      turning1_(turning_of(body1.motion)),
+      turning2_(turning_of(body2.motion)) {
   const bool rotates = !motion1_.angular_velocity.isZero(0) || !motion2_.angular_velocity.isZero(0);
   bends_ = rotates || body1.motion.acceleration != body2.motion.acceleration;
+}
+
+Vector3 FreeMotion::turning_of(const MotionAhead& motion) const {
+  return motion.angular_velocity + time_ * motion.angular_acceleration;
 }
 
 Motion FreeMotion::of(const BodyAhead& body) const {
   const MotionAhead& motion = body.motion;
   const Vector3 to_centre = motion.centre - body.pose.position;
-  return {body.pose, motion.velocity + time_ * motion.acceleration + motion.angular_velocity.cross(to_centre),
-          motion.angular_velocity + time_ * motion.angular_acceleration, body.pose.rotation.transpose() * to_centre};
+  const Vector3 turning = turning_of(motion);
+  const double half = 0.5 * time_ * turning.norm();
+  const double part = motion.turns_along_tangent && half > 0 ? std::atan(half) / half : 1;
+  return {body.pose, motion.velocity + time_ * motion.acceleration + motion.angular_velocity.cross(to_centre), part * turning,
+          body.pose.rotation.transpose() * to_centre};
 }
 
 double FreeMotion::closed_at(const Vector3& place, const Vector3& normal) const {
-  const Vector3 velocity1 = motion1_.velocity + motion1_.angular_velocity.cross(place - centre1_);
-  const Vector3 velocity2 = motion2_.velocity + motion2_.angular_velocity.cross(place - centre2_);
+  const Vector3 velocity1 = motion1_.velocity + turning1_.cross(place - centre1_);
+  const Vector3 velocity2 = motion2_.velocity + turning2_.cross(place - centre2_);
   return time_ * normal.dot(velocity1 - velocity2);
 }
 

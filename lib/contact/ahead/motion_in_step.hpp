@@ -115,6 +115,7 @@ class FreeMotion {
   void take_back(double share, ContactManifold& contacts) const;
 
  private:
+  Vector3 turning_of(const MotionAhead& motion) const;
   Motion of(const BodyAhead& body) const;
 
   /// How much the bodies approach at `place`, linear in the motion as a row of contact forces is, m.
@@ -123,6 +124,7 @@ class FreeMotion {
   double time_;  // s
   Vector3 centre1_, centre2_;
   Motion motion1_, motion2_;
+  Vector3 turning1_, turning2_;  // rad/s
   bool bends_;
 };
 

@@ -110,6 +110,7 @@ MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius, 
   const Vector3 from_centre = origin - motion.centre;
   motion.velocity = to_vector(dBodyGetLinearVel(body)) + motion.angular_velocity.cross(from_centre);
   motion.arm = radius + 2 * from_centre.norm();
+  motion.turns_along_tangent = dBodyGetFiniteRotationMode(body) == 0;
   if (motion.mobility > 0) {
     motion.acceleration = acceleration_of(body, mass);
     if (time > 0 && is_loose(body))
