@@ -40,51 +40,51 @@ bool is_of_surface(const Proximity& there, const MeshContacts& surface) { return
 class FirstImpact {
  public:
   /// `passed`: if not null, nothing holds the body back at its place. These are its contacts there.
-  FirstImpact(const BodyAhead& body, double time, double size, const MeshContacts* passed, const Settings& settings)
-      : body_(&body), size_(size), passed_(passed), settings_(&settings), time_(time) {}
+  FirstImpact(const BodyAhead& body, double whole_time, double size, const MeshContacts* passed, const Settings& settings)
+      : time(whole_time), body_(&body), size_(size), passed_(passed), settings_(&settings) {}
 
-  void look_at(const MeshTriangle& triangle) {
-    if (!is_usable(triangle)) return;
+  void look_at(const MeshTriangle& face) {
+    if (!is_usable(face)) return;
     const Vector3& velocity = body_->motion.velocity;
-    const std::array<Vector3, 3>& v = triangle.vertices;
+    const std::array<Vector3, 3>& v = face.vertices;
     const Vector3 area = (v[1] - v[0]).cross(v[2] - v[0]);
     const Vector3 inward = -area.normalized();
     const double closing = inward.dot(velocity);
-    const double tilt = 2 * triangle.rounding * longest_side(triangle) / area.norm();
+    const double tilt = 2 * face.rounding * longest_side(face) / area.norm();
     if (!(closing > (kAlong + tilt) * velocity.norm())) return;
     // The tangent plane parallel to the face reaches it no later than the body does.
-    ++evaluations_;
+    ++evaluations;
     const Matrix3& rotation = body_->pose.rotation;
     const double gap = inward.dot(v[0] - body_->pose.position) - body_->shape.support(rotation.transpose() * inward);
-    if (gap >= closing * time_) return;
+    if (gap >= closing * time) return;
     const Vector3 middle = (v[0] + v[1] + v[2]) / 3;
     const std::array<Vector3, 3> corners = {v[0] - middle, v[1] - middle, v[2] - middle};
-    if (meets(Polytope(corners), middle)) triangle_ = triangle.index;
+    if (meets(Polytope(corners), middle)) triangle = face.index;
   }
 
-  bool hits() const { return hits_; }
-  const Proximity& there() const { return there_; }  ///< at the impact
-  double time() const { return time_; }              ///< s; time of impact, or the whole time
-  int triangle() const { return triangle_; }
-  int evaluations() const { return evaluations_; }
+  double time;  ///< s; of the impact, or the whole time
+  bool hits = false;
+  Proximity there;  ///< at the impact
+  int triangle = 0;
+  int evaluations = 0;
 
  private:
-  bool meets(const Polytope& triangle, const Vector3& middle) {
-    const BodyAhead there{triangle, {middle, Matrix3::Identity()}, {}};
-    const Proximity now = find_proximity(body_->shape, body_->pose, triangle, there.pose, *settings_);
-    evaluations_ += now.evaluations;
+  bool meets(const Polytope& shape, const Vector3& middle) {
+    const BodyAhead surface{shape, {middle, Matrix3::Identity()}, {}};
+    const Proximity now = find_proximity(body_->shape, body_->pose, shape, surface.pose, *settings_);
+    evaluations += now.evaluations;
     if (now.status == Status::InvalidInput) return false;
-    const Meeting meeting = find_meeting(*body_, there, time_, size_, *settings_, now);
-    evaluations_ += meeting.evaluations - now.evaluations;
+    const Meeting meeting = find_meeting(*body_, surface, time, size_, *settings_, now);
+    evaluations += meeting.evaluations - now.evaluations;
     if (!meeting.hits) return false;
     if (passed_ != nullptr && meeting.time == 0 && !is_of_surface(meeting.there, *passed_)) return false;
-    hits_ = true;
-    time_ = meeting.time;
-    there_ = meeting.there;
-    const Pose pose{body_->pose.position + time_ * body_->motion.velocity, body_->pose.rotation};
-    const RayHit on_body = find_ray_hit(body_->shape, pose, there_.contact + size_ * there_.normal, -there_.normal, 2 * size_);
-    evaluations_ += on_body.evaluations;
-    if (on_body.hit) there_.contact = on_body.point;
+    hits = true;
+    time = meeting.time;
+    there = meeting.there;
+    const Pose pose{body_->pose.position + time * body_->motion.velocity, body_->pose.rotation};
+    const RayHit on_body = find_ray_hit(body_->shape, pose, there.contact + size_ * there.normal, -there.normal, 2 * size_);
+    evaluations += on_body.evaluations;
+    if (on_body.hit) there.contact = on_body.point;
     return true;
   }
 
@@ -92,11 +92,6 @@ class FirstImpact {
   double size_;
   const MeshContacts* passed_;
   const Settings* settings_;
-  double time_;
-  bool hits_ = false;
-  Proximity there_;
-  int triangle_ = 0;
-  int evaluations_ = 0;
 };
 
 /// Whether the segment between two points meets the triangle.
@@ -221,15 +216,15 @@ std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, con
   for (int impact = 0; impact < kMostImpacts; ++impact) {
     FirstImpact first(there, left, size, passed, settings);
     for (const MeshTriangle& triangle : triangles) first.look_at(triangle);
-    evaluations_ += first.evaluations();
-    left -= first.time();
-    there.pose.position += first.time() * there.motion.velocity;
+    evaluations_ += first.evaluations;
+    left -= first.time;
+    there.pose.position += first.time * there.motion.velocity;
     const Vector3 way = there.pose.position - body.pose.position;
     add_contacts(search, way);
-    if (!first.hits()) break;
+    if (!first.hits) break;
     if (!holds_back(there.motion.velocity)) add_continued(search, way);
-    if (!holds_back(there.motion.velocity) && is_of_surface(first.there(), contacts_)) {
-      add(search, first.there(), first.triangle(), way);
+    if (!holds_back(there.motion.velocity) && is_of_surface(first.there, contacts_)) {
+      add(search, first.there, first.triangle, way);
     }
     passed = holds_back(there.motion.velocity) ? nullptr : &contacts_;
     for (const MeshManifold& found : found_) {

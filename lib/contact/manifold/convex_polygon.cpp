@@ -48,18 +48,17 @@ ConvexPolygon ConvexPolygon::intersected(const ConvexPolygon& other) const {
   return rest;
 }
 
-template <std::size_t kCount>
-std::array<Vector2, kCount> ConvexPolygon::nearest_to(const std::array<Vector2, kCount>& points) const {
-  std::array<Vector2, kCount> nearest;
+std::array<Vector2, 4> ConvexPolygon::nearest_to(const std::array<Vector2, 4>& points) const {
+  std::array<Vector2, 4> nearest;
   nearest.fill(vertices_[0]);
-  std::array<double, kCount> least;
+  std::array<double, 4> least;
   least.fill(HUGE_VAL);
   for (int k = 0; k < size_; ++k) {
     const Vector2 here = (*this)[k];
     const Vector2 edge = (*this)[k + 1 < size_ ? k + 1 : 0] - here;
     const double length = edge.squaredNorm();
     const double divisor = length > 0 ? length : 1;
-    for (std::size_t i = 0; i < kCount; ++i) {
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
       const Vector2 candidate = here + std::clamp(edge.dot(points[i] - here) / divisor, 0.0, 1.0) * edge;
       const double distance = (points[i] - candidate).squaredNorm();
       if (distance >= least[i]) continue;
@@ -69,8 +68,5 @@ std::array<Vector2, kCount> ConvexPolygon::nearest_to(const std::array<Vector2, 
   }
   return nearest;
 }
-
-template std::array<Vector2, 1> ConvexPolygon::nearest_to(const std::array<Vector2, 1>& points) const;
-template std::array<Vector2, 4> ConvexPolygon::nearest_to(const std::array<Vector2, 4>& points) const;
 
 }  // namespace supernormal

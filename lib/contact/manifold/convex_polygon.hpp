@@ -34,11 +34,10 @@ class ConvexPolygon {
   ConvexPolygon intersected(const ConvexPolygon& other) const;
 
   /// The point of the polygon nearest to a point outside. The polygon must have a vertex.
-  Vector2 nearest_to(const Vector2& point) const { return nearest_to(std::array<Vector2, 1>{point})[0]; }
+  Vector2 nearest_to(const Vector2& point) const { return nearest_to(std::array{point, point, point, point})[0]; }
 
-  /// The same for one or four points.
-  template <std::size_t kCount>
-  std::array<Vector2, kCount> nearest_to(const std::array<Vector2, kCount>& points) const;
+  /// The same for four points.
+  std::array<Vector2, 4> nearest_to(const std::array<Vector2, 4>& points) const;
 
  private:
   std::array<Vector2, kCapacity> vertices_;

@@ -1,6 +1,7 @@
-#include "contact/mesh/distinct_contacts.hpp"
-
+// Selection of the distinct contacts of a body and a surface.
 #include <algorithm>
+
+#include "contact/mesh/mesh_contact_search.hpp"
 
 namespace supernormal {
 namespace {
