@@ -17,9 +17,9 @@
 
 #include "effects/motion.hpp"
 #include "ode/geom/body.hpp"
+#include "ode/geom/bounding_box.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/geom/look_ahead.hpp"
-#include "ode/geom/moved.hpp"
 
 namespace supernormal::effects {
 namespace {

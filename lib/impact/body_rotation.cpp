@@ -61,6 +61,12 @@ Matrix3 rotation_at(const Motion& motion, double time) {
   return Eigen::AngleAxisd(speed * time, motion.angular_velocity / speed).toRotationMatrix() * motion.pose.rotation;
 }
 
+Pose pose_at(const Motion& motion, double time) {
+  const Matrix3 rotation = rotation_at(motion, time);
+  const Vector3 centre = motion.pose.position + motion.pose.rotation * motion.centre + time * motion.velocity;
+  return {centre - rotation * motion.centre, rotation};
+}
+
 BodyRotation::BodyRotation(const Shape& shape, const Motion& motion) : speed_(motion.angular_velocity.hypotNorm()) {
   if (!is_rotating()) {
     reach_ = shape.half_extents().norm() + motion.centre.norm();

@@ -2,10 +2,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "base/usable_pose.hpp"
+#include "base/validation.hpp"
 #include "impact/moving_gap.hpp"
-#include "impact/usable_motion.hpp"
+#include "proximity/gap/usable_settings.hpp"
+#include "supernormal/impact/mesh_time_of_impact.hpp"
+#include "supernormal/shapes/polytope.hpp"
 
 namespace supernormal {
 namespace {
@@ -279,6 +284,37 @@ class ImpactSearch {
   bool is_rotating_ = false;                      // whether the next stride rotates the normal
 };
 
+/// Throws std::invalid_argument if a number is out of range.
+void require_usable(double horizon, const Settings& settings) {
+  require_in("horizon", horizon, 0, kMaxHorizon, "s");
+  require_in_range(settings);
+}
+
+/// Whether the numbers of a motion, and the angle of its rotation until the horizon, are in range.
+bool is_usable(const Motion& motion, double horizon) {
+  const bool is_in_range = all_within(motion.velocity, kMaxMotion) && all_within(motion.angular_velocity, kMaxMotion) &&
+                           all_within(motion.centre, kMaxMotion) && all_within(motion.pose.position, kMaxMotion);
+  return is_in_range && is_usable(motion.pose) && all_within(horizon * motion.angular_velocity, kMaxMotion);
+}
+
+/// A triangle about its middle, where the solvers of the gap start.
+struct MovingTriangle {
+  std::array<Vector3, 3> vertices;
+  Motion motion;
+
+  MovingTriangle(const MeshTriangle& triangle, const Motion& mesh_motion) : vertices(triangle.vertices), motion(mesh_motion) {
+    const Vector3 middle = (vertices[0] + vertices[1] + vertices[2]) / 3;
+    for (Vector3& vertex : vertices) vertex -= middle;
+    motion.pose.position += motion.pose.rotation * middle;
+    motion.centre -= middle;
+  }
+};
+
+bool is_first(const Impact& one, const Impact& other) {
+  if (one.may_hit() != other.may_hit()) return one.may_hit();
+  return one.may_hit() ? one.time < other.time : one.proximity.gap < other.proximity.gap;
+}
+
 }  // namespace
 
 Impact find_time_of_impact(const Shape& shape1, const Motion& motion1, const Shape& shape2, const Motion& motion2, double horizon,
@@ -302,6 +338,27 @@ Impact find_plane_time_of_impact(const Shape& shape, const Motion& motion, const
   if (!is_usable(motion, horizon) || !is_plane_usable) return {};
   MovingOverPlane gap(shape, motion, plane_normal, plane_offset);
   return ImpactSearch(gap, horizon, settings).run(0, nullptr);
+}
+
+MeshImpact find_mesh_time_of_impact(const Shape& shape, const Motion& motion, std::span<const MeshTriangle> triangles,
+                                    const Motion& mesh_motion, double horizon, const Settings& settings) {
+  require_usable(horizon, settings);
+  if (!is_usable(motion, horizon) || !is_usable(mesh_motion, horizon)) return {};
+  MeshImpact first;
+  first.impact.status = ImpactStatus::Apart;
+  first.impact.time = first.impact.apart_until = horizon;
+  int evaluations = 0;
+  bool is_empty = true;
+  for (const MeshTriangle& triangle : triangles) {
+    const MovingTriangle moving(triangle, mesh_motion);
+    const Impact impact = find_time_of_impact(shape, motion, Polytope(moving.vertices), moving.motion, first.impact.time, settings);
+    if (impact.status == ImpactStatus::InvalidInput) return {};
+    evaluations += impact.evaluations;
+    if (is_empty || is_first(impact, first.impact)) first = {impact, impact.may_hit() ? triangle.index : -1};
+    is_empty = false;
+  }
+  first.impact.evaluations = evaluations;
+  return first;
 }
 
 }  // namespace supernormal

@@ -10,7 +10,6 @@
 #include "proximity/lanes/lane_query.hpp"
 #include "proximity/local/first_guess.hpp"
 #include "proximity/search/answer.hpp"
-#include "proximity/search/balls.hpp"
 #include "proximity/search/solvers.hpp"
 
 namespace supernormal {

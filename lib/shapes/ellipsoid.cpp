@@ -2,7 +2,7 @@
 
 #include "base/validation.hpp"
 #include "shapes/lanes/lane_body_of.hpp"
-#include "shapes/norm_parameters.hpp"
+#include "shapes/nested_norms.hpp"
 
 namespace supernormal {
 

@@ -7,8 +7,6 @@
 #include "shapes/lanes/lane_body_of.hpp"
 #include "shapes/lanes/powers.hpp"
 #include "shapes/nested_norms.hpp"
-#include "shapes/norm_parameters.hpp"
-#include "shapes/sharp_section.hpp"
 #include "shapes/superellipsoid_batch.hpp"
 
 namespace supernormal {

@@ -15,8 +15,6 @@
 #include "base/validation.hpp"
 #include "shapes/lanes/powers.hpp"
 #include "shapes/nested_norms.hpp"
-#include "shapes/norm_parameters.hpp"
-#include "shapes/sharp_section.hpp"
 #include "shapes/superovoid_convexity.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 

@@ -12,6 +12,7 @@
 
 using supernormal::ode::guarded;
 using supernormal::ode::require_not_null;
+using supernormal::ode::succeeds;
 
 struct snStepper : supernormal::stepper::Stepper {
   using Stepper::Stepper;
@@ -27,29 +28,26 @@ extern "C" snStepperID snStepperCreate(dWorldID world) {
 extern "C" void snStepperDestroy(snStepperID stepper) { delete stepper; }
 
 extern "C" int snStepperAddBody(snStepperID stepper, dBodyID body) {
-  return guarded("snStepperAddBody", 0, [&] {
+  return succeeds("snStepperAddBody", [&] {
     require_not_null("stepper", stepper);
     require_not_null("body", body);
     stepper->add_body(body);
-    return 1;
   });
 }
 
 extern "C" int snStepperRemoveBody(snStepperID stepper, dBodyID body) {
-  return guarded("snStepperRemoveBody", 0, [&] {
+  return succeeds("snStepperRemoveBody", [&] {
     require_not_null("stepper", stepper);
     require_not_null("body", body);
     stepper->remove_body(body);
-    return 1;
   });
 }
 
 extern "C" int snStepperAddContact(snStepperID stepper, const dContact* contact, dBodyID body1, dBodyID body2) {
-  return guarded("snStepperAddContact", 0, [&] {
+  return succeeds("snStepperAddContact", [&] {
     require_not_null("stepper", stepper);
     require_not_null("contact", contact);
     stepper->add_contact(*contact, body1, body2);
-    return 1;
   });
 }
 
@@ -70,14 +68,13 @@ extern "C" int snStepperMoves(snStepperID stepper, dBodyID body) {
 }
 
 extern "C" int snStepperSetAccuracy(snStepperID stepper, dReal sag, int least, int most) {
-  return guarded("snStepperSetAccuracy", 0, [&] {
+  return succeeds("snStepperSetAccuracy", [&] {
     constexpr int kMostSubSteps = 1000000;
     require_not_null("stepper", stepper);
     supernormal::require_in("sag", sag, 1e-12, 1);
     supernormal::require_in("least", least, 1, kMostSubSteps);
     supernormal::require_in("most", most, least, kMostSubSteps);
     stepper->set_accuracy({sag, least, most});
-    return 1;
   });
 }
 
@@ -93,20 +90,18 @@ extern "C" int snStepperSave(snStepperID stepper, const dGeomID* geoms, int coun
 }
 
 extern "C" int snStepperLoad(snStepperID stepper, const dGeomID* geoms, int count, const double* numbers, int size) {
-  return guarded("snStepperLoad", 0, [&] {
+  return succeeds("snStepperLoad", [&] {
     require_not_null("stepper", stepper);
     supernormal::require_in("count", count, 0, std::numeric_limits<int>::max());
     supernormal::require_in("size", size, 0, std::numeric_limits<int>::max());
     stepper->load({geoms, static_cast<std::size_t>(count)}, {numbers, static_cast<std::size_t>(size)});
-    return 1;
   });
 }
 
 extern "C" int snStepperContactForce(snStepperID stepper, int contact, dVector3 force) {
-  return guarded("snStepperContactForce", 0, [&] {
+  return succeeds("snStepperContactForce", [&] {
     require_not_null("stepper", stepper);
     require_not_null("force", force);
     supernormal::ode::from_vector(stepper->contact_force(contact), force);
-    return 1;
   });
 }

@@ -5,21 +5,84 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
 #include "stepper/joint.hpp"
-#include "stepper/surface.hpp"
 
 namespace supernormal::stepper {
 
-/// How a contact gives way: an impulse changes by -mass (velocity + rate gap) / mobility - keep impulse.
+/// A largest force or torque: a multiple of the normal force, or a constant.
+struct Limit {
+  double value = 0;  ///< dimensionless or m; N or N m
+  bool is_of_normal = false;
+
+  /// N s or N m s; in `time` (s), with a normal impulse (N s). 0 without one: what is apart does not rub.
+  double in(double time, double normal_impulse) const {
+    return normal_impulse > 0 ? value * (is_of_normal ? normal_impulse : time) : 0;
+  }
+
+  /// N s or N m s; in no time, in which a force has no impulse.
+  double of_impact(double normal_impulse) const { return is_of_normal || std::isinf(value) ? value * normal_impulse : 0; }
+};
+
+/// What a contact's surface asks for: dSurfaceParameters, tested and without flags.
+struct Surface {
+  std::array<Limit, 2> friction;   ///< along the two directions across the normal
+  std::array<Limit, 3> rolling;    ///< about these directions and about the normal
+  std::array<double, 3> motion{};  ///< m/s; along the normal, and across it
+  std::array<double, 2> slip{};    ///< m/(N s)
+  double bounce = 0;               ///< separating velocity over approach velocity
+  double bounce_speed = 0;         ///< m/s; slower impacts do not bounce
+  double erp = -1;                 ///< of quickstep's contact; negative: not chosen
+  double cfm = -1;                 ///< 1/(N s/m); negative: not chosen
+  bool has_direction = false;      ///< whether fdir1 is the first direction
+
+  bool slips() const { return slip[0] > 0 || slip[1] > 0; }
+  bool rolls() const { return rolling[0].value > 0 || rolling[1].value > 0 || rolling[2].value > 0; }
+};
+
+/// Throws std::invalid_argument if a number is out of range. The message names it.
+Surface surface_of(const dContact& contact);
+
+// rad; the phase of a contact's spring in a sub-step. With half of it loads press in four times as far, with twice as much they are
+// thrown (README).
+inline constexpr double kPhase = 0.4 * 3.14159265358979323846;
+
+// The damping ratio of a contact's spring: an overlap is corrected in some 20 sub-steps, and nothing swings (README).
+inline constexpr double kDampingRatio = 10;
+
+// Relative to the size: a deeper overlap is corrected no faster than this one, or bodies that a program puts into one another are
+// thrown apart (README).
+inline constexpr double kDeep = 0.1;
+
+/// How a contact gives way: a spring and a damper, integrated implicitly, so what a sweep has not solved cannot ring.
+/// An impulse changes by -mass (velocity + rate gap) / mobility - keep impulse.
 struct Softness {
   double rate = 0;  ///< 1/s
   double mass = 1;
   double keep = 0;
   double deepest = 0;  ///< relative to the size; a deeper overlap is corrected no faster than this one
 };
+
+/// The softness of a contact in a sub-step of `time` (s), with a spring that turns by kPhase in `spring` (s).
+inline Softness softness_in(double time, double spring) {
+  const double phase = kPhase * time / spring;
+  const double damping = phase * (2 * kDampingRatio + phase);
+  return {phase / (2 * kDampingRatio + phase) / time, damping / (1 + damping), 1 / (1 + damping), kDeep};
+}
+
+/// The softness of a contact with quickstep's ERP and CFM, m/(N s), in sub-steps of `time` of a `step` (s). It is the spring and
+/// the damper that these two numbers are to quickstep.
+inline Softness softness_of(double erp, double cfm, double mobility, double step, double time) {
+  if (cfm == 0) return {erp / step, 1, 0, kAny};
+  const double spring = erp / (step * cfm);  // N/m
+  const double damper = (1 - erp) / cfm;     // N s/m
+  const double resistance = time * spring + damper;
+  const double compliance = 1 / (time * resistance);  // 1/kg
+  return {spring / resistance, mobility / (mobility + compliance), compliance / (mobility + compliance), kAny};
+}
 
 /// A contact as a program gave it.
 struct Given {

@@ -1,7 +1,8 @@
-#include "stepper/impacts.hpp"
-
+// Restitution.
 #include <algorithm>
 #include <cmath>
+
+#include "stepper/sweep.hpp"
 
 namespace supernormal::stepper {
 namespace {

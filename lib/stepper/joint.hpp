@@ -8,7 +8,7 @@
 #include <span>
 #include <unordered_map>
 
-#include "stepper/row.hpp"
+#include "stepper/body.hpp"
 
 namespace supernormal::stepper {
 

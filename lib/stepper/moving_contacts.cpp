@@ -6,7 +6,6 @@
 
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
-#include "stepper/softness.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/proximity.hpp"
 #include "supernormal/proximity/solve.hpp"

@@ -10,8 +10,6 @@
 
 #include "ode/geom/convert.hpp"
 #include "ode/support/require.hpp"
-#include "stepper/impacts.hpp"
-#include "stepper/softness.hpp"
 #include "supernormal/supernormal.h"
 
 namespace supernormal::stepper {

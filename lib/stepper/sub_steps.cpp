@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stepper/softness.hpp"
-
 namespace supernormal::stepper {
 namespace {
 

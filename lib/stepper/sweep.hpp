@@ -1,4 +1,4 @@
-// One pass over all joints and contacts, each of which is solved for itself (projected Gauss-Seidel).
+// What changes velocities: passes over all joints and contacts, each solved for itself (projected Gauss-Seidel), and restitution.
 #pragma once
 
 #include "stepper/contact.hpp"
@@ -21,5 +21,9 @@ struct SweepSettings {
 };
 
 void sweep(System& system, const SweepSettings& settings);
+
+/// Lets the pairs bounce that would meet in the next `time` (s), one after the other. A pair that has bounced may set others going,
+/// which bounce in the next round. So Newton's cradle passes its momentum on, at any gap between its balls.
+void bounce(System& system, double time);
 
 }  // namespace supernormal::stepper

@@ -3,7 +3,7 @@
 
 #include "ode/geom/body.hpp"
 #include "ode/geom/bounce.hpp"
-#include "ode/geom/moved.hpp"
+#include "ode/geom/bounding_box.hpp"
 #include "ode/support/last_error.hpp"
 #include "ode/support/require.hpp"
 #include "supernormal/supernormal.h"
@@ -22,28 +22,23 @@ double require_time(double time) { return require_in("time", time, 0, kLongestTi
 using namespace supernormal::ode;
 
 extern "C" int snGeomSetLookAhead(dGeomID geom, dReal time) {
-  return guarded("snGeomSetLookAhead", 0, [&] {
+  return succeeds("snGeomSetLookAhead", [&] {
     Body& body = require_body(geom);
     body.set_look_ahead(require_time(time));
     set_moved(geom);  // the bounding box changes
-    return 1;
   });
 }
 
 extern "C" int snSetDefaultLookAhead(dReal time) {
-  return guarded("snSetDefaultLookAhead", 0, [&] {
-    set_default_look_ahead(require_time(time));
-    return 1;
-  });
+  return succeeds("snSetDefaultLookAhead", [&] { set_default_look_ahead(require_time(time)); });
 }
 
 extern "C" void snContactLookAhead(dContact* contact, dReal step) {
-  guarded("snContactLookAhead", 0, [&] {
+  succeeds("snContactLookAhead", [&] {
     require_not_null("contact", contact);
     const double duration = require_positive("step", step, "s");
     const bool is_ahead = looks_ahead(contact->geom);
     if (is_ahead || contact->geom.depth < 0) let_close_or_bounce(*contact, duration);
     if (is_ahead) correct_leftover(contact->surface);
-    return 1;
   });
 }

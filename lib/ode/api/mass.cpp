@@ -17,7 +17,9 @@ constexpr double kMaxRelativeError = 0.01;
 // Rounding error of a centre of mass by quadrature, in ulps of the largest half-extent. A few ulps are observed.
 constexpr double kCentroidUnits = 64;
 
-void require_usable(const MassProperties& properties) {
+/// The volume integrals of a geom, which are accurate enough.
+MassProperties usable_integrals(const Shape& shape) {
+  const MassProperties properties = shape.mass_properties();
   // Quadrature samples normals. The normals of a user shape's faces and edges have measure zero, so their volume may be missing.
   if (properties.relative_error > kMaxRelativeError) {
     throw std::domain_error("the volume of the geom, " + to_text(properties.volume) + " m^3, is uncertain by " +
@@ -26,7 +28,7 @@ void require_usable(const MassProperties& properties) {
                             "dMassSetParameters");
   }
   const bool finite = properties.centroid.allFinite() && properties.second_moment.allFinite();
-  if (finite && properties.volume > 0 && std::isfinite(properties.volume)) return;
+  if (finite && properties.volume > 0 && std::isfinite(properties.volume)) return properties;
   throw std::invalid_argument("the volume of the geom is " + to_text(properties.volume) + " m^3, but must be in (0, inf)");
 }
 
@@ -64,25 +66,20 @@ void set_mass(dMass* mass, const Shape& shape, const MassProperties& properties,
 using namespace supernormal::ode;
 
 extern "C" int snMassSet(dMass* mass, dReal density, dGeomID geom) {
-  return guarded("snMassSet", 0, [&] {
+  return succeeds("snMassSet", [&] {
     require_not_null("mass", mass);
     require_positive("density", density, "kg/m^3");
     const auto& shape = require_body(geom).shape();
-    const auto properties = shape.mass_properties();
-    require_usable(properties);
-    set_mass(mass, shape, properties, density);
-    return 1;
+    set_mass(mass, shape, usable_integrals(shape), density);
   });
 }
 
 extern "C" int snMassSetTotal(dMass* mass, dReal total_mass, dGeomID geom) {
-  return guarded("snMassSetTotal", 0, [&] {
+  return succeeds("snMassSetTotal", [&] {
     require_not_null("mass", mass);
     require_positive("total_mass", total_mass, "kg");
     const auto& shape = require_body(geom).shape();
-    const auto properties = shape.mass_properties();
-    require_usable(properties);
+    const auto properties = usable_integrals(shape);
     set_mass(mass, shape, properties, total_mass / properties.volume);
-    return 1;
   });
 }

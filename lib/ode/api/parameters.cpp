@@ -3,8 +3,8 @@
 #include <string>
 
 #include "ode/geom/body.hpp"
+#include "ode/geom/bounding_box.hpp"
 #include "ode/geom/convert.hpp"
-#include "ode/geom/moved.hpp"
 #include "ode/support/last_error.hpp"
 #include "ode/support/require.hpp"
 #include "supernormal/supernormal.h"
@@ -44,50 +44,44 @@ void get_superellipsoid(const SuperellipsoidParameters& parameters, dReal* a, dR
 using namespace supernormal::ode;
 
 extern "C" int snGeomSuperellipsoidSetParams(dGeomID geom, dReal a, dReal b, dReal c, dReal delta, dReal epsilon) {
-  return guarded("snGeomSuperellipsoidSetParams", 0, [&] {
+  return succeeds("snGeomSuperellipsoidSetParams", [&] {
     Body& body = require_body(geom);
     require_superellipsoid(body);
     body.set_superellipsoid({{a, b, c}, delta, epsilon});
     set_moved(geom);
-    return 1;
   });
 }
 
 extern "C" int snGeomSuperellipsoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon) {
-  return guarded("snGeomSuperellipsoidGetParams", 0, [&] {
-    get_superellipsoid(require_superellipsoid(require_body(geom)), a, b, c, delta, epsilon);
-    return 1;
-  });
+  return succeeds("snGeomSuperellipsoidGetParams",
+                  [&] { get_superellipsoid(require_superellipsoid(require_body(geom)), a, b, c, delta, epsilon); });
 }
 
 extern "C" int snGeomSuperovoidSetParams(dGeomID geom, dReal a, dReal b, dReal c, dReal delta, dReal epsilon, dReal taper_x,
                                          dReal taper_y) {
-  return guarded("snGeomSuperovoidSetParams", 0, [&] {
+  return succeeds("snGeomSuperovoidSetParams", [&] {
     Body& body = require_body(geom);
     require_superovoid(body);
     body.set_superovoid({{{a, b, c}, delta, epsilon}, taper_x, taper_y});
     set_moved(geom);
-    return 1;
   });
 }
 
 extern "C" int snGeomSuperovoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon, dReal* taper_x,
                                          dReal* taper_y) {
-  return guarded("snGeomSuperovoidGetParams", 0, [&] {
+  return succeeds("snGeomSuperovoidGetParams", [&] {
     const SuperovoidParameters& parameters = require_superovoid(require_body(geom));
     require_not_null("taper_x", taper_x);
     require_not_null("taper_y", taper_y);
     get_superellipsoid(parameters.straight, a, b, c, delta, epsilon);
     *taper_x = to_real(parameters.taper_x);
     *taper_y = to_real(parameters.taper_y);
-    return 1;
   });
 }
 
 extern "C" int snGeomSetRounding(dGeomID geom, dReal radius) {
-  return guarded("snGeomSetRounding", 0, [&] {
+  return succeeds("snGeomSetRounding", [&] {
     require_body(geom).set_rounding(radius);
     set_moved(geom);
-    return 1;
   });
 }

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "ode/colliders/query_kind.hpp"
+#include "ode/colliders/collider.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/support/last_error.hpp"
@@ -28,7 +28,7 @@ extern "C" dReal snGeomPointDepth(dGeomID geom, dReal x, dReal y, dReal z) {
 }
 
 extern "C" int snGeomSupport(dGeomID geom, const dVector3 direction, dVector3 point) {
-  return guarded("snGeomSupport", 0, [&] {
+  return succeeds("snGeomSupport", [&] {
     const Body& body = require_body(geom);
     require_not_null("direction", direction);
     require_not_null("point", point);
@@ -41,6 +41,5 @@ extern "C" int snGeomSupport(dGeomID geom, const dVector3 direction, dVector3 po
     const Vector3 found = pose.position + pose.rotation * boundary_point;
     if (!all_finite(found)) throw std::invalid_argument("the pose of geom" + no_answer_because());
     from_vector(found, point);
-    return 1;
   });
 }

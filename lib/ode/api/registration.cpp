@@ -10,7 +10,6 @@
 #include "ode/colliders/collider.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/bounding_box.hpp"
-#include "ode/geom/class_slot.hpp"
 #include "ode/geom/geom_class.hpp"
 #include "ode/support/last_error.hpp"
 #include "supernormal/supernormal.h"
@@ -115,17 +114,11 @@ using namespace supernormal::ode;
 extern "C" const char* snLastError(void) { return last_error(); }
 
 extern "C" int snInit(void) {
-  return guarded("snInit", 0, [] {
-    require_geom_class();
-    return 1;
-  });
+  return succeeds("snInit", [] { require_geom_class(); });
 }
 
 extern "C" void snClose(void) {
-  guarded("snClose", 0, [] {
-    close();
-    return 1;
-  });
+  succeeds("snClose", [] { close(); });
 }
 
 extern "C" int snGeomClass(void) { return geom_class(); }

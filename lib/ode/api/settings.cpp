@@ -1,9 +1,9 @@
-// Solver settings of one geom, and the defaults of new geoms.
+// Solver settings of one geom, the defaults of new geoms, and the counters of this thread.
 #include <stdexcept>
 #include <string>
 
 #include "ode/geom/body.hpp"
-#include "ode/geom/solver_settings.hpp"
+#include "ode/runtime/statistics.hpp"
 #include "ode/runtime/warm_start.hpp"
 #include "ode/support/last_error.hpp"
 #include "ode/support/require.hpp"
@@ -36,17 +36,20 @@ Settings to_settings(snSolver solver, dReal tolerance, int max_evaluations) {
 using namespace supernormal::ode;
 
 extern "C" int snGeomSetSolver(dGeomID geom, snSolver solver, dReal tolerance, int max_evaluations) {
-  return guarded("snGeomSetSolver", 0, [&] {
-    require_body(geom).set_settings(to_settings(solver, tolerance, max_evaluations));
-    return 1;
-  });
+  return succeeds("snGeomSetSolver", [&] { require_body(geom).set_settings(to_settings(solver, tolerance, max_evaluations)); });
 }
 
 extern "C" int snSetDefaultSolver(snSolver solver, dReal tolerance, int max_evaluations) {
-  return guarded("snSetDefaultSolver", 0, [&] {
-    set_default_settings(to_settings(solver, tolerance, max_evaluations));
-    return 1;
-  });
+  return succeeds("snSetDefaultSolver", [&] { set_default_settings(to_settings(solver, tolerance, max_evaluations)); });
 }
 
 extern "C" void snSetWarmStart(int on) { set_warm_start(on != 0); }
+
+extern "C" void snGetStatistics(snStatistics* out) {
+  succeeds("snGetStatistics", [&] {
+    require_not_null("out", out);
+    *out = thread_statistics();
+  });
+}
+
+extern "C" void snResetStatistics(void) { exchange_statistics({}); }

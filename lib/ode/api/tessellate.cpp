@@ -36,7 +36,7 @@ using namespace supernormal;
 using namespace supernormal::ode;
 
 extern "C" int snGeomTessellate(dGeomID geom, dReal chord_error, snMesh* mesh) {
-  return guarded("snGeomTessellate", 0, [&] {
+  return succeeds("snGeomTessellate", [&] {
     require_not_null("mesh", mesh);
     *mesh = {};
     const Tessellation body = tessellate(require_body(geom).shape(), chord_error);
@@ -48,7 +48,6 @@ extern "C" int snGeomTessellate(dGeomID geom, dReal chord_error, snMesh* mesh) {
     auto index = corners(body);
     *mesh = {static_cast<int>(body.points.size()), static_cast<int>(body.triangles.size()), position.release(), normal.release(),
              index.release()};
-    return 1;
   });
 }
 

@@ -7,7 +7,6 @@
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/geom/geom_class.hpp"
-#include "ode/geom/solver_settings.hpp"
 
 namespace supernormal::ode {
 namespace {

@@ -5,7 +5,6 @@
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/geom/look_ahead.hpp"
-#include "ode/geom/solver_settings.hpp"
 #include "ode/runtime/statistics.hpp"
 #include "supernormal/contact/contacts_ahead.hpp"
 #include "supernormal/proximity/solve.hpp"
@@ -137,6 +136,15 @@ ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, QueryKin
                                           pose.is_usable && collider.pose.is_usable},
                                          asked);
   ContactManifold manifold = finish(one, other, asked, kind, time, is_warm ? &cached_normal : nullptr, frame, found, last);
+  last.store(key);
+  return manifold;
+}
+
+ContactManifold query_body(dGeomID ours, dGeomID collider, QueryKind kind) {
+  const BodyPair pair(ours, collider);
+  const PairKey key = pair.key();
+  LastNormal last;
+  ContactManifold manifold = pair.solve(reserve_entry(key), kind, last);
   last.store(key);
   return manifold;
 }

@@ -1,13 +1,14 @@
 #include "ode/geom/body.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "ode/geom/geom_class.hpp"
 #include "ode/geom/look_ahead.hpp"
-#include "ode/geom/solver_settings.hpp"
 #include "ode/support/last_error.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
@@ -15,6 +16,12 @@
 #include "supernormal/shapes/superovoid.hpp"
 
 namespace supernormal::ode {
+namespace {
+
+std::mutex default_mutex;
+Settings default_value;
+
+}  // namespace
 
 /// Calls `release` when it dies, if it is armed.
 class ReleaseCallback {
@@ -22,10 +29,7 @@ class ReleaseCallback {
   ReleaseCallback(void (*release)(void*), void* user) : release_(release), user_(user) {}
   ~ReleaseCallback() {
     if (!is_armed_) return;
-    guarded("release", 0, [&] {
-      release_(user_);
-      return 1;
-    });
+    succeeds("release", [&] { release_(user_); });
   }
   ReleaseCallback(const ReleaseCallback&) = delete;
   ReleaseCallback(ReleaseCallback&&) = delete;
@@ -141,6 +145,24 @@ Body& require_body(dGeomID geom, const char* name) {
   Body* const body = find_body(geom);
   if (body != nullptr) return *body;
   throw std::invalid_argument(std::string(name) + " is " + geom_class_name(geom) + ", but must be a body made by snCreate…");
+}
+
+Settings default_settings() {
+  const std::lock_guard lock(default_mutex);
+  return default_value;
+}
+
+void set_default_settings(const Settings& settings) {
+  const std::lock_guard lock(default_mutex);
+  default_value = settings;
+}
+
+Settings combined(const Settings& settings1, const Settings& settings2) {
+  Settings both;
+  both.solver = settings1.solver == settings2.solver ? settings1.solver : Solver::Hybrid;
+  both.tolerance = std::min(settings1.tolerance, settings2.tolerance);
+  both.max_evaluations = std::max(settings1.max_evaluations, settings2.max_evaluations);
+  return both;
 }
 
 }  // namespace supernormal::ode

@@ -111,4 +111,11 @@ Body* find_body(dGeomID geom) noexcept;
 /// The body of the geom. Throws std::invalid_argument where find_body() returns null.
 Body& require_body(dGeomID geom, const char* name = "geom");
 
+/// The settings of new geoms. Thread-safe.
+Settings default_settings();
+void set_default_settings(const Settings& settings);
+
+/// The settings of a pair: the tighter tolerance and the larger limit. The solver is the common one, or the hybrid if they differ.
+Settings combined(const Settings& settings1, const Settings& settings2);
+
 }  // namespace supernormal::ode

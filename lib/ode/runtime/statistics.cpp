@@ -20,6 +20,13 @@ void count_query(const Proximity& result, bool warm) noexcept {
   if (result.status == Status::Diverged) ++statistics.diverged;
 }
 
+void count_mesh_query(const Proximity* first, int evaluations) noexcept {
+  Proximity all;
+  all.status = first == nullptr ? Status::Apart : first->status;
+  all.evaluations = evaluations;
+  count_query(all, false);
+}
+
 void count_closed_form() noexcept { ++statistics.closed_forms; }
 
 void count_contacts(int count, Status status) noexcept {

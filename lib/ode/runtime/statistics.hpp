@@ -9,6 +9,9 @@ namespace supernormal::ode {
 /// Counts a pair that was solved. `warm`: it used a cached normal.
 void count_query(const Proximity& result, bool warm) noexcept;
 
+/// Counts the query of a mesh. `first`: the contact with the smallest gap, or null.
+void count_mesh_query(const Proximity* first, int evaluations) noexcept;
+
 /// Counts a pair with a closed form: no iteration.
 void count_closed_form() noexcept;
 

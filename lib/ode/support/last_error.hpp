@@ -26,4 +26,13 @@ Result guarded(const char* function, Result refusal, Work&& work) noexcept {
   return refusal;
 }
 
+/// guarded() of a function that returns 1, or 0 if `work` throws.
+template <typename Work>
+int succeeds(const char* function, Work&& work) noexcept {
+  return guarded(function, 0, [&] {
+    std::forward<Work>(work)();
+    return 1;
+  });
+}
+
 }  // namespace supernormal::ode

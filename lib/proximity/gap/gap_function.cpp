@@ -7,6 +7,7 @@
 #include "base/finite.hpp"
 #include "proximity/gap/limits.hpp"
 #include "shapes/superellipsoid_batch.hpp"
+#include "supernormal/proximity/separation.hpp"
 
 namespace supernormal {
 namespace {
@@ -55,5 +56,12 @@ void GapFunction::evaluate(const Vector3& n, Order order, GapJet& jet) {
 bool GapJet::is_finite() const { return std::isfinite(s) && all_finite(d); }
 
 bool GapFunction::is_finite() const { return all_finite(offset_) && all_finite(rotation_) && std::isfinite(length_unit_); }
+
+double least_gap_after(const Separation& then, const Vector3& offset, const Vector3& normal_in_2, double radius1, double radius2) {
+  // Both values of s have rounding errors.
+  const double lengths = offset.norm() + then.offset.norm() + 2 * (radius1 + radius2);
+  const double rounding = limits::kRoundingUnits * std::numeric_limits<double>::epsilon() * lengths;
+  return then.gap + then.normal.dot(offset - then.offset) - radius2 * (normal_in_2 - then.normal_in_2).norm() - rounding;
+}
 
 }  // namespace supernormal

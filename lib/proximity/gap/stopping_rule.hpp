@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "proximity/gap/limits.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/proximity.hpp"
 
@@ -15,7 +16,11 @@ class StoppingRule {
  public:
   /// Keeps a reference to `gap`, whose evaluations count. The tolerance is Settings::tolerance times GapFunction::length_unit(),
   /// less the rounding error, but at least a few rounding errors.
-  StoppingRule(const GapFunction& gap, const Settings& settings);
+  StoppingRule(const GapFunction& gap, const Settings& settings)
+      : gap_(&gap),
+        tolerance_(std::max(settings.tolerance * gap.length_unit() - gap.rounding(), limits::kFloor * gap.rounding())),
+        max_evaluations_(settings.max_evaluations),
+        stop_when_apart_(settings.stop_when_apart) {}
 
   /// `tolerance`: m; at most `max_evaluations` since `gap` was made.
   StoppingRule(const GapFunction& gap, double tolerance, int max_evaluations)

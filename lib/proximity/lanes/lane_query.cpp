@@ -5,7 +5,6 @@
 
 #include "proximity/gap/tuning.hpp"
 #include "proximity/search/answer.hpp"
-#include "proximity/search/balls.hpp"
 #include "proximity/search/solvers.hpp"
 #include "shapes/lanes/lane_body_of.hpp"
 

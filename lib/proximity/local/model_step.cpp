@@ -6,7 +6,6 @@
 
 #include "base/finite.hpp"
 #include "proximity/gap/tuning.hpp"
-#include "proximity/local/length_of.hpp"
 #include "proximity/local/strict_complementarity.hpp"
 
 namespace supernormal {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "proximity/local/length_of.hpp"
-
 namespace supernormal {
 namespace {
 

@@ -1,9 +1,21 @@
 // The quadratic model of an ascent and its maximum within a disc.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/tangent_plane.hpp"
 
 namespace supernormal {
+
+/// The length of (x, y), which may be too small to square. The digits of std::hypot depend on whether it was compiled with fused
+/// multiply-add.
+inline double length_of(double x, double y) {
+  const double larger = std::max(std::abs(x), std::abs(y)), smaller = std::min(std::abs(x), std::abs(y));
+  if (larger == 0) return 0;
+  const double ratio = smaller / larger;
+  return larger * std::sqrt(1 + ratio * ratio);
+}
 
 /// gain(u) = g.u - 1/2 u.A u, the second-order change of s over the tangent plane.
 struct QuadraticModel {

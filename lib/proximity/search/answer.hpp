@@ -1,8 +1,9 @@
-// From the last evaluation of a solver to its answer.
+// From the last evaluation of a solver to its answer, and the answer for two balls.
 #pragma once
 
 #include "proximity/gap/stopping_rule.hpp"
 #include "proximity/search/contact_point.hpp"
+#include "supernormal/proximity/batch.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/proximity.hpp"
 
@@ -25,5 +26,9 @@ void place_contact(GapFunction& gap, const StoppingRule& rule, const GapJet& jet
 
 /// An answer in body 1's frame, in the world's.
 Proximity in_world(Proximity out, const Pose& pose1);
+
+/// The answer for balls with these radii (m), in the world's frame. It takes no evaluation. Concentric balls have any common
+/// normal: the first normal of the query, or an axis of the smaller ball.
+Proximity find_between_balls(const ProximityQuery& pair, double radius1, double radius2, const Settings& settings);
 
 }  // namespace supernormal

@@ -5,10 +5,14 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "base/thread_kept.hpp"
+#include "ode/colliders/collider.hpp"
+#include "ode/colliders/solve_pair.hpp"
+#include "ode/geom/bounding_box.hpp"
 #include "ode/geom/convert.hpp"
-#include "ode/geom/moved.hpp"
 #include "ode/runtime/warm_start.hpp"
 #include "ode/support/private_geom.hpp"
+#include "supernormal/shapes/polytope.hpp"
 
 namespace supernormal::ode {
 namespace {
@@ -31,6 +35,12 @@ Bounds box_of(std::span<const Vector3> points) {
 }
 
 bool is_finite(const Bounds& box) { return box.min().allFinite() && box.max().allFinite(); }
+
+/// The vertices of this thread; kept to reuse their memory.
+ConvexVertices& kept_vertices() {
+  thread_local ThreadKept<ConvexVertices> kept;
+  return *kept;
+}
 
 }  // namespace
 
@@ -112,6 +122,15 @@ void ConvexVertices::move_to_middle(const Pose& geom_pose) {
   const Vector3 middle = box_of(points_).center();
   for (Vector3& point : points_) point -= middle;
   pose_ = {geom_pose.position + geom_pose.rotation * middle, geom_pose.rotation};
+}
+
+// Our bodies and dConvex: the convex hull of its vertices. Its polygons and planes are ignored.
+ContactManifold query_convex(dGeomID ours, dGeomID collider, QueryKind kind) {
+  ConvexVertices& vertices = kept_vertices();
+  if (!vertices.read(collider)) return {};
+  const Polytope hull(vertices.points());
+  const ColliderShape shape{collider, hull, {vertices.pose(), false}, collider_kind(dConvexClass, {vertices.fingerprint()})};
+  return solve_pair(ours, shape, kind);
 }
 
 }  // namespace supernormal::ode

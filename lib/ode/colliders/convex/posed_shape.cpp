@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/thread_kept.hpp"
+#include "ode/colliders/collider.hpp"
 #include "ode/colliders/convex/convex_vertices.hpp"
-#include "ode/colliders/no_answer.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 

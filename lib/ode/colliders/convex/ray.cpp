@@ -7,7 +7,6 @@
 
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/contact.hpp"
-#include "ode/colliders/no_answer.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/runtime/statistics.hpp"

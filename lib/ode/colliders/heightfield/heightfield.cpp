@@ -8,7 +8,6 @@
 #include "ode/colliders/contact.hpp"
 #include "ode/colliders/heightfield/heightfield_patch.hpp"
 #include "ode/colliders/impact.hpp"
-#include "ode/colliders/no_answer.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/geom/look_ahead.hpp"
@@ -134,10 +133,7 @@ Found find_contacts(HeightfieldProbe& probe, const Visitor& visitor) {
   }
   Proximity upward;
   if (kept.contacts.empty() && find_upward_contact(probe, visitor, upward)) kept.contacts.push_back(upward);
-  Proximity all;
-  all.status = kept.contacts.empty() ? Status::Apart : kept.contacts.front().status;
-  all.evaluations = kept.mesh.evaluations();
-  count_query(all, false);
+  count_mesh_query(kept.contacts.empty() ? nullptr : &kept.contacts.front(), kept.mesh.evaluations());
   return {kept.contacts, triangles};
 }
 
@@ -168,10 +164,7 @@ void look_ahead(HeightfieldProbe& probe, const Visitor& visitor, const Pose& fra
   HeightfieldScratch& kept = heightfield_scratch();
   const std::span<const MeshTriangle> triangles = kept.patch.read(probe, all.region());
   const std::span<const MeshManifold> found = kept.mesh_ahead.find(moving, surface, body.look_ahead(), triangles, visitor.settings);
-  Proximity first;
-  first.status = found.empty() ? Status::Apart : found.front().manifold.deepest.status;
-  first.evaluations = kept.mesh_ahead.evaluations();
-  count_query(first, false);
+  count_mesh_query(found.empty() ? nullptr : &found.front().manifold.deepest, kept.mesh_ahead.evaluations());
   for (const MeshManifold& contact : found) kept.manifolds.push_back({to_world(contact.manifold, frame), -1});
   // A body wholly below the surface has no contact ahead, but must be pushed up.
   Proximity upward;

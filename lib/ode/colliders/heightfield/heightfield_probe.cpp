@@ -29,7 +29,7 @@ HeightfieldProbe& HeightfieldProbe::looking_at(dGeomID heightfield) {
   probe.data_ = dGeomHeightfieldGetHeightfieldData(heightfield);
   dGeomHeightfieldSetHeightfieldData(probe.heightfield_, probe.data_);
   // The bounding box is a new geom's, because the samples may be others than last time, and only a placeable geom can be told that
-  // it has changed (geom/moved.hpp).
+  // it has changed (geom/bounding_box.hpp).
   const dGeomID fresh = dCreateHeightfield(nullptr, probe.data_, 0);
   std::array<dReal, 6> aabb{};
   dGeomGetAABB(fresh, aabb.data());

@@ -9,7 +9,6 @@
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/contact.hpp"
 #include "ode/colliders/impact.hpp"
-#include "ode/colliders/no_answer.hpp"
 #include "ode/colliders/trimesh/mesh_candidates.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
@@ -64,18 +63,10 @@ struct Visit {
   }
 };
 
-/// Counts as one query. `first` has the smallest gap.
-void count_query_of(const Proximity* first, int evaluations) {
-  Proximity all;
-  all.status = first == nullptr ? Status::Apart : first->status;
-  all.evaluations = evaluations;
-  count_query(all, false);
-}
-
 std::span<const MeshContact> find_contacts(const Visit& visit, std::span<const MeshTriangle> triangles) {
   const std::span<const MeshContact> found =
       trimesh_scratch().contacts.find(visit.body.shape(), visit.pose, triangles, visit.body.settings());
-  count_query_of(found.empty() ? nullptr : &found.front().proximity, trimesh_scratch().contacts.evaluations());
+  count_mesh_query(found.empty() ? nullptr : &found.front().proximity, trimesh_scratch().contacts.evaluations());
   return found;
 }
 
@@ -91,7 +82,7 @@ void look_ahead(const Visit& visit) {
   const std::span<const MeshTriangle> triangles = trimesh_scratch().candidates.find(visit.mesh, visit.geom, box, visit.pose, true);
   MeshContactsAhead& ahead = trimesh_scratch().contacts_ahead;
   const std::span<const MeshManifold> found = ahead.find(body, surface, time, triangles, visit.body.settings());
-  count_query_of(found.empty() ? nullptr : &found.front().manifold.deepest, ahead.evaluations());
+  count_mesh_query(found.empty() ? nullptr : &found.front().manifold.deepest, ahead.evaluations());
   for (const MeshManifold& contact : found) trimesh_scratch().manifolds.push_back({contact.manifold, contact.triangle});
 }
 
