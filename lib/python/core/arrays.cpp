@@ -1,5 +1,6 @@
 #include "arrays.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "base/usable_pose.hpp"
@@ -11,6 +12,10 @@ namespace supernormal::python {
 
 std::string Name::text() const {
   return index < 0 ? std::string(argument) : std::string(argument) + "[" + std::to_string(index) + "]";
+}
+
+void refuse_type(const std::string& name, const py::handle& argument, const char* wanted) {
+  throw py::type_error(name + " is " + std::string(py::repr(argument)) + ", but must be " + wanted);
 }
 
 std::size_t require_index(const char* name, std::ptrdiff_t index, std::size_t count) {
@@ -70,6 +75,13 @@ Eigen::Vector3d require_place(Name name, const Eigen::Vector3d& point) {
   if (all_within(point, kFarthest)) return point;
   throw std::invalid_argument(name.text() + " = " + vector_text(point.data(), 3) + " m is outside [-" + to_text(kFarthest) + ", " +
                               to_text(kFarthest) + "] m");
+}
+
+py::array_t<double> rows_of(std::span<const Eigen::Vector3d> points) {
+  py::array_t<double> out({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});
+  double* to = out.mutable_data();
+  for (const Eigen::Vector3d& p : points) to = std::ranges::copy(p, to).out;
+  return out;
 }
 
 }  // namespace supernormal::python

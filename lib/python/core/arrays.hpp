@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct Name {
   std::string text() const;
 };
 
+/// Raises TypeError: `name` is `argument`, but must be what `wanted` says.
+[[noreturn]] void refuse_type(const std::string& name, const pybind11::handle& argument, const char* wanted);
+
 /// The place of self[index]; -1 is the last. Raises IndexError, with the name and the range, outside of it.
 std::size_t require_index(const char* name, std::ptrdiff_t index, std::size_t count);
 
@@ -34,6 +38,9 @@ pybind11::ssize_t require_rows(const char* name, const pybind11::array& array, c
 
 /// Raises ValueError unless the last dimension of the array is 3. Returns the number of vectors.
 pybind11::ssize_t require_vectors(const char* name, const pybind11::array& array);
+
+/// Returns an array (N, 3).
+pybind11::array_t<double> rows_of(std::span<const Eigen::Vector3d> points);
 
 /// The dimensions of an array of vectors, with the last one replaced by `tail`.
 std::vector<pybind11::ssize_t> leading_shape(const pybind11::array& array, const std::vector<pybind11::ssize_t>& tail);

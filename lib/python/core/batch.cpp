@@ -10,6 +10,8 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "arrays.hpp"
@@ -48,24 +50,24 @@ std::unique_ptr<Proximities> proximities(const py::object& shapes1, const py::ob
   return out;
 }
 
-struct RayHits {
-  explicit RayHits(std::ptrdiff_t rays) : count(rays) {}
-
-  void set(std::ptrdiff_t i, const RayHit& result) {
-    hit.set(i, result.hit);
-    from_inside.set(i, result.from_inside);
-    distance.set(i, result.hit ? result.distance : std::numeric_limits<double>::quiet_NaN());
-    point.set(i, result.hit ? result.point : Vector3::Constant(std::numeric_limits<double>::quiet_NaN()));
-    normal.set(i, result.hit ? result.normal : Vector3::Constant(std::numeric_limits<double>::quiet_NaN()));
-    status.set(i, static_cast<std::uint8_t>(result.status));
+/// What a hit has, NaN without one.
+template <typename Value>
+Value if_hit(const RayHit& result, const Value& value) {
+  if constexpr (std::is_same_v<Value, Vector3>) {
+    return result.hit ? value : Vector3(Vector3::Constant(std::numeric_limits<double>::quiet_NaN()));
+  } else {
+    return result.hit ? value : std::numeric_limits<double>::quiet_NaN();
   }
+}
 
-  std::ptrdiff_t count;
-  Column<bool> hit{count}, from_inside{count};
-  Column<double> distance{count};
-  Column<double, 3> point{count}, normal{count};
-  Column<std::uint8_t> status{count};
-};
+constexpr std::tuple kRayHitFields{
+    Field{"hit", &RayHit::hit, "(N,) of bool; whether the ray meets the boundary within its length"},
+    Field{"from_inside", &RayHit::from_inside, "(N,) of bool; whether the origin is inside"},
+    Field{"distance", [](const RayHit& self) { return if_hit(self, self.distance); }, "(N,), m; along the ray"},
+    Field{"point", [](const RayHit& self) { return if_hit(self, self.point); }, "(N, 3), m"},
+    Field{"normal", [](const RayHit& self) { return if_hit(self, self.normal); }, "(N, 3), unit, outward"},
+    Field{"status", &RayHit::status, "(N,) of uint8; compare with members of Status"}};
+using RayHits = Table<RayHit, kRayHitFields>;
 
 std::unique_ptr<RayHits> ray_hits(const py::object& shapes, const py::object& poses, const Doubles& origins,
                                   const Doubles& directions, double length, const Settings& settings, int threads) {
@@ -118,37 +120,16 @@ Raises the errors of find_ray_hit(), with the index of the ray. Raises ValueErro
 
 void bind_batch(py::module_& m) {
   py::class_<Proximities> pairs(m, "Proximities", kProximitiesDoc);
-  pairs.def("__len__", [](const Proximities& self) { return self.count; })
-      .def("__getitem__", [](const Proximities& self, std::ptrdiff_t i) {
-        return self[static_cast<std::ptrdiff_t>(require_index("proximities", i, static_cast<std::size_t>(self.count)))];
-      });
+  pairs.def("__getitem__", [](const Proximities& self, std::ptrdiff_t i) {
+    return self[static_cast<std::ptrdiff_t>(require_index("proximities", i, static_cast<std::size_t>(self.count())))];
+  });
   bind_iteration(pairs);
-  bind_columns(pairs, "pairs", &Proximities::gap, &Proximities::error, &Proximities::normal, &Proximities::point1,
-               &Proximities::point2, &Proximities::contact, &Proximities::evaluations, &Proximities::status,
-               &Proximities::is_global, &Proximities::global_error);
-  bind_column(pairs, "gap", &Proximities::gap, "(N,), m; signed distance: minus the penetration depth if negative");
-  bind_column(pairs, "error", &Proximities::error, "(N,), m; estimated error of the gap; an upper bound if is_global");
-  bind_column(pairs, "normal", &Proximities::normal, "(N, 3), unit, from body 1 to body 2");
-  bind_column(pairs, "point1", &Proximities::point1, "(N, 3), m; on the boundary of body 1");
-  bind_column(pairs, "point2", &Proximities::point2, "(N, 3), m; on the boundary of body 2");
-  bind_column(pairs, "contact", &Proximities::contact, "(N, 3), m; where a contact force acts");
-  bind_column(pairs, "evaluations", &Proximities::evaluations, "(N,) of int32; evaluations of the gap function");
-  bind_column(pairs, "status", &Proximities::status, "(N,) of uint8; compare with members of Status");
-  bind_column(pairs, "is_global", &Proximities::is_global, "(N,) of bool; whether the gap is the proved global maximum");
-  bind_column(pairs, "global_error", &Proximities::global_error, "(N,), m; proved upper bound of the global maximum minus the gap");
+  Proximities::bind(pairs, "pairs");
   m.def("find_proximities", &proximities, kFindProximitiesDoc, py::arg("shapes1"), py::arg("poses1"), py::arg("shapes2"),
         py::arg("poses2"), py::arg("settings") = Settings(), py::arg("first_normals") = py::none(), py::arg("threads") = 0);
 
   py::class_<RayHits> rays(m, "RayHits", kRayHitsDoc);
-  rays.def("__len__", [](const RayHits& self) { return self.count; });
-  bind_columns(rays, "rays", &RayHits::hit, &RayHits::from_inside, &RayHits::distance, &RayHits::point, &RayHits::normal,
-               &RayHits::status);
-  bind_column(rays, "hit", &RayHits::hit, "(N,) of bool; whether the ray meets the boundary within its length");
-  bind_column(rays, "from_inside", &RayHits::from_inside, "(N,) of bool; whether the origin is inside");
-  bind_column(rays, "distance", &RayHits::distance, "(N,), m; along the ray");
-  bind_column(rays, "point", &RayHits::point, "(N, 3), m");
-  bind_column(rays, "normal", &RayHits::normal, "(N, 3), unit, outward");
-  bind_column(rays, "status", &RayHits::status, "(N,) of uint8; compare with members of Status");
+  RayHits::bind(rays, "rays");
   m.def("find_ray_hits", &ray_hits, kFindRayHitsDoc, py::arg("shapes"), py::arg("poses"), py::arg("origins"), py::arg("directions"),
         py::arg("length") = std::numeric_limits<double>::infinity(), py::arg("settings") = Settings(), py::arg("threads") = 0);
 }

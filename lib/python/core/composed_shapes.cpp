@@ -42,13 +42,6 @@ std::shared_ptr<Polytope> make_polytope(const Doubles& points) {
   return {owner, &owner->polytope};
 }
 
-py::array_t<double> points_of(const Polytope& self) {
-  py::array_t<double> out({static_cast<py::ssize_t>(self.points().size()), py::ssize_t{3}});
-  double* to = out.mutable_data();
-  for (const Vector3& p : self.points()) to = std::copy(p.data(), p.data() + 3, to);
-  return out;
-}
-
 /// A Python function that C++ may call, copy and destroy on any thread, with or without the interpreter's lock.
 class PythonFunction {
  public:
@@ -151,19 +144,14 @@ such shapes uses one core. The constructor tests them in 26 directions. It raise
 the expected value, unless all results are finite and belong to a convex body of a size in [1e-30, 1e30] m. An exception in a
 later call ends the query and propagates.)";
 
-/// A property of `Class` from a function of the shared pointer.
-template <typename Class, typename Get>
-auto property_of(const Get& get) {
-  return py::cpp_function([get](const py::object& self) { return get(unwrapped<Class>(self)); });
-}
-
 void bind_polytope(py::module_& m) {
   py::class_<Polytope, Shape, std::shared_ptr<Polytope>> type(
       m, "Polytope",
       "The convex hull of points: a point, a segment, a triangle or a solid. The origin should be near its centre.\n\n"
       "points: (N, 3), m, N >= 1, within 1e30; ValueError otherwise.");
   type.def(py::init(&make_polytope), py::arg("points"))
-      .def_property_readonly("points", &points_of, "(N, 3), m; a copy")
+      .def_property_readonly(
+          "points", [](const Polytope& self) { return rows_of(self.points()); }, "(N, 3), m; a copy")
       .def("__repr__", [](const py::object& self) {
         const auto points = self.cast<const Polytope&>().points();
         if (points.size() > kMostInText) return call_text(self, points.size(), "points");
@@ -173,54 +161,29 @@ void bind_polytope(py::module_& m) {
       });
   // == does not compare arrays by value. It does compare their bytes.
   bind_value(
-      type, [](const std::shared_ptr<Polytope>& self) { return py::make_tuple(points_of(*self).attr("tobytes")()); },
+      type, [](const std::shared_ptr<Polytope>& self) { return py::make_tuple(rows_of(self->points()).attr("tobytes")()); },
       [](const py::tuple& of) {
         const py::array numbers = py::module_::import("numpy").attr("frombuffer")(of[0]);
         return make_polytope(numbers.attr("reshape")(-1, 3).cast<Doubles>());
       });
 }
 
-void bind_rounded(py::module_& m) {
-  using Pointer = std::shared_ptr<Rounded>;
-  const auto core = [](const Pointer& self) { return part_of(self, self->core()); };
-  py::class_<Rounded, Shape, Pointer> type(m, "Rounded",
-                                           "A shape swept by a sphere.\n\nradius: m, in [0, 1e30]; ValueError otherwise.");
-  type.def(py::init<ShapePointer, double>(), py::arg("core").none(false), py::arg("radius"))
-      .def_property_readonly("core", property_of<decltype(type)>(core), "Shape: the shape without the rounding")
-      .def_property_readonly("radius", &Rounded::radius, "m");
-  bind_value(
-      type, {"core", "radius"}, [core](const Pointer& self) { return py::make_tuple(core(self), self->radius()); },
-      constructor<Rounded, ShapePointer, double>());
-}
-
-void bind_minkowski_sum(py::module_& m) {
-  using Pointer = std::shared_ptr<MinkowskiSum>;
-  const auto first = [](const Pointer& self) { return part_of(self, self->first()); };
-  const auto second = [](const Pointer& self) { return part_of(self, self->second()); };
-  py::class_<MinkowskiSum, Shape, Pointer> type(m, "MinkowskiSum",
-                                                "All points p + q with p in the first shape and q in the second.");
-  type.def(py::init<ShapePointer, ShapePointer>(), py::arg("first").none(false), py::arg("second").none(false))
-      .def_property_readonly("first", property_of<decltype(type)>(first), "Shape: one of the two")
-      .def_property_readonly("second", property_of<decltype(type)>(second), "Shape: the other");
-  bind_value(
-      type, {"first", "second"}, [first, second](const Pointer& self) { return py::make_tuple(first(self), second(self)); },
-      constructor<MinkowskiSum, ShapePointer, ShapePointer>());
-}
-
-void bind_linear_image(py::module_& m) {
-  using Pointer = std::shared_ptr<LinearImage>;
-  const auto shape = [](const Pointer& self) { return part_of(self, self->shape()); };
-  py::class_<LinearImage, Shape, Pointer> type(
+void bind_combinations(py::module_& m) {
+  bind_shape<Rounded>(m, "Rounded", "A shape swept by a sphere.\n\nradius: m, in [0, 1e30]; ValueError otherwise.",
+                      Field{"core", [](const std::shared_ptr<Rounded>& self) { return part_of(self, self->core()); },
+                            "Shape: the shape without the rounding"},
+                      Field{"radius", &Rounded::radius, "m"});
+  using Sum = std::shared_ptr<MinkowskiSum>;
+  bind_shape<MinkowskiSum>(m, "MinkowskiSum", "All points p + q with p in the first shape and q in the second.",
+                           Field{"first", [](const Sum& self) { return part_of(self, self->first()); }, "Shape: one of the two"},
+                           Field{"second", [](const Sum& self) { return part_of(self, self->second()); }, "Shape: the other"});
+  bind_shape<LinearImage>(
       m, "LinearImage",
       "The points matrix @ p of all points p of a shape.\n\n"
-      "matrix: (3, 3), with singular values in [1e-30, 1e30] and a ratio of at most 1e12; ValueError otherwise.");
-  type.def(py::init<ShapePointer, Matrix3>(), py::arg("shape").none(false), py::arg("matrix"))
-      .def_property_readonly("shape", property_of<decltype(type)>(shape), "Shape: the original shape")
-      .def_property_readonly(
-          "matrix", [](const LinearImage& self) { return self.matrix(); }, "(3, 3)");
-  bind_value(
-      type, {"shape", "matrix"}, [shape](const Pointer& self) { return py::make_tuple(shape(self), plain(self->matrix())); },
-      constructor<LinearImage, ShapePointer, Matrix3>());
+      "matrix: (3, 3), with singular values in [1e-30, 1e30] and a ratio of at most 1e12; ValueError otherwise.",
+      Field{"shape", [](const std::shared_ptr<LinearImage>& self) { return part_of(self, self->shape()); },
+            "Shape: the original shape"},
+      Field{"matrix", &LinearImage::matrix, "(3, 3)"});
 }
 
 void bind_callback_shape(py::module_& m) {
@@ -239,9 +202,7 @@ void bind_callback_shape(py::module_& m) {
 
 void bind_composed_shapes(py::module_& m) {
   bind_polytope(m);
-  bind_rounded(m);
-  bind_minkowski_sum(m);
-  bind_linear_image(m);
+  bind_combinations(m);
   bind_callback_shape(m);
 }
 

@@ -98,18 +98,16 @@ The gap grows as (smaller x^2 + larger y^2) / 2 about the contact. normal: (3,),
 
 void bind_contact(py::module_& m) {
   py::class_<ContactManifold> type(m, "ContactManifold", kManifoldDoc);
-  type.def_property_readonly(
-          "deepest", [](const ContactManifold& self) { return self.deepest; }, "Proximity: the deepest point")
-      .def_property_readonly("corner_points", &corner_points, "(K, 3), m, K = 0 or 4; some may coincide")
-      .def_property_readonly("corner_depths", &corner_depths, "(K,), m; depth of the overlap at the corners, at least 0")
-      .def_readonly("margin", &ContactManifold::margin, "m; upper bound of the gap between the bodies at a corner")
-      .def_readonly("same_place", &ContactManifold::same_place, "m; corners closer than this are one contact")
-      .def_readonly("evaluations", &ContactManifold::evaluations, "boundary points evaluated to find the corners")
-      .def("contacts", &contacts, py::arg("room") = 8, kContactsDoc)
-      .def("__repr__", [](const ContactManifold& self) {
-        return "ContactManifold(deepest=" + py::repr(py::cast(self.deepest)).cast<std::string>() + ", of " +
-               std::to_string(self.corner_count) + " corners)";
-      });
+  bind_fields(type, Field{"deepest", &ContactManifold::deepest, "Proximity: the deepest point"},
+              Field{"corner_points", &corner_points, "(K, 3), m, K = 0 or 4; some may coincide"},
+              Field{"corner_depths", &corner_depths, "(K,), m; depth of the overlap at the corners, at least 0"},
+              Field{"margin", &ContactManifold::margin, "m; upper bound of the gap between the bodies at a corner"},
+              Field{"same_place", &ContactManifold::same_place, "m; corners closer than this are one contact"},
+              Field{"evaluations", &ContactManifold::evaluations, "boundary points evaluated to find the corners"});
+  type.def("contacts", &contacts, py::arg("room") = 8, kContactsDoc).def("__repr__", [](const ContactManifold& self) {
+    return "ContactManifold(deepest=" + py::repr(py::cast(self.deepest)).cast<std::string>() + ", of " +
+           std::to_string(self.corner_count) + " corners)";
+  });
   bind_value(type, &arguments_of, &make_manifold);
   m.def("find_contact_manifold", &find_contact_manifold, kFindManifoldDoc, py::arg("shape1"), py::arg("pose1"), py::arg("shape2"),
         py::arg("pose2"), py::arg("proximity"));

@@ -12,6 +12,9 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -38,12 +41,11 @@ class ProximitiesArgument {
                                   " pairs, but must be Proximities");
     }
     if (!py::isinstance<Proximities>(argument)) {
-      throw py::type_error(std::string(name) + " is " + std::string(py::repr(argument)) +
-                           ", but must be a Proximity or Proximities");
+      refuse_type(name, argument, "a Proximity or Proximities");
     }
     owner_ = argument;
     many_ = &argument.cast<const Proximities&>();
-    count.add(name, static_cast<std::size_t>(many_->count));
+    count.add(name, static_cast<std::size_t>(many_->count()));
   }
 
   Proximity operator[](std::ptrdiff_t i) const { return many_ != nullptr ? (*many_)[i] : single_; }
@@ -54,50 +56,43 @@ class ProximitiesArgument {
   const Proximities* many_ = nullptr;
 };
 
-/// What find_proximity_derivatives() returns. A column that was not asked for has no entries.
-struct Derivatives {
-  explicit Derivatives(std::ptrdiff_t pairs, const DerivativeSettings& asked = {})
-      : settings(asked),
-        count(pairs),
-        gap_hessian(settings.hessian ? pairs : 0),
-        parameters1(settings.parameters ? pairs : 0),
-        parameters2(settings.parameters ? pairs : 0) {}
+constexpr const char* kStatusDoc = "(N,) of uint8; compare with members of DerivativeStatus";
+constexpr const char* kEvaluationsDoc = "(N,) of int32; evaluations of the gap function";
 
-  void set(std::ptrdiff_t i, const ProximityDerivatives& found) {
-    status.set(i, static_cast<std::uint8_t>(found.status));
-    has_gap.set(i, found.has_gap);
-    has_normal.set(i, found.has_normal);
-    has_points.set(i, found.has_points);
-    gap_gradient.set(i, found.gap_gradient);
-    normal.set(i, found.normal);
-    point1.set(i, found.point1);
-    point2.set(i, found.point2);
-    common_normal.set(i, found.common_normal);
-    evaluations.set(i, found.evaluations);
-    if (settings.hessian) gap_hessian.set(i, found.gap_hessian);
-    if (!settings.parameters) return;
-    parameters1.set(i, values_of(found.parameters1));
-    parameters2.set(i, values_of(found.parameters2));
-  }
+Eigen::Matrix<double, kParameters, 1> values_of(const ParameterGradient& gradient) {
+  Eigen::Matrix<double, kParameters, 1> values = Eigen::Matrix<double, kParameters, 1>::Zero();
+  for (std::size_t k = 0; k < gradient.size(); ++k) values[static_cast<Eigen::Index>(k)] = gradient[k].value;
+  return values;
+}
 
-  DerivativeSettings settings;
-  std::ptrdiff_t count;
-  Column<std::uint8_t> status{count};
-  Column<bool> has_gap{count}, has_normal{count}, has_points{count};
-  Column<double, 12> gap_gradient{count};
-  Column<double, 3, 12> normal{count}, point1{count}, point2{count};
-  Column<double, 3> common_normal{count};
-  Column<int> evaluations{count};
-  Column<double, 12, 12> gap_hessian;
-  Column<double, kParameters> parameters1, parameters2;
+using Found = ProximityDerivatives;
+constexpr std::tuple kDerivativeFields{
+    Field{"status", &Found::status, kStatusDoc},
+    Field{"has_gap", &Found::has_gap, "(N,) of bool; whether gap_gradient is the gradient, or a subgradient"},
+    Field{"has_normal", &Found::has_normal, "(N,) of bool; whether normal and gap_hessian are defined"},
+    Field{"has_points", &Found::has_points, "(N,) of bool; whether point1 and point2 are defined"},
+    Field{"gap_gradient", &Found::gap_gradient, "(N, 12), m/m and m/rad"},
+    Field{"normal", &Found::normal, "(N, 3, 12), 1/m and 1/rad"},
+    Field{"point1", &Found::point1, "(N, 3, 12), m/m and m/rad; the point of space, not of the material"},
+    Field{"point2", &Found::point2, "(N, 3, 12), m/m and m/rad"},
+    Field{"common_normal", &Found::common_normal, "(N, 3), unit; the normal of the answer, exact to rounding"},
+    Field{"evaluations", &Found::evaluations, kEvaluationsDoc},
+    Field{"gap_hessian", &Found::gap_hessian, "(N, 12, 12), m/(m m), m/(m rad), m/(rad rad); or None"},
+    Field{
+        "parameters1", [](const Found& found) { return values_of(found.parameters1); },
+        "(N, 16), m/m for a length, m for an exponent or a taper: the derivatives of the gap by the parameters of shape 1, in the "
+        "order of Shape.parameter_names, then zeros; or None"},
+    Field{"parameters2", [](const Found& found) { return values_of(found.parameters2); }, "The same of shape 2."}};
 
- private:
-  static Eigen::Matrix<double, kParameters, 1> values_of(const ParameterGradient& gradient) {
-    Eigen::Matrix<double, kParameters, 1> values = Eigen::Matrix<double, kParameters, 1>::Zero();
-    for (std::size_t k = 0; k < gradient.size(); ++k) values[static_cast<Eigen::Index>(k)] = gradient[k].value;
-    return values;
-  }
-};
+/// What find_proximity_derivatives() returns.
+using Derivatives = Table<Found, kDerivativeFields>;
+
+std::unique_ptr<Derivatives> derivatives_for(std::ptrdiff_t pairs, const DerivativeSettings& asked) {
+  std::vector<std::string_view> left_out;
+  if (!asked.hessian) left_out.push_back("gap_hessian");
+  if (!asked.parameters) left_out.insert(left_out.end(), {"parameters1", "parameters2"});
+  return std::make_unique<Derivatives>(pairs, left_out);
+}
 
 template <typename Found>
 const Found& require_finite(const Found& found) {
@@ -134,7 +129,7 @@ std::unique_ptr<Derivatives> proximity_derivatives(const py::object& shapes1, co
                                                    bool parameters, int threads) {
   const AnsweredPairs pairs(shapes1, poses1, shapes2, poses2, proximities);
   const DerivativeSettings settings{hessian, parameters};
-  auto out = std::make_unique<Derivatives>(pairs.count(), settings);
+  auto out = derivatives_for(pairs.count(), settings);
   pairs.find_all(threads, *out, [&](const auto&... pair) { return find_proximity_derivatives(pair..., settings); });
   return out;
 }
@@ -148,7 +143,7 @@ std::unique_ptr<Derivatives> plane_derivatives(const py::object& shapes, const p
   const NumbersArgument offsets("plane_offset", plane_offset, count);
   offsets.require_finite("m");
   const DerivativeSettings settings{hessian, parameters};
-  auto out = std::make_unique<Derivatives>(count.value(), settings);
+  auto out = derivatives_for(count.value(), settings);
   parallel_for(count.value(), threads, [&](std::ptrdiff_t i) {
     const Vector3 normal = require_direction(normals.name(i), normals[i]);
     out->set(i, require_finite(find_plane_derivatives(bodies[i], places[i], normal, offsets[i], settings)));
@@ -157,22 +152,12 @@ std::unique_ptr<Derivatives> plane_derivatives(const py::object& shapes, const p
 }
 
 /// What find_gap_gradient() returns.
-struct GapGradients {
-  explicit GapGradients(std::ptrdiff_t pairs) : count(pairs) {}
-
-  void set(std::ptrdiff_t i, const GapGradient& found) {
-    status.set(i, static_cast<std::uint8_t>(found.status));
-    has_gap.set(i, found.has_gap);
-    gradient.set(i, found.gradient);
-    evaluations.set(i, found.evaluations);
-  }
-
-  std::ptrdiff_t count;
-  Column<std::uint8_t> status{count};
-  Column<bool> has_gap{count};
-  Column<double, 12> gradient{count};
-  Column<int> evaluations{count};
-};
+constexpr std::tuple kGradientFields{
+    Field{"status", &GapGradient::status, kStatusDoc},
+    Field{"has_gap", &GapGradient::has_gap, "(N,) of bool; whether it is the gradient, or a subgradient"},
+    Field{"gradient", &GapGradient::gradient, "(N, 12), m/m and m/rad, by (v1, w1, v2, w2)"},
+    Field{"evaluations", &GapGradient::evaluations, kEvaluationsDoc}};
+using GapGradients = Table<GapGradient, kGradientFields>;
 
 std::unique_ptr<GapGradients> gap_gradient(const py::object& shapes1, const py::object& poses1, const py::object& shapes2,
                                            const py::object& poses2, const py::object& proximities, int threads) {
@@ -182,20 +167,11 @@ std::unique_ptr<GapGradients> gap_gradient(const py::object& shapes1, const py::
   return out;
 }
 
-struct Clearances {
-  explicit Clearances(std::ptrdiff_t pairs) : count(pairs) {}
-
-  void set(std::ptrdiff_t i, const Clearance& found) {
-    lower_bound.set(i, found.lower_bound);
-    normal.set(i, found.normal);
-    evaluations.set(i, found.evaluations);
-  }
-
-  std::ptrdiff_t count;
-  Column<double> lower_bound{count};
-  Column<double, 3> normal{count};
-  Column<int> evaluations{count};
-};
+constexpr std::tuple kClearanceFields{
+    Field{"lower_bound", &Clearance::lower_bound, "(N,), m; the gap is at least this"},
+    Field{"normal", &Clearance::normal, "(N, 3), unit, in the frame of body 1; it gives the bound"},
+    Field{"evaluations", &Clearance::evaluations, kEvaluationsDoc}};
+using Clearances = Table<Clearance, kClearanceFields>;
 
 std::unique_ptr<Clearances> clearances(const py::object& shapes1, const py::object& poses1, const py::object& shapes2,
                                        const py::object& poses2, double enough, int max_evaluations,
@@ -240,9 +216,6 @@ py::array_t<bool> farther(const py::object& shapes1, const py::object& poses1, c
   });
   return out.array();
 }
-
-constexpr const char* kStatusDoc = "(N,) of uint8; compare with members of DerivativeStatus";
-constexpr const char* kEvaluationsDoc = "(N,) of int32; evaluations of the gap function";
 
 constexpr const char* kDerivativesDoc =
     R"(Derivatives of the gaps, normals and witness points of N pairs: the results of find_proximity_derivatives(). Frame: world.
@@ -321,59 +294,13 @@ threads: in [0, 256]; 0: up to one for each core, each with at least 256 of the 
 A shape that returns a number that is not finite is not farther. Raises ValueError when an argument is out of range, and when the
 arguments differ in length.)";
 
-/// A column that may not have been asked for: None then.
-template <typename ColumnType>
-void bind_optional(py::class_<Derivatives>& type, const char* name, ColumnType Derivatives::*column, const char* doc) {
-  type.def_property_readonly(
-      name,
-      [column](const Derivatives& self) -> std::optional<py::array_t<double>> {
-        const auto& array = (self.*column).array();
-        if (array.shape(0) != self.count) return std::nullopt;
-        return array;
-      },
-      doc);
-}
-
-void bind_gradients_class(py::module_& m) {
-  py::class_<GapGradients> type(m, "GapGradients", kGradientsDoc);
-  type.def("__len__", [](const GapGradients& self) { return self.count; });
-  bind_columns(type, "pairs", &GapGradients::status, &GapGradients::has_gap, &GapGradients::gradient, &GapGradients::evaluations);
-  bind_column(type, "status", &GapGradients::status, kStatusDoc);
-  bind_column(type, "has_gap", &GapGradients::has_gap, "(N,) of bool; whether it is the gradient, or a subgradient");
-  bind_column(type, "gradient", &GapGradients::gradient, "(N, 12), m/m and m/rad, by (v1, w1, v2, w2)");
-  bind_column(type, "evaluations", &GapGradients::evaluations, kEvaluationsDoc);
-}
-
-void bind_derivatives_class(py::module_& m) {
-  py::class_<Derivatives> type(m, "ProximityDerivatives", kDerivativesDoc);
-  type.def("__len__", [](const Derivatives& self) { return self.count; });
-  bind_columns(type, "pairs", &Derivatives::status, &Derivatives::has_gap, &Derivatives::has_normal, &Derivatives::has_points,
-               &Derivatives::gap_gradient, &Derivatives::normal, &Derivatives::point1, &Derivatives::point2,
-               &Derivatives::common_normal, &Derivatives::evaluations, &Derivatives::gap_hessian, &Derivatives::parameters1,
-               &Derivatives::parameters2);
-  bind_column(type, "status", &Derivatives::status, kStatusDoc);
-  bind_column(type, "has_gap", &Derivatives::has_gap, "(N,) of bool; whether gap_gradient is the gradient, or a subgradient");
-  bind_column(type, "has_normal", &Derivatives::has_normal, "(N,) of bool; whether normal and gap_hessian are defined");
-  bind_column(type, "has_points", &Derivatives::has_points, "(N,) of bool; whether point1 and point2 are defined");
-  bind_column(type, "gap_gradient", &Derivatives::gap_gradient, "(N, 12), m/m and m/rad");
-  bind_column(type, "normal", &Derivatives::normal, "(N, 3, 12), 1/m and 1/rad");
-  bind_column(type, "point1", &Derivatives::point1, "(N, 3, 12), m/m and m/rad; the point of space, not of the material");
-  bind_column(type, "point2", &Derivatives::point2, "(N, 3, 12), m/m and m/rad");
-  bind_column(type, "common_normal", &Derivatives::common_normal, "(N, 3), unit; the normal of the answer, exact to rounding");
-  bind_column(type, "evaluations", &Derivatives::evaluations, kEvaluationsDoc);
-  bind_optional(type, "gap_hessian", &Derivatives::gap_hessian, "(N, 12, 12), m/(m m), m/(m rad), m/(rad rad); or None");
-  bind_optional(
-      type, "parameters1", &Derivatives::parameters1,
-      "(N, 16), m/m for a length, m for an exponent or a taper: the derivatives of the gap by the parameters of shape 1, in the "
-      "order of Shape.parameter_names, then zeros; or None");
-  bind_optional(type, "parameters2", &Derivatives::parameters2, "The same of shape 2.");
-}
-
 }  // namespace
 
 void bind_derivatives(py::module_& m) {
-  bind_gradients_class(m);
-  bind_derivatives_class(m);
+  py::class_<Derivatives> derivatives(m, "ProximityDerivatives", kDerivativesDoc);
+  Derivatives::bind(derivatives, "pairs");
+  py::class_<GapGradients> gradients(m, "GapGradients", kGradientsDoc);
+  GapGradients::bind(gradients, "pairs");
   m.def("find_proximity_derivatives", &proximity_derivatives, kFindDerivativesDoc, py::arg("shapes1"), py::arg("poses1"),
         py::arg("shapes2"), py::arg("poses2"), py::arg("proximities"), py::arg("hessian") = true, py::arg("parameters") = true,
         py::arg("threads") = 0);
@@ -384,11 +311,7 @@ void bind_derivatives(py::module_& m) {
         py::arg("poses2"), py::arg("proximities"), py::arg("threads") = 0);
 
   py::class_<Clearances> bounds(m, "Clearances", kClearancesDoc);
-  bounds.def("__len__", [](const Clearances& self) { return self.count; });
-  bind_columns(bounds, "pairs", &Clearances::lower_bound, &Clearances::normal, &Clearances::evaluations);
-  bind_column(bounds, "lower_bound", &Clearances::lower_bound, "(N,), m; the gap is at least this");
-  bind_column(bounds, "normal", &Clearances::normal, "(N, 3), unit, in the frame of body 1; it gives the bound");
-  bind_column(bounds, "evaluations", &Clearances::evaluations, kEvaluationsDoc);
+  Clearances::bind(bounds, "pairs");
   m.def("find_clearances", &clearances, kFindClearancesDoc, py::arg("shapes1"), py::arg("poses1"), py::arg("shapes2"),
         py::arg("poses2"), py::arg("enough") = std::numeric_limits<double>::infinity(), py::arg("max_evaluations") = 3,
         py::arg("first_normals") = py::none(), py::arg("threads") = 0);

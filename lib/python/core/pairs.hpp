@@ -1,29 +1,158 @@
-// N pairs of bodies.
+// N pairs of bodies, and the arguments of calls for them: one for all, or one for each.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
-#include "batch_arguments.hpp"
+#include "arrays.hpp"
+#include "base/validation.hpp"
+#include "poses.hpp"
+#include "shape_sequence.hpp"
 #include "supernormal/proximity/batch.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
 
 namespace supernormal::python {
+
+/// The number of pairs: the common length of all arguments that are sequences.
+class PairCount {
+ public:
+  void add(const char* name, std::size_t count) {
+    if (name_ != nullptr && count != count_) {
+      throw std::invalid_argument(std::string(name) + " has " + std::to_string(count) + " entries and " + name_ + " has " +
+                                  std::to_string(count_) + "; they must have as many, or be a single one for all");
+    }
+    name_ = name;
+    count_ = count;
+  }
+
+  std::ptrdiff_t value() const { return static_cast<std::ptrdiff_t>(count_); }
+
+ private:
+  const char* name_ = nullptr;
+  std::size_t count_ = 1;
+};
+
+/// One Shape for all pairs, or Shapes, or a sequence of Shape.
+class ShapesArgument {
+ public:
+  ShapesArgument(const char* name, const pybind11::object& argument, PairCount& count) {
+    if (pybind11::isinstance<Shape>(argument)) {
+      single_ = argument.cast<std::shared_ptr<Shape>>();
+      return;
+    }
+    if (pybind11::isinstance<ShapeSequence>(argument)) {
+      shapes_ = argument.cast<std::shared_ptr<ShapeSequence>>();
+    } else if (pybind11::isinstance<pybind11::sequence>(argument)) {
+      shapes_ = make_shape_sequence(name, argument);
+    } else {
+      refuse_type(name, argument, "a Shape, Shapes or a sequence of Shape");
+    }
+    count.add(name, shapes_->size());
+  }
+
+  const Shape& operator[](std::ptrdiff_t i) const { return single_ ? *single_ : (*shapes_)[static_cast<std::size_t>(i)]; }
+
+ private:
+  std::shared_ptr<Shape> single_;
+  std::shared_ptr<ShapeSequence> shapes_;
+};
+
+/// One Pose for all pairs, or Poses.
+class PosesArgument {
+ public:
+  PosesArgument(const char* name, const pybind11::object& argument, PairCount& count) {
+    if (pybind11::isinstance<Pose>(argument)) {
+      single_ = argument.cast<Pose>();
+      return;
+    }
+    if (!pybind11::isinstance<Poses>(argument)) {
+      refuse_type(name, argument, "a Pose or Poses");
+    }
+    poses_ = argument.cast<std::shared_ptr<Poses>>();
+    count.add(name, poses_->poses.size());
+  }
+
+  const Pose& operator[](std::ptrdiff_t i) const { return poses_ ? poses_->poses[static_cast<std::size_t>(i)] : single_; }
+
+ private:
+  Pose single_;
+  std::shared_ptr<Poses> poses_;
+};
+
+/// Numbers: one for all pairs, or (N,).
+class NumbersArgument {
+ public:
+  NumbersArgument(const char* name, Doubles values, PairCount& count) : name_(name), values_(std::move(values)) {
+    if (values_.ndim() == 0) return;
+    count.add(name, static_cast<std::size_t>(require_rows(name, values_, {})));
+    stride_ = 1;
+  }
+
+  double operator[](std::ptrdiff_t i) const { return values_.data()[stride_ * i]; }
+
+  /// Raises ValueError, with the entry, unless all numbers are finite. `unit` is that of the message.
+  void require_finite(const char* unit) const {
+    for (std::ptrdiff_t i = 0; i < values_.size(); ++i) {
+      if (std::isfinite(values_.data()[i])) continue;
+      throw std::invalid_argument(Name{name_, stride_ == 0 ? -1 : i}.text() + " = " + to_text(values_.data()[i]) + " " + unit +
+                                  " is not finite");
+    }
+  }
+
+ private:
+  const char* name_;
+  Doubles values_;
+  std::ptrdiff_t stride_ = 0;
+};
+
+/// Vectors: (3,) for all pairs, or (N, 3).
+class VectorsArgument {
+ public:
+  VectorsArgument(const char* name, Doubles values, PairCount& count) : name_(name), values_(std::move(values)) {
+    if (values_.ndim() == 1 && values_.shape(0) == 3) return;
+    count.add(name, static_cast<std::size_t>(require_rows(name, values_, {3})));
+    stride_ = 3;
+  }
+
+  Vector3 operator[](std::ptrdiff_t i) const { return vector_at(values_.data() + stride_ * i); }
+  Name name(std::ptrdiff_t i) const { return {name_, stride_ == 0 ? -1 : i}; }
+
+ private:
+  const char* name_;
+  Doubles values_;
+  std::ptrdiff_t stride_ = 0;
+};
 
 /// Bodies, poses and first normals: one for all pairs, or one for each.
 class Pairs {
  public:
   Pairs(const pybind11::object& shapes1, const pybind11::object& poses1, const pybind11::object& shapes2,
-        const pybind11::object& poses2, const std::optional<Doubles>& first_normals = std::nullopt);
+        const pybind11::object& poses2, const std::optional<Doubles>& first_normals = std::nullopt)
+      : shapes1_("shapes1", shapes1, count_),
+        poses1_("poses1", poses1, count_),
+        shapes2_("shapes2", shapes2, count_),
+        poses2_("poses2", poses2, count_) {
+    if (first_normals) first_.emplace("first_normals", *first_normals, count_);
+  }
 
   std::ptrdiff_t count() const { return count_.value(); }
   PairCount& counted() { return count_; }  ///< for further arguments
 
   /// The question about pair i. `first` keeps its first normal.
-  ProximityQuery query(std::ptrdiff_t i, Vector3& first) const;
+  ProximityQuery query(std::ptrdiff_t i, Vector3& first) const {
+    if (first_) first = require_direction(first_->name(i), (*first_)[i]);
+    return {&shapes1_[i], &poses1_[i], &shapes2_[i], &poses2_[i], first_ ? &first : nullptr};
+  }
 
   /// Pairs that are asked together: vector lanes are full, and the stack takes 20 kB.
   static constexpr std::size_t kAtOnce = 64;
@@ -42,7 +171,7 @@ class Pairs {
       pairs[size] = i;
       queries[size] = query(i, normals[size]);
       // A shape of the program's own may throw, and then its index counts.
-      if (!is_cheaper_together(queries[size])) {
+      if (!is_power_body(*queries[size].shape1) || !is_power_body(*queries[size].shape2)) {
         one(queries[size], i);
       } else if (++size == kAtOnce) {
         ask();
@@ -53,7 +182,9 @@ class Pairs {
   }
 
  private:
-  static bool is_cheaper_together(const ProximityQuery& query);
+  static bool is_power_body(const Shape& shape) {
+    return dynamic_cast<const Superellipsoid*>(&shape) != nullptr || dynamic_cast<const Ellipsoid*>(&shape) != nullptr;
+  }
 
   PairCount count_;
   ShapesArgument shapes1_;

@@ -145,14 +145,10 @@ Pose make_pose(const Vector3& position, const std::optional<Matrix3>& rotation, 
 void bind_poses(py::module_& m) {
   py::class_<Pose> pose(m, "Pose", kPoseDoc);
   pose.def(py::init(&make_pose), py::arg("position") = Vector3(0, 0, 0), py::arg("rotation") = py::none(),
-           py::arg("quaternion") = py::none())
-      .def_property_readonly(
-          "position", [](const Pose& self) { return self.position; }, "(3,), m")
-      .def_property_readonly(
-          "rotation", [](const Pose& self) { return self.rotation; }, "(3, 3)");
-  bind_value(
-      pose, {"position", "rotation"}, [](const Pose& self) { return py::make_tuple(plain(self.position), plain(self.rotation)); },
-      [](const py::tuple& of) { return make_pose(of[0].cast<Vector3>(), of[1].cast<Matrix3>(), std::nullopt); });
+           py::arg("quaternion") = py::none());
+  bind_arguments(
+      pose, [](const py::tuple& of) { return make_pose(of[0].cast<Vector3>(), of[1].cast<Matrix3>(), std::nullopt); },
+      Field{"position", &Pose::position, "(3,), m"}, Field{"rotation", &Pose::rotation, "(3, 3)"});
   py::class_<Poses, std::shared_ptr<Poses>> poses(m, "Poses", kPosesDoc);
   poses.def(py::init(&make_poses), py::arg("position"), py::arg("rotation") = py::none(), py::arg("quaternion") = py::none())
       .def_property_readonly("position", &positions_of, "(N, 3), m; a copy")

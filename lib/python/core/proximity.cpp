@@ -14,7 +14,6 @@
 #include "parallel_for.hpp"
 #include "proximity/gap/usable_settings.hpp"
 #include "recording_shape.hpp"
-#include "shape_queries.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/python/interpreter_lock.hpp"
@@ -140,38 +139,23 @@ void bind_settings(py::module_& m) {
 
 void bind_proximity(py::module_& m) {
   py::class_<Proximity> type(m, "Proximity", kProximityDoc);
-  type.def_readonly("gap", &Proximity::gap, "m; signed distance: minus the penetration depth if negative")
-      .def_readonly("error", &Proximity::error,
-                    "m; estimated difference from the local maximum of the gap function; an upper bound if is_global")
-      .def_property_readonly(
-          "normal", [](const Proximity& self) { return self.normal; }, "(3,), unit, from body 1 to body 2")
-      .def_property_readonly(
-          "point1", [](const Proximity& self) { return self.point1; }, "(3,), m; on the boundary of body 1")
-      .def_property_readonly(
-          "point2", [](const Proximity& self) { return self.point2; }, "(3,), m; on the boundary of body 2")
-      .def_property_readonly(
-          "contact", [](const Proximity& self) { return self.contact; }, "(3,), m; where a contact force acts")
-      .def_readonly("evaluations", &Proximity::evaluations, "evaluations of the gap function")
-      .def_readonly("status", &Proximity::status, "Status")
-      .def_readonly("is_global", &Proximity::is_global, "Whether it is proved that no other normal has a larger gap.")
-      .def_readonly("global_error", &Proximity::global_error,
-                    "m; proved: the global maximum of the gap function lies in [gap, gap + global_error]")
-      .def("__repr__", [](const Proximity& self) {
-        return "Proximity(gap=" + to_text(self.gap) + ", error=" + to_text(self.error) +
-               ", normal=" + vector_text(self.normal.data(), 3) + ", status=" + status_name(self.status) +
-               ", is_global=" + (self.is_global ? "True" : "False") + ")";
-      });
-  bind_value(
-      type,
-      [](const Proximity& self) {
-        return py::make_tuple(self.gap, self.error, plain(self.normal), plain(self.point1), plain(self.point2), plain(self.contact),
-                              self.evaluations, self.status, self.is_global, self.global_error);
-      },
-      [](const py::tuple& of) {
-        return Proximity{of[0].cast<double>(),  of[1].cast<double>(),  of[2].cast<Vector3>(), of[3].cast<Vector3>(),
-                         of[4].cast<Vector3>(), of[5].cast<Vector3>(), of[6].cast<int>(),     of[7].cast<Status>(),
-                         of[8].cast<bool>(),    of[9].cast<double>()};
-      });
+  type.def("__repr__", [](const Proximity& self) {
+    return "Proximity(gap=" + to_text(self.gap) + ", error=" + to_text(self.error) +
+           ", normal=" + vector_text(self.normal.data(), 3) + ", status=" + status_name(self.status) +
+           ", is_global=" + (self.is_global ? "True" : "False") + ")";
+  });
+  bind_record(type, Field{"gap", &Proximity::gap, "m; signed distance: minus the penetration depth if negative"},
+              Field{"error", &Proximity::error,
+                    "m; estimated difference from the local maximum of the gap function; an upper bound if is_global"},
+              Field{"normal", &Proximity::normal, "(3,), unit, from body 1 to body 2"},
+              Field{"point1", &Proximity::point1, "(3,), m; on the boundary of body 1"},
+              Field{"point2", &Proximity::point2, "(3,), m; on the boundary of body 2"},
+              Field{"contact", &Proximity::contact, "(3,), m; where a contact force acts"},
+              Field{"evaluations", &Proximity::evaluations, "evaluations of the gap function"},
+              Field{"status", &Proximity::status, "Status"},
+              Field{"is_global", &Proximity::is_global, "Whether it is proved that no other normal has a larger gap."},
+              Field{"global_error", &Proximity::global_error,
+                    "m; proved: the global maximum of the gap function lies in [gap, gap + global_error]"});
   m.def("find_proximity", &proximity, kFindDoc, py::arg("shape1"), py::arg("pose1"), py::arg("shape2"), py::arg("pose2"),
         py::arg("settings") = Settings(), py::arg("first_normal") = py::none());
   m.def("find_proximity_path", &proximity_path, kPathDoc, py::arg("shape1"), py::arg("pose1"), py::arg("shape2"), py::arg("pose2"),

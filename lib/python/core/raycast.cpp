@@ -43,33 +43,19 @@ Raises ValueError when an argument is out of range, or when the shape returns a 
 
 void bind_raycast(py::module_& m) {
   py::class_<RayHit> type(m, "RayHit", kHitDoc);
-  type.def_readonly("hit", &RayHit::hit, "Whether the ray meets the boundary within its length.")
-      .def_readonly("from_inside", &RayHit::from_inside, "Whether the origin is inside. The hit is then where the ray leaves.")
-      .def_readonly("distance", &RayHit::distance, "m; along the ray")
-      .def_readonly("distance_error", &RayHit::distance_error, "m; estimate")
-      .def_readonly("boundary_error", &RayHit::boundary_error, "m; upper bound of the distance of `point` from the boundary")
-      .def_property_readonly(
-          "point", [](const RayHit& self) { return self.point; }, "(3,), m")
-      .def_property_readonly(
-          "normal", [](const RayHit& self) { return self.normal; }, "(3,), unit, outward, also from inside")
-      .def_readonly("evaluations", &RayHit::evaluations, "evaluations of the support function")
-      .def_readonly("status", &RayHit::status, "Status; unless CONVERGED, `hit` is preliminary")
-      .def("__repr__", [](const RayHit& self) {
-        if (!self.hit) return std::string("RayHit(hit=False)");
-        return "RayHit(hit=True, distance=" + to_text(self.distance) + ", point=" + vector_text(self.point.data(), 3) +
-               ", normal=" + vector_text(self.normal.data(), 3) + ")";
-      });
-  bind_value(
-      type,
-      [](const RayHit& self) {
-        return py::make_tuple(self.hit, self.from_inside, self.distance, self.distance_error, self.boundary_error,
-                              plain(self.point), plain(self.normal), self.evaluations, self.status);
-      },
-      [](const py::tuple& of) {
-        return RayHit{of[0].cast<bool>(),    of[1].cast<bool>(),   of[2].cast<double>(),
-                      of[3].cast<double>(),  of[4].cast<double>(), of[5].cast<Vector3>(),
-                      of[6].cast<Vector3>(), of[7].cast<int>(),    of[8].cast<Status>()};
-      });
+  type.def("__repr__", [](const RayHit& self) {
+    if (!self.hit) return std::string("RayHit(hit=False)");
+    return "RayHit(hit=True, distance=" + to_text(self.distance) + ", point=" + vector_text(self.point.data(), 3) +
+           ", normal=" + vector_text(self.normal.data(), 3) + ")";
+  });
+  bind_record(type, Field{"hit", &RayHit::hit, "Whether the ray meets the boundary within its length."},
+              Field{"from_inside", &RayHit::from_inside, "Whether the origin is inside. The hit is then where the ray leaves."},
+              Field{"distance", &RayHit::distance, "m; along the ray"},
+              Field{"distance_error", &RayHit::distance_error, "m; estimate"},
+              Field{"boundary_error", &RayHit::boundary_error, "m; upper bound of the distance of `point` from the boundary"},
+              Field{"point", &RayHit::point, "(3,), m"}, Field{"normal", &RayHit::normal, "(3,), unit, outward, also from inside"},
+              Field{"evaluations", &RayHit::evaluations, "evaluations of the support function"},
+              Field{"status", &RayHit::status, "Status; unless CONVERGED, `hit` is preliminary"});
   m.def("find_ray_hit", &ray_hit, kRayDoc, py::arg("shape"), py::arg("pose"), py::arg("origin"), py::arg("direction"),
         py::arg("length") = std::numeric_limits<double>::infinity(), py::arg("settings") = Settings());
 }

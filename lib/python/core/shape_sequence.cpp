@@ -96,8 +96,7 @@ std::shared_ptr<ShapeSequence> make_shape_sequence(const char* name, const py::s
   std::vector<const Shape*> pointers;
   for (const py::handle item : shapes) {
     if (!py::isinstance<Shape>(item)) {
-      throw py::type_error(Name{name, static_cast<std::ptrdiff_t>(owner->size())}.text() + " is " + std::string(py::repr(item)) +
-                           ", but must be a Shape");
+      refuse_type(Name{name, static_cast<std::ptrdiff_t>(owner->size())}.text(), item, "a Shape");
     }
     owner->push_back(item.cast<std::shared_ptr<Shape>>());
     pointers.push_back(owner->back().get());
