@@ -45,9 +45,7 @@ double effective_mass(const Patch& patch) {
 /// Moves contacts that carry no force behind the others.
 void leave_out_idle(double damping, Patch& patch) {
   if (damping > 0) return;
-  const auto carries = [](const dContact& contact) { return contact.geom.depth > 0; };
-  const auto idle = std::stable_partition(patch.contacts.begin(), patch.contacts.end(), carries);
-  patch.kept = static_cast<int>(idle - patch.contacts.begin());
+  patch.kept = static_cast<int>(move_to_front(patch.contacts, [](const dContact& contact) { return contact.geom.depth > 0; }));
 }
 
 void set_rows(const Spring& spring, double mass, Patch& patch) {

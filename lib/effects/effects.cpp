@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "effects/body_forces.hpp"
+#include "effects/laws.hpp"
 #include "effects/pair_material.hpp"
 #include "effects/speculative_contacts.hpp"
-#include "effects/validate.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/geom/look_ahead.hpp"
@@ -71,23 +71,6 @@ std::vector<Effect> validated(const std::vector<Effect>& list, Solver solver) {
   return list;
 }
 
-/// Moves all contacts of the first contact's region to the front, in their order, and returns their number. Colliders usually list
-/// the contacts of a region one after the other, but the contacts of a mesh may be interleaved.
-std::size_t gather_region(std::span<dContact> contacts) {
-  const dContact& first = contacts.front();
-  const auto end = std::ranges::find_if_not(contacts, [&](const dContact& contact) { return is_same_region(first, contact); });
-  const dContact lead = first;
-  const auto rest = std::stable_partition(end, contacts.end(), [&](const dContact& c) { return is_same_region(lead, c); });
-  return static_cast<std::size_t>(rest - contacts.begin());
-}
-
-/// Moves the contacts ahead of touch behind the others, and returns the number of the others.
-std::size_t put_ahead_last(std::span<dContact> contacts) {
-  const auto touches = [](const dContact& contact) { return !(contact.geom.depth < 0); };
-  if (std::ranges::all_of(contacts, touches)) return contacts.size();
-  return static_cast<std::size_t>(std::stable_partition(contacts.begin(), contacts.end(), touches) - contacts.begin());
-}
-
 /// Makes all our geoms on a body look ahead by `time` (s).
 void look_ahead(dBodyID body, double time) {
   bool has_ours = false;
@@ -109,7 +92,7 @@ struct Effects::State {
         forces(list, step),
         is_speculative(has<SpeculativeContacts>(list)),
         looks_ahead(is_speculative || solver == Solver::Stepper),
-        speculative(step, has<Restitution>(list)) {}
+        speculative(step, has<Restitution>(list), pair_materials) {}
 
   /// Runs `work` and, if times are measured, adds its time to the effect's total.
   template <typename Work>
@@ -139,7 +122,9 @@ struct Effects::State {
 int Effects::State::run_passes(PairMaterial& pair, std::span<dContact> contacts, dBodyID body1, dBodyID body2) {
   std::size_t kept = 0;
   for (std::size_t first = 0, end = 0; first < contacts.size(); first = end) {
-    end = first + gather_region(contacts.subspan(first));
+    // Colliders usually list the contacts of a region one after the other, but the contacts of a mesh may be interleaved.
+    end = first + move_to_front(contacts.subspan(first),
+                                [lead = contacts[first]](const dContact& contact) { return is_same_region(lead, contact); });
     Patch patch{contacts.subspan(first, end - first), step, static_cast<int>(end - first), body1, body2};
     for (const Pass& pass : pair.passes) timed(pass.effect, [&] { pass.run(pair, patch); });
     pair.coarse += static_cast<unsigned long long>(patch.coarse);
@@ -185,7 +170,8 @@ int Effects::set_up_contacts(std::span<dContact> contacts, const Side& side1, co
     ode::correct_leftover(surface);
   }
   for (dContact& contact : contacts) contact.surface = surface;
-  const std::span<dContact> touching = contacts.first(put_ahead_last(contacts));
+  const std::span<dContact> touching =
+      contacts.first(move_to_front(contacts, [](const dContact& contact) { return !(contact.geom.depth < 0); }));
   const std::span<dContact> ahead = contacts.subspan(touching.size());
   int kept = pair.passes.empty() ? static_cast<int>(touching.size()) : state_->run_passes(pair, touching, side1.body, side2.body);
   if (pair.takes_ahead && !ahead.empty()) {
@@ -195,7 +181,7 @@ int Effects::set_up_contacts(std::span<dContact> contacts, const Side& side1, co
   }
   if (state_->is_speculative) {
     const auto attached = contacts.first(static_cast<std::size_t>(kept));
-    state_->timed(index_of<SpeculativeContacts>(), [&] { state_->speculative.set_up(pair, attached, side1.body, side2.body); });
+    state_->timed(index_of<SpeculativeContacts>(), [&] { state_->speculative.set_up(pair, attached, side1, side2); });
   }
   pair.contacts += static_cast<unsigned long long>(kept);
   return kept;

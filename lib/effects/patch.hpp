@@ -3,12 +3,23 @@
 
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal::effects {
+
+/// Moves the contacts that a condition holds for to the front, in their order, and returns their number.
+template <typename Condition>
+std::size_t move_to_front(std::span<dContact> contacts, const Condition& is_first) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    if (is_first(contacts[k])) std::rotate(&contacts[count++], &contacts[k], &contacts[k] + 1);  // std::stable_partition allocates
+  }
+  return count;
+}
 
 /// Whether two contacts of a pair belong to one region: their normals are equal to rounding.
 bool is_same_region(const dContact& a, const dContact& b);

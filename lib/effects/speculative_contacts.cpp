@@ -10,9 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <iterator>
-#include <queue>
-#include <tuple>
 #include <utility>
 
 #include "effects/motion.hpp"
@@ -43,9 +40,6 @@ bool is_attached(dBodyID body) {
   return false;
 }
 
-// Cosine; contacts with normals nearer than this are of one side of a surface, and those of two walls are farther apart.
-constexpr double kSameSide = 0.9;
-
 void set_velocities(dBodyID body, const Vector3& linear, const Vector3& angular) {
   dBodySetLinearVel(body, ode::to_real(linear.x()), ode::to_real(linear.y()), ode::to_real(linear.z()));
   dBodySetAngularVel(body, ode::to_real(angular.x()), ode::to_real(angular.y()), ode::to_real(angular.z()));
@@ -54,23 +48,27 @@ void set_velocities(dBodyID body, const Vector3& linear, const Vector3& angular)
 }  // namespace
 
 std::size_t SpeculativeSetup::index_of(dBodyID body) {
-  const auto [entry, is_new] = indices_.try_emplace(body, bodies_.size());
-  if (is_new) {
+  std::size_t& index = indices_.try_emplace(body, bodies_.size()).first->second;
+  if (index >= bodies_.size() || bodies_[index].id != body) {
+    index = bodies_.size();
     bodies_.push_back(MovingBody::of(body));
     bodies_.back().is_attached = is_attached(body);
   }
-  return entry->second;
+  return index;
 }
 
 bool SpeculativeSetup::lets_in(const PairMaterial& pair, dBodyID body1, dBodyID body2) {
   return pair.restitution > 0 && (bodies_[index_of(body1)].is_attached || bodies_[index_of(body2)].is_attached);
 }
 
-void SpeculativeSetup::set_up(const PairMaterial& pair, std::span<dContact> contacts, dBodyID body1, dBodyID body2) {
+void SpeculativeSetup::set_up(const PairMaterial& pair, std::span<dContact> contacts, const Side& side1, const Side& side2) {
   if (contacts.empty()) return;
   const dContactGeom& geom = contacts.front().geom;
-  Record record{&pair, 0, 0, contacts_.size(), 0, contacts.size(), geom.g1, geom.g2};
-  if (is_elastic_) record.body1 = index_of(body1), record.body2 = index_of(body2);
+  Record record{&pair, 0, 0, contacts_.size(), 0, contacts.size()};
+  if (is_elastic_) {
+    record.body1 = index_of(side1.body), record.body2 = index_of(side2.body);
+    sides_[geom.g1] = side1, sides_[geom.g2] = side2;
+  }
   if (pair.is_speculative && pair.restitution > 0 && ode::looks_ahead(geom)) {
     record.count = contacts.size();
     const MovingBody& one = bodies_[record.body1];
@@ -92,37 +90,37 @@ void SpeculativeSetup::set_up_alone(Record& record, std::span<dContact> contacts
   alone_.assign(contacts.begin(), contacts.end());
   const Meeting alone{*record.pair, bodies[0], bodies[1], alone_, step_, record.may_bounce};
   for (auto impact = alone.next_impact(); impact; impact = alone.next_impact()) {
-    alone.strike(*impact);
+    alone.strike(*impact, pushes_);
     record.is_planned = true;
   }
   std::ranges::transform(alone_, contacts.begin(), [&](const MeetingContact& c) { return alone.row_of(c); });
 }
 
-void SpeculativeSetup::list_records() {
-  records_of_.assign(bodies_.size(), {});
-  for (std::size_t k = 0; k < records_.size(); ++k) {
-    for (const std::size_t body : {records_[k].body1, records_[k].body2}) {
-      if (bodies_[body].inverse_mass > 0) records_of_[body].push_back(k);
-    }
+void SpeculativeSetup::list_record(std::size_t index) {
+  records_of_.resize(std::max(records_of_.size(), bodies_.size()));
+  for (const std::size_t body : {records_[index].body1, records_[index].body2}) {
+    if (bodies_[body].inverse_mass > 0) records_of_[body].push_back(index);
   }
 }
 
-void SpeculativeSetup::run_impacts() {
+void SpeculativeSetup::run_impacts(std::size_t first) {
   const auto impacts_of = [&](const Record& record) { return bodies_[record.body1].impacts + bodies_[record.body2].impacts; };
-  using Event = std::tuple<double, std::size_t, int>;  // time, record, and the impacts that its bodies had
-  std::priority_queue<Event, std::vector<Event>, std::greater<>> events;
   const auto expect = [&](std::size_t k) {
-    if (const auto impact = meeting(records_[k]).next_impact()) events.emplace(impact->time, k, impacts_of(records_[k]));
+    const auto impact = meeting(records_[k]).next_impact();
+    if (!impact) return;
+    events_.emplace_back(impact->time, k, impacts_of(records_[k]));
+    std::ranges::push_heap(events_, std::greater<>());
   };
-  for (std::size_t k = 0; k < records_.size(); ++k) {
+  for (std::size_t k = first; k < records_.size(); ++k) {
     if (records_[k].is_planned) expect(k);
   }
-  while (!events.empty()) {
-    const auto [time, k, impacts] = events.top();
-    events.pop();
+  while (!events_.empty()) {
+    std::ranges::pop_heap(events_, std::greater<>());
+    const auto [time, k, impacts] = events_.back();
+    events_.pop_back();
     Record& record = records_[k];
     if (impacts != impacts_of(record)) continue;
-    meeting(record).strike(*meeting(record).next_impact());
+    meeting(record).strike(*meeting(record).next_impact(), pushes_);
     ++record.impacts;
     for (const std::size_t body : {record.body1, record.body2}) std::ranges::for_each(records_of_[body], expect);
   }
@@ -131,20 +129,51 @@ void SpeculativeSetup::run_impacts() {
 /// Replaces the contacts of a pair whose bodies have had other impacts than those that the contacts were set up for.
 void SpeculativeSetup::exchange(std::size_t index) {
   const Record& record = records_[index];
-  const auto is_left_alone = [&](const MovingBody& body) { return body.inverse_mass == 0 || body.impacts == record.impacts; };
+  const auto is_left_alone = [&](const MovingBody& body) {
+    return body.inverse_mass == 0 || (body.impacts == record.impacts && !body.is_stopped);
+  };
   const Meeting now = meeting(record);
   if (is_left_alone(now.body1) && is_left_alone(now.body2)) return;
-  std::vector<dContact> rows;
-  std::ranges::transform(now.contacts, std::back_inserter(rows), [&](const MeetingContact& c) { return now.row_of(c); });
-  if (record.attached == 0) return joints_.add(rows, now.body1.id, now.body2.id);
-  ContactExchange::Place place{now.body1.id, now.body2.id, 0, 0, record.count};
-  for (const std::size_t k : records_of_[now.body1.inverse_mass > 0 ? record.body1 : record.body2]) {
-    const Record& other = records_[k];
-    if (std::minmax(other.body1, other.body2) != std::minmax(record.body1, record.body2)) continue;
-    if (k < index) place.first += other.attached;
-    place.all += other.attached;
+  const dBodyID one = now.body1.id, other = now.body2.id;
+  rows_.clear();
+  for (const MeetingContact& c : now.contacts) {
+    const bool is_attached = record.attached > 0, was_hit = c.total > 0;
+    if (is_attached) rows_.push_back(c.is_stop && !was_hit ? now.stop_of(c) : now.row_of(c));
+    if (!is_attached && was_hit) exchanges_.push_back({nullptr, now.row_of(c), one, other});
+    if (c.is_stop && (was_hit || !is_attached)) exchanges_.push_back({nullptr, now.stop_of(c), one, other});
   }
-  joints_.replace(place, rows);
+  if (record.attached == 0) return;
+  listed_.clear();
+  const bool is_free = now.body1.inverse_mass > 0;
+  for (int k = dBodyGetNumJoints(is_free ? one : other); k-- > 0;) {  // ODE lists the last one first
+    const dJointID joint = dBodyGetJoint(is_free ? one : other, k);
+    const bool is_between = std::minmax(dJointGetBody(joint, 0), dJointGetBody(joint, 1)) == std::minmax(one, other);
+    if (is_between && dJointGetType(joint) == dJointTypeContact) listed_.push_back(joint);
+  }
+  std::size_t first = 0, all = 0;  // of these
+  for (const std::size_t k : records_of_[is_free ? record.body1 : record.body2]) {
+    const Record& same = records_[k];
+    if (std::minmax(same.body1, same.body2) != std::minmax(record.body1, record.body2)) continue;
+    if (k < index) first += same.attached;
+    all += same.attached;
+  }
+  if (listed_.size() != all) is_known_ = false;
+  for (std::size_t k = 0; is_known_ && k < rows_.size(); ++k) exchanges_.push_back({listed_[first + k], rows_[k], one, other});
+}
+
+/// Makes the joints of all exchanges. If a program has not attached as many contacts as were set up, it is unknown which is which.
+/// Then it makes none.
+void SpeculativeSetup::make_joints() {
+  if (!std::exchange(is_known_, true)) exchanges_.clear();
+  for (const Exchange& exchange : exchanges_) {
+    const dBodyID body = exchange.body1 != nullptr ? exchange.body1 : exchange.body2;
+    const dJointID joint = dJointCreateContact(dBodyGetWorld(body), joints_.get(), &exchange.contact);
+    dJointAttach(joint, exchange.body1, exchange.body2);
+    if (exchange.old == nullptr) continue;
+    dJointDisable(exchange.old);
+    dJointSetFeedback(joint, dJointGetFeedback(exchange.old));
+  }
+  exchanges_.clear();
 }
 
 void SpeculativeSetup::move_bodies() const {
@@ -157,82 +186,95 @@ void SpeculativeSetup::move_bodies() const {
   }
 }
 
-/// Adds a record of contacts with a wall, a geom without a body or of a kinematic one, that the program has none of.
+Side SpeculativeSetup::side_of(dGeomID geom) const {
+  const auto known = sides_.find(geom);
+  if (known == sides_.end()) return {-1, dGeomGetBody(geom)};
+  // A body of an earlier step may be gone.
+  const std::size_t index = indices_.at(known->second.body);
+  const bool is_here = index < bodies_.size() && bodies_[index].id == known->second.body;
+  return {known->second.material, is_here ? known->second.body : dGeomGetBody(geom)};
+}
+
+/// Adds a record of contacts with a wall, a geom without a body or of a kinematic one.
 void SpeculativeSetup::add_wall(void* data, dGeomID geom1, dGeomID geom2) {
   if (dGeomIsSpace(geom1) != 0 || dGeomIsSpace(geom2) != 0) return dSpaceCollide2(geom1, geom2, data, add_wall);
   const Search& search = *static_cast<const Search*>(data);
   SpeculativeSetup& setup = *search.setup;
   const dBodyID body = setup.bodies_[search.body].id;
   if (dGeomGetBody(geom1) != body) std::swap(geom1, geom2);
-  const dBodyID wall = dGeomGetBody(geom2);
+  const Side side = setup.side_of(geom2);
+  const dBodyID wall = side.body;
   if ((wall != nullptr && dBodyIsKinematic(wall) == 0) || dAreConnectedExcluding(body, wall, dJointTypeContact) != 0) return;
+  const PairMaterial& pair = setup.pairs_.of(setup.side_of(geom1).material, side.material);
+  if (!pair.is_speculative) return;
   std::array<dContact, 8> contacts{};
   const int count = dCollide(geom1, geom2, static_cast<int>(contacts.size()), &contacts[0].geom, sizeof(dContact));
-  // The program may have contacts with another side of a surface.
-  const auto is_known = [&](const dContact& contact) {
-    return !(contact.geom.depth < 0) || std::ranges::any_of(setup.records_of_[search.body], [&](std::size_t k) {
-      const Record& other = setup.records_[k];
-      if (std::minmax(other.geom1, other.geom2) != std::minmax(geom1, geom2)) return false;
-      const auto known = std::span(setup.contacts_).subspan(other.first, other.count);
-      const Vector3 normal = (other.geom1 == geom1 ? 1 : -1) * ode::to_vector(contact.geom.normal);
-      return known.empty() || std::ranges::any_of(known, [&](const auto& c) { return c.normal.dot(normal) > kSameSide; });
-    });
-  };
-  const auto end = std::remove_if(contacts.begin(), contacts.begin() + count, is_known);
+  const auto touches = [](const dContact& contact) { return !(contact.geom.depth < 0); };
+  const auto end = std::remove_if(contacts.begin(), contacts.begin() + count, touches);
   if (end == contacts.begin()) return;
-  const auto found = static_cast<std::size_t>(end - contacts.begin());
-  const bool bounces = search.bounces;
   const std::size_t other = setup.index_of(wall);
-  setup.records_of_.resize(setup.bodies_.size());
-  setup.records_of_[search.body].push_back(setup.records_.size());
-  setup.records_.push_back({search.pair, search.body, other, setup.contacts_.size(), found, 0, geom1, geom2, bounces, bounces});
+  const auto found = static_cast<std::size_t>(end - contacts.begin());
+  setup.records_.push_back({&pair, search.body, other, setup.contacts_.size(), found, 0, search.bounces, search.bounces});
+  setup.list_record(setup.records_.size() - 1);
   setup.contacts_.insert(setup.contacts_.end(), contacts.begin(), end);
 }
 
-/// Finds walls on the way of bodies after their impacts. A program has no contacts there: its are of the motion before. Without
-/// this, of 480 heaps that a heavy body hits 29 lose a body through a thin floor; with it 2.
-void SpeculativeSetup::find_walls() {
-  const std::vector<Record> struck = records_;
-  for (const Record& record : struck) {
-    // Between two walls there would be no end of impacts.
-    const bool bounces = bodies_[record.body1].inverse_mass > 0 && bodies_[record.body2].inverse_mass > 0;
-    for (const std::size_t index : {record.body1, record.body2}) {
-      const MovingBody body = bodies_[index];
-      if (record.impacts == 0 || !(body.inverse_mass > 0)) continue;
-      const Vector3 velocity = ode::to_vector(dBodyGetLinearVel(body.id)), spin = ode::to_vector(dBodyGetAngularVel(body.id));
-      set_velocities(body.id, body.velocity, body.angular_velocity);
-      for (dGeomID geom = dBodyGetFirstGeom(body.id); geom != nullptr; geom = dBodyGetNextGeom(geom)) {
-        const ode::Body* const ours = ode::find_body(geom);
-        if (ours == nullptr || body.velocity.norm() * step_ <= kShallow * ours->size()) continue;
-        ode::set_moved(geom);  // the bounding box covers the motion
-        dGeomID all = geom;
-        while (dGeomGetSpace(all) != nullptr) all = reinterpret_cast<dGeomID>(dGeomGetSpace(all));
-        Search search{this, index, record.pair, bounces};
-        if (all != geom) dSpaceCollide2(geom, all, &search, add_wall);
-      }
-      set_velocities(body.id, velocity, spin);
-    }
+/// Finds walls on the way of a body after its impacts, and other places of known walls. A program has no contacts there: its are of
+/// the motion before. Without this, of 480 heaps that a heavy body hits 29 lose a body through a thin floor; with it 1.
+void SpeculativeSetup::find_walls(std::size_t index) {
+  const MovingBody body = bodies_[index];
+  // Between two walls there would be no end of impacts.
+  const bool bounces = std::ranges::any_of(
+      records_of_[index], [&](std::size_t k) { return records_[k].impacts > 0 && !meeting(records_[k]).is_at_wall(); });
+  const Vector3 velocity = ode::to_vector(dBodyGetLinearVel(body.id)), spin = ode::to_vector(dBodyGetAngularVel(body.id));
+  set_velocities(body.id, body.velocity, body.angular_velocity);
+  for (dGeomID geom = dBodyGetFirstGeom(body.id); geom != nullptr; geom = dBodyGetNextGeom(geom)) {
+    const ode::Body* const ours = ode::find_body(geom);
+    if (ours == nullptr || body.velocity.norm() * step_ <= kShallow * ours->size()) continue;
+    ode::set_moved(geom);  // the bounding box covers the motion
+    dGeomID all = geom;
+    while (dGeomGetSpace(all) != nullptr) all = reinterpret_cast<dGeomID>(dGeomGetSpace(all));
+    Search search{this, index, bounces};
+    if (all != geom) dSpaceCollide2(geom, all, &search, add_wall);
   }
+  set_velocities(body.id, velocity, spin);
+}
+
+/// Stops a body after its impacts at all walls together, those that the program has listed and those that were found.
+void SpeculativeSetup::stop_at_walls(std::size_t index) {
+  pushes_.clear();
+  for (const std::size_t k : records_of_[index]) {
+    if (const Meeting at = meeting(records_[k]); at.is_at_wall()) at.add_stops(pushes_);
+  }
+  const OfBoth change = solve_impulses(pushes_);
+  if (change.isZero(0)) return;
+  for (const Push& push : pushes_) push.at->is_stop = push.total > 0 || push.lacking > 0;
+  bodies_[index].velocity += change.head<3>();
+  bodies_[index].is_stopped = true;
 }
 
 void SpeculativeSetup::resolve() {
-  joints_.clear();
+  dJointGroupEmpty(joints_.get());
   if (std::ranges::any_of(records_, &Record::is_planned)) {
-    list_records();
-    run_impacts();
-    find_walls();
-    run_impacts();
-    for (const Record& record : records_) {
-      if (record.attached == 0) meeting(record).stop_at_wall();
+    for (auto& records : records_of_) records.clear();
+    for (std::size_t k = 0; k < records_.size(); ++k) list_record(k);
+    for (std::size_t first = 0; first < records_.size();) {
+      run_impacts(first);
+      first = records_.size();
+      for (std::size_t k = 0; k < bodies_.size(); ++k) {
+        if (std::exchange(bodies_[k].impacts_searched, bodies_[k].impacts) < bodies_[k].impacts) find_walls(k);
+      }
+    }
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      if (bodies_[k].impacts > 0) stop_at_walls(k);
     }
     for (std::size_t k = 0; k < records_.size(); ++k) exchange(k);
-    joints_.commit();
+    make_joints();
     move_bodies();
   }
   records_.clear();
   contacts_.clear();
   bodies_.clear();
-  indices_.clear();
 }
 
 void SpeculativeSetup::remove(dBodyID body) {

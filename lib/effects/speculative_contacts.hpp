@@ -4,26 +4,28 @@
 #include <ode/ode.h>
 
 #include <cstddef>
+#include <memory>
 #include <span>
+#include <tuple>
+#include <type_traits>
 #include <unordered_map>
 #include <vector>
 
-#include "effects/contact_exchange.hpp"
 #include "effects/meeting.hpp"
 
 namespace supernormal::effects {
 
 class SpeculativeSetup {
  public:
-  /// `step`: s. `is_elastic`: whether any bodies bounce.
-  SpeculativeSetup(double step, bool is_elastic) : step_(step), is_elastic_(is_elastic) {}
+  /// `step`: s. `is_elastic`: whether any bodies bounce. `pairs` outlive it.
+  SpeculativeSetup(double step, bool is_elastic, PairMaterials& pairs) : step_(step), is_elastic_(is_elastic), pairs_(pairs) {}
 
   /// Whether the bodies overlap at an impact, because a joint holds one of them, which is not moved to touch.
   bool lets_in(const PairMaterial& pair, dBodyID body1, dBodyID body2);
 
   /// Turns the contacts of one pair with negative depths into constraints on the motion of the step: their gaps may close, or the
   /// bodies bounce. The contacts are all that will be attached, in this order.
-  void set_up(const PairMaterial& pair, std::span<dContact> contacts, dBodyID body1, dBodyID body2);
+  void set_up(const PairMaterial& pair, std::span<dContact> contacts, const Side& side1, const Side& side2);
 
   /// Lets the impacts of the step happen, in the order of their times: moves bodies to touch, and replaces the contacts of bodies
   /// that have more than one impact.
@@ -39,7 +41,6 @@ class SpeculativeSetup {
     std::size_t body1, body2;  // in bodies_
     std::size_t first, count;  // in contacts_; none if the pair cannot bounce
     std::size_t attached;      // contacts that the program attaches; 0 for a wall that was found after impacts
-    dGeomID geom1, geom2;
     bool may_bounce = false;
     bool is_planned = false;  // whether there is an impact if no other body comes in between
     int impacts = 0;
@@ -51,29 +52,51 @@ class SpeculativeSetup {
             step_,        record.may_bounce};
   }
   void set_up_alone(Record& record, std::span<dContact> contacts);
-  void list_records();
-  void run_impacts();
-  /// What a search for walls needs: of one body, with the pair that struck it, and whether it bounces there or stops.
+  void list_record(std::size_t index);
+  /// Runs the impacts that begin with those of the records from `first` on.
+  void run_impacts(std::size_t first);
+  /// What a search for walls needs: of one body, and whether it bounces there or stops.
   struct Search {
     SpeculativeSetup* setup;
     std::size_t body;
-    const PairMaterial* pair;
     bool bounces;
   };
-  void find_walls();
+  /// As a program last said. Material -1, which none is, for a geom that met nothing yet.
+  Side side_of(dGeomID geom) const;
+  void find_walls(std::size_t index);
   static void add_wall(void* data, dGeomID geom1, dGeomID geom2);
+  void stop_at_walls(std::size_t index);
   void exchange(std::size_t index);
+  void make_joints();
   void move_bodies() const;
 
   double step_;
   bool is_elastic_;
+  PairMaterials& pairs_;
+  std::unordered_map<dGeomID, Side> sides_;           // of all geoms that met so far
   std::vector<Record> records_;                       // of this step
   std::vector<std::vector<std::size_t>> records_of_;  // of each body that moves, in records_
   std::vector<MeetingContact> contacts_;
   std::vector<MeetingContact> alone_;  // of the present call
+  std::vector<Push> pushes_;           // of the present impact
+  std::vector<dContact> rows_;         // of the present pair
   std::vector<MovingBody> bodies_;
-  std::unordered_map<dBodyID, std::size_t> indices_;
-  ContactExchange joints_;
+  std::unordered_map<dBodyID, std::size_t> indices_;   // also of earlier steps
+  using Event = std::tuple<double, std::size_t, int>;  // time, record, and the impacts that its bodies had
+  std::vector<Event> events_;                          // a heap, the first one on top
+  /// ODE has no function that changes a contact joint. So one is disabled, and another one takes its place for one step.
+  struct Exchange {
+    dJointID old;  // null for a contact that a program has not attached
+    dContact contact;
+    dBodyID body1, body2;
+  };
+  struct Destroy {
+    void operator()(dJointGroupID group) const { dJointGroupDestroy(group); }
+  };
+  std::vector<Exchange> exchanges_;
+  std::vector<dJointID> listed_;  // between the present bodies
+  bool is_known_ = true;          // which joint is which contact
+  std::unique_ptr<std::remove_pointer_t<dJointGroupID>, Destroy> joints_{dJointGroupCreate(0)};
 };
 
 }  // namespace supernormal::effects
