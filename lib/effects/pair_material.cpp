@@ -16,39 +16,6 @@ namespace {
 
 constexpr Material kOther = -2;  // stands for every material that is not listed
 
-/// The entries of one effect in the list.
-template <typename E>
-class Entries {
- public:
-  explicit Entries(const std::vector<Effect>& list) : list_(list) {}
-
-  /// The entry that is listed for the pair itself, or null.
-  const E* between(Material a, Material b) const {
-    return find([&](const MaterialSelector& on) {
-      return on.is_pair() && ((on.first() == a && on.second() == b) || (on.first() == b && on.second() == a));
-    });
-  }
-  /// The entry that is listed for the material, or else for all materials, or null.
-  const E* of(Material m) const {
-    const E* const own = own_of(m);
-    return own != nullptr ? own : find([](const MaterialSelector& on) { return on.is_all(); });
-  }
-  const E* own_of(Material m) const {
-    return find([&](const MaterialSelector& on) { return !on.is_all() && !on.is_pair() && on.first() == m; });
-  }
-
- private:
-  template <typename Predicate>
-  const E* find(const Predicate& is_wanted) const {
-    for (const Effect& effect : list_) {
-      const E* const entry = std::get_if<E>(&effect);
-      if (entry != nullptr && is_wanted(entry->on)) return entry;
-    }
-    return nullptr;
-  }
-  const std::vector<Effect>& list_;
-};
-
 double geometric(double a, double b) { return std::sqrt(a) * std::sqrt(b); }
 double in_series(double a, double b) { return a > 0 && b > 0 ? 1 / (1 / a + 1 / b) : 0; }
 
@@ -61,18 +28,28 @@ Restitution combined(const Restitution& a, const Restitution& b) {
 }
 Adhesion combined(const Adhesion& a, const Adhesion& b) { return {geometric(a.pull_off, b.pull_off), {}}; }
 
-/// The entries that apply to the two materials of a pair, or null. An entry for the pair applies to both.
 template <typename E>
 struct Sides {
-  const E* first;
-  const E* second;
+  const E* first = nullptr;
+  const E* second = nullptr;
 };
 
+/// The entries that apply to the two materials of a pair, or null: one for the pair applies to both, then one for the material
+/// itself, then one for all materials.
 template <typename E>
 Sides<E> find_sides(const std::vector<Effect>& list, Material a, Material b) {
-  const Entries<E> entries(list);
-  if (const E* const pair = entries.between(a, b)) return {pair, pair};
-  return {entries.of(a), entries.of(b)};
+  Sides<E> sides;
+  for (const Effect& effect : list) {
+    const E* const entry = std::get_if<E>(&effect);
+    if (entry == nullptr) continue;
+    const MaterialSelector& on = entry->on;
+    const bool is_pair = on.is_pair();
+    if (is_pair && ((on.first() == a && on.second() == b) || (on.first() == b && on.second() == a))) return {entry, entry};
+    const auto applies = [&](Material m, const E* known) { return !is_pair && (on.is_all() ? known == nullptr : on.first() == m); };
+    if (applies(a, sides.first)) sides.first = entry;
+    if (applies(b, sides.second)) sides.second = entry;
+  }
+  return sides;
 }
 
 /// The combined values of an effect. Empty if one of the two materials has no entry.

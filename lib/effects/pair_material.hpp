@@ -88,7 +88,7 @@ class PairMaterials {
   std::vector<PairMaterial> pairs_;
 };
 
-// The passes are in friction.cpp, compliance.cpp and adhesion.cpp.
+// The passes are in friction.cpp and normal_forces.cpp.
 void align_friction(const PairMaterial& pair, Patch& patch);
 void align_anisotropic_friction(const PairMaterial& pair, Patch& patch);
 void align_rolling(const PairMaterial& pair, Patch& patch);

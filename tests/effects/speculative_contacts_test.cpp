@@ -226,7 +226,6 @@ TEST_CASE("speculative contacts: a program that attaches contacts of its own kee
 TEST_CASE("speculative contacts: an elastic gas of balls and bricks keeps its energy") {
   for (const double exponent : {2.0, 4.0, 8.0, 20.0}) {
     for (const double step : {1e-3, 5e-3, 10e-3, 20e-3, 50e-3}) {
-      if (exponent > 8 && step > 20e-3) continue;  // rarely an impact of two such bricks loses some per cent
       CAPTURE(exponent);
       CAPTURE(step);
       EffectsWorld scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, step);
@@ -540,28 +539,97 @@ TEST_CASE(
 }
 
 TEST_CASE("speculative contacts: a body that an impact throws at a wall behind does not pass it") {
-  for (const double room : {0.5, 2.0, 20.0}) {           // in radii
-    for (const double motion : {0.7, 1.1, 2.0, 10.0}) {  // of the room
-      CAPTURE(room);
-      CAPTURE(motion);
-      EffectsWorld scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, 0.01);
-      const double end = kRadius * (1 + room / 2);
-      for (const double side : {-1.0, 1.0})
-        place(dCreateBox(scene.world.space(), dReal(0.2 * kRadius), 100, 100), {side * (end + 0.1 * kRadius), 0, 0});
-      const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, 0});
-      throw_body(ball, {motion * room * kRadius / 0.01, 0, 0});
-      const double start = kinetic_energy(ball);
-      for (int step = 0; step < 40; ++step) {
-        scene.step();
-        CHECK(std::abs(dBodyGetPosition(ball)[0]) < end);
-        CHECK(kinetic_energy(ball) < 1.01 * start);
+  for (const bool is_plane : {false, true}) {
+    for (const double exponent : {2.0, 8.0}) {
+      for (const double room : {0.5, 2.0, 20.0}) {                // in radii
+        for (const double motion : {0.7, 0.9, 1.1, 2.0, 10.0}) {  // of the room
+          CAPTURE(is_plane);
+          CAPTURE(exponent);
+          CAPTURE(room);
+          CAPTURE(motion);
+          EffectsWorld scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, 0.01);
+          const double end = kRadius * (1 + room / 2);
+          for (const double side : {-1.0, 1.0}) {
+            if (is_plane) dCreatePlane(scene.world.space(), dReal(-side), 0, 0, dReal(-end));
+            if (!is_plane)
+              place(dCreateBox(scene.world.space(), dReal(0.2 * kRadius), 100, 100), {side * (end + 0.1 * kRadius), 0, 0});
+          }
+          const dBodyID body = scene.add_body({kRadius, 0.8 * kRadius, 0.6 * kRadius}, exponent, kDensity, {0, 0, 0});
+          dBodySetGyroscopicMode(body, 0);
+          turn(body, {1, 2, 3}, motion);
+          throw_body(body, {motion * room * kRadius / 0.01, 0, 0});
+          const double start = kinetic_energy(body);
+          for (int step = 0; step < 40; ++step) {
+            scene.step();
+            CHECK(std::abs(dBodyGetPosition(body)[0]) < end);
+            CHECK(kinetic_energy(body) < 1.01 * start);
+          }
+        }
       }
     }
   }
 }
 
-TEST_CASE("speculative contacts: a ball joint with ERP 0 ties velocities only: its bodies are moved to touch, others are not") {
-  for (const bool holds_place : {false, true}) {
+TEST_CASE("speculative contacts: a wall behind has the restitution of its own material, and stops a body if nothing met it yet") {
+  constexpr double kSpeed = 4;  // radii a step
+  for (const bool is_known : {true, false}) {
+    for (const double e : {0.5, 0.8}) {
+      CAPTURE(is_known);
+      CAPTURE(e);
+      const auto balls = fx::MaterialSelector::between(0, 0), wall = fx::MaterialSelector::between(0, 1);
+      EffectsWorld scene({fx::Restitution{1, 0, balls}, fx::Restitution{e, 0, wall}, fx::SpeculativeContacts{}}, 0.01);
+      const dGeomID plane = dCreatePlane(scene.world.space(), 0, 0, 1, 0);
+      scene.material_of = [=](dGeomID geom) { return geom == plane ? 1 : 0; };
+      const dBodyID low = scene.add_ball(kRadius, kDensity, {0, 0, 2 * kRadius});
+      const dBodyID high = scene.add_ball(kRadius, kDensity, {0, 0, 5 * kRadius});
+      if (is_known) throw_body(scene.add_ball(kRadius, kDensity, {1, 0, 1.5 * kRadius}), {0, 0, -1});
+      throw_body(high, {0, 0, -kSpeed * kRadius / 0.01});
+      scene.step();
+      if (is_known) CHECK(speed_up(high) == relative(e * kSpeed * kRadius / 0.01).epsilon(1e-3));
+      if (!is_known) CHECK(speed_up(low) > -2 * kRadius / 0.01);
+      CHECK(height_of(low) > 0);
+    }
+  }
+}
+
+TEST_CASE("speculative contacts: a heavy body that drives a light one into the end of a tube gains no energy") {
+  Random random(1);
+  for (int draw = 0; draw < 20; ++draw) {
+    CAPTURE(draw);
+    EffectsWorld scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, 0.01);
+    dWorldSetQuickStepNumIterations(scene.id(), 60);
+    const dSpaceID space = scene.world.space();
+    scene.world.add_plane();
+    const auto half = dReal(1.5 * kRadius);
+    for (const dReal side : {dReal(-1), dReal(1)}) dCreatePlane(space, side, 0, 0, -half), dCreatePlane(space, 0, side, 0, -half);
+    const double exponent = draw % 2 == 0 ? 2 : 8, gap = random.uniform(0, 1) * kRadius;
+    const Vec axes = {kRadius, 0.8 * kRadius, 0.6 * kRadius};
+    const dBodyID light = scene.add_body(axes, exponent, kDensity, {0, 0, 1.75 * kRadius + gap});
+    const dBodyID heavy = scene.add_body(axes, exponent, 10 * kDensity, {random.uniform(-0.2, 0.2) * kRadius, 0, 6 * kRadius});
+    for (const dBodyID body : {light, heavy}) {
+      random.turn(dBodyGetFirstGeom(body));
+      dBodySetGyroscopicMode(body, 0);
+    }
+    throw_body(heavy, {0, 0, -kRadius / 0.01});
+    const double start = kinetic_energy(heavy);
+    for (int step = 0; step < 12; ++step) {
+      scene.step();
+      CHECK(kinetic_energy(light) + kinetic_energy(heavy) < 1.01 * start);
+      for (const dBodyID body : {light, heavy}) {
+        CHECK(height_of(body) > 0);
+        for (int axis = 0; axis < 2; ++axis) CHECK(std::abs(dBodyGetPosition(body)[axis]) < half);
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "speculative contacts: a ball joint with ERP 0 ties velocities only: its bodies are moved to touch. A spring or another one "
+    "holds them") {
+  constexpr double kSoft = 1e-3;  // CFM of a spring
+  for (const auto [erp, cfm] : {std::array{0.0, 0.0}, {0.0, kSoft}, {0.2, 0.0}}) {
+    CAPTURE(erp);
+    CAPTURE(cfm);
     const double step = 10e-3;
     OnPlane scene({fx::Restitution{0.5, 0, {}}, fx::SpeculativeContacts{}}, step);
     constexpr double kGap = 4e-3;  // m
@@ -570,7 +638,8 @@ TEST_CASE("speculative contacts: a ball joint with ERP 0 ties velocities only: i
     const dJointID joint = dJointCreateBall(scene.id(), nullptr);
     dJointAttach(joint, ball, image);
     dJointSetBallAnchor(joint, dReal(0.5), 0, dReal(kRadius + 0.5));
-    if (!holds_place) dJointSetBallParam(joint, dParamERP, 0);
+    dJointSetBallParam(joint, dParamERP, dReal(erp));
+    dJointSetBallParam(joint, dParamCFM, dReal(cfm));
     for (const dBodyID body : {ball, image}) dBodySetLinearVel(body, 0, 0, -1);
     dGeomMoved(dBodyGetFirstGeom(ball));
     dSpaceCollide(scene.world.space(), &scene, [](void* data, dGeomID o1, dGeomID o2) {
@@ -579,7 +648,7 @@ TEST_CASE("speculative contacts: a ball joint with ERP 0 ties velocities only: i
       static_cast<EffectsWorld*>(data)->effects.set_up_contacts(contact);
     });
     scene.effects.apply_forces();
-    CHECK(height_of(ball) == relative(kRadius + (holds_place ? kGap : 0)).epsilon(within_rounding(1e-9, 1000)));
+    CHECK(height_of(ball) == relative(kRadius + (erp > 0 || cfm > 0 ? kGap : 0)).epsilon(within_rounding(1e-9, 1000)));
   }
 }
 
@@ -616,30 +685,6 @@ TEST_CASE("speculative contacts: a bounce violates a joint no more than without 
       }
       CHECK(speculative <= 1.1 * plain);
     }
-  }
-}
-
-TEST_CASE("speculative contacts: a body on a spring is not moved to touch before it bounces, one whose velocity is tied is") {
-  for (const bool is_spring : {true, false}) {
-    CAPTURE(is_spring);
-    constexpr double kStep = 1e-3;
-    OnPlane scene({earth(), fx::Restitution{0.5, 0, {}}, fx::SpeculativeContacts{}}, kStep);
-    const dBodyID one = scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 0.05});
-    const dBodyID other = scene.add_ball(kRadius, kDensity, {4 * kRadius, 0, kRadius + 0.3});
-    const dJointID joint = dJointCreateBall(scene.id(), nullptr);
-    dJointAttach(joint, one, other);
-    dJointSetBallAnchor(joint, 0, 0, dReal(kRadius + 0.05));
-    dJointSetBallParam(joint, dParamERP, 0);
-    dJointSetBallParam(joint, dParamCFM, is_spring ? dReal(1e-3) : 0);
-    double moved = 0;
-    Vec before = to_vec(dBodyGetPosition(one));
-    scene.run_until(0.2, [&] {
-      const Vec now = to_vec(dBodyGetPosition(one));
-      moved = std::max(moved, norm(now - before - kStep * to_vec(dBodyGetLinearVel(one))));
-      before = now;
-      return false;
-    });
-    CHECK((moved > 1e-5) == !is_spring);
   }
 }
 
