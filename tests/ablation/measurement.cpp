@@ -161,9 +161,13 @@ Counts Measurement::measure_soak(const soak::SampleSource& source) const {
     thread_local soak::Sample sample;
     source.draw(k, sample);
     const soak::Finding finding = soak::examine(sample, source.random_of_checks(k));
-    counts.queries += static_cast<long>(finding.queries);
-    counts.evaluations += static_cast<long>(finding.evaluations);
-    if (!finding.is_converged && sample.settings.tolerance >= Settings{}.tolerance) ++counts.unconverged;
+    std::vector<Proximity> answers = finding.other_forms;
+    answers.push_back(finding.answer);
+    counts.queries += static_cast<long>(answers.size());
+    for (const Proximity& answer : answers) counts.evaluations += answer.evaluations;
+    const bool is_converged = std::ranges::all_of(
+        answers, [](const Proximity& answer) { return answer.status == Status::Converged || answer.status == Status::Apart; });
+    if (!is_converged && sample.settings.tolerance >= Settings{}.tolerance) ++counts.unconverged;
     if (!finding.violations.empty()) ++counts.violations;
   });
 }

@@ -9,8 +9,7 @@ TEST_CASE("tumbling bodies do not gain energy from a plane with friction") {
   OdeSession session;
   World world;
   world.add_plane();
-  world.surface.mode = dContactApprox1;
-  world.surface.mu = dReal(0.5);
+  world.set_friction(0.5);
   struct Tumbler {
     double exponent;
     double gain;  ///< allowed gain, relative to the energy at the start

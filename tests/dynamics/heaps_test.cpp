@@ -56,8 +56,7 @@ TEST_CASE("a wall of 50 bricks stands, and falls asleep as soon as a wall of dBo
     World world;
     let_sleep(world, c);
     dWorldSetQuickStepNumIterations(world.id(), 40);
-    world.surface.mode = dContactApprox1;
-    world.surface.mu = dReal(0.5);
+    world.set_friction(0.5);
     world.add_plane();
     std::vector<dBodyID> bricks;
     std::vector<Vec> start;
@@ -96,8 +95,7 @@ TEST_CASE("60 needles side by side fall asleep") {
     OdeSession session;
     World world;
     dWorldSetAutoDisableFlag(world.id(), 1);
-    world.surface.mode = dContactApprox1;
-    world.surface.mu = dReal(0.5);
+    world.set_friction(0.5);
     world.add_plane();
     Random random(5);
     std::vector<dBodyID> needles;
@@ -129,8 +127,7 @@ TEST_CASE("a pile of mixed grains comes to rest") {
   dHashSpaceSetLevels(world.space(), -8, -6);  // cells of 4…16 mm
   let_sleep(world, 0.003);
   dWorldSetQuickStepNumIterations(world.id(), 40);
-  world.surface.mode = dContactApprox1;
-  world.surface.mu = dReal(0.5);
+  world.set_friction(0.5);
   const double wall = 0.025;
   world.add_plane();
   for (const double side : {-1.0, 1.0}) {

@@ -119,8 +119,7 @@ TEST_CASE("a ball that looks ahead and hits at 45 degrees slides or rolls on by 
         CAPTURE(radii);
         World world;
         dWorldSetGravity(world.id(), 0, 0, 0);
-        world.surface.mode = dContactApprox1;
-        world.surface.mu = dReal(mu);
+        world.set_friction(mu);
         if (is_on_box) place(dCreateBox(world.space(), 1000, 1000, 1), {0, 0, -0.5});
         if (!is_on_box) world.add_plane();
         const dGeomID ball = snCreateEllipsoid(world.space(), dReal(kRadius), dReal(kRadius), dReal(kRadius));

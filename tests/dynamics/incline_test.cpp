@@ -20,8 +20,7 @@ double turned_on_incline(double exponent, double incline) {
   OdeSession session;
   World world;
   world.add_plane(incline);
-  world.surface.mode = dContactApprox1;
-  world.surface.mu = dInfinity;
+  world.set_friction(dInfinity);
   const auto a = dReal(0.1);
   const dGeomID geom = snCreateSuperellipsoid(world.space(), a, dReal(0.15), a, dReal(exponent), dReal(exponent));
   const dBodyID body = world.add(geom, 1000);
@@ -57,8 +56,7 @@ bool stands_ahead(double exponent, double height, double more, double step) {
   OdeSession session;
   World world;
   world.add_plane();
-  world.surface.mode = dContactApprox1;
-  world.surface.mu = 5;
+  world.set_friction(5);
   dWorldSetQuickStepNumIterations(world.id(), 100);
   const dGeomID geom =
       snCreateSuperellipsoid(world.space(), dReal(0.1), dReal(0.1), dReal(height), dReal(exponent), dReal(exponent));
@@ -117,8 +115,7 @@ double creep(const Creeping& what, Slope slope, double incline, double step, int
   }
   dWorldSetGravity(world.id(), dReal(kGravity * std::sin(incline)), 0, dReal(-kGravity * std::cos(incline)));
   dWorldSetQuickStepNumIterations(world.id(), 100);
-  world.surface.mode = dContactApprox1;
-  world.surface.mu = dReal(0.5);
+  world.set_friction(0.5);
   world.room = room;
   const auto [a, b, c] = what.half_axes;
   const dGeomID geom = snCreateSuperellipsoid(world.space(), dReal(a), dReal(b), dReal(c), dReal(what.delta), dReal(what.epsilon));

@@ -39,6 +39,11 @@ Violations check_answer(const HardCase& one, const Settings& settings, const Pro
 /// axes and sharp features, and some random directions drawn with `seed`. Costs some hundred evaluations.
 Violations check_maximum(const HardCase& one, const Settings& settings, const Proximity& answer, std::uint64_t seed = 1);
 
+/// Checks that these change nothing but rounding: swapped bodies, the start `start` (unit, body 1's frame), and an early stop.
+/// `answers` become theirs.
+Violations check_forms(const HardCase& one, const Settings& settings, const Proximity& answer, const Vector3& start,
+                       std::vector<Proximity>& answers);
+
 /// Checks that these change nothing but rounding: a repeated query, swapped bodies, a moved frame, another unit of length (a power
 /// of two: every digit), another start, and an early stop. Costs some ten queries.
 Violations check_invariance(const HardCase& one, const Settings& settings, const Proximity& answer);

@@ -40,11 +40,10 @@ struct Brick {
 enum class Floor { Plane, Box, Mesh };
 
 /// A world with ODE's defaults except for dContactApprox1 and mu = 0.5; eight contacts a pair.
-class Scene {
+class RestingScene {
  public:
-  explicit Scene(Floor floor) {
-    world_.surface.mode = dContactApprox1;
-    world_.surface.mu = dReal(0.5);
+  explicit RestingScene(Floor floor) {
+    world_.set_friction(0.5);
     if (floor == Floor::Plane) {
       world_.add_plane();
     } else if (floor == Floor::Box) {
@@ -106,7 +105,7 @@ Tilt tilt_of_drop(int k) {
 
 /// The time (s) in which a brick that is dropped from 0.15 m falls asleep. If it does not, the end of the run.
 double time_to_sleep(const Brick& brick, Floor floor, const Tilt& tilt) {
-  Scene scene(floor);
+  RestingScene scene(floor);
   scene.auto_disable();
   scene.add(brick, {0, 0, 0.15}, tilt.axis, tilt.angle);
   int step = 0;
@@ -137,7 +136,7 @@ struct Residue {
   double drift = 0;   // m; of the body that moves most
 };
 
-Residue residue(Scene& scene) {
+Residue residue(RestingScene& scene) {
   Residue result;
   for (int step = 0; step < kHalfTime; ++step) scene.step();
   const std::vector<Vec> before = scene.positions();
@@ -151,17 +150,17 @@ Residue residue(Scene& scene) {
 }
 
 Residue residue_of_one(const Brick& brick, Floor floor) {
-  Scene scene(floor);
+  RestingScene scene(floor);
   scene.add(brick, {0, 0, 0.15}, tilt_of_drop(0).axis, tilt_of_drop(0).angle);
   return residue(scene);
 }
 
-void add_stack(const Brick& brick, double offset, Scene& scene) {
+void add_stack(const Brick& brick, double offset, RestingScene& scene) {
   for (int k = 0; k < 5; ++k) scene.add(brick, {0.005 * (k % 2) + offset, 0, 0.06 + 0.11 * k}, {1, 0.3, 0}, 0.01 * (k % 3 - 1));
 }
 
 Residue residue_of_stack(const Brick& brick) {
-  Scene scene(Floor::Plane);
+  RestingScene scene(Floor::Plane);
   add_stack(brick, 0, scene);
   return residue(scene);
 }
@@ -185,8 +184,7 @@ dGeomID create_rounded_disc(dSpaceID space, dReal radius) {
 /// The tilt (rad) of a body that was dropped with a tilt and has fallen asleep.
 double lean_asleep(const Stubby& what, const Tilt& tilt) {
   World world{dSimpleSpaceCreate(nullptr)};
-  world.surface.mode = dContactApprox1;
-  world.surface.mu = dReal(0.5);
+  world.set_friction(0.5);
   world.add_plane();
   dWorldSetAutoDisableFlag(world.id(), 1);
   const auto radius = dReal(0.05);
@@ -272,7 +270,7 @@ TEST_CASE("a stack of five stands for ten seconds at steps of 10 to 20 ms") {
       for (int repetition = 0; repetition < 6; ++repetition) {
         CAPTURE(step);
         CAPTURE(exponent);
-        Scene scene(Floor::Plane);
+        RestingScene scene(Floor::Plane);
         add_stack({exponent}, 1e-5 * repetition, scene);
         const int steps = static_cast<int>(10 / step);
         for (int k = 0; k < steps; ++k) scene.step(step);
@@ -290,8 +288,7 @@ namespace {
 double lowest_point_of_can(dGeomID geom, dSpaceID space, double radius, double half_length, double step) {
   World world(space);
   dCreatePlane(space, 0, 0, 1, 0);
-  world.surface.mode = dContactApprox1;
-  world.surface.mu = dReal(0.5);
+  world.set_friction(0.5);
   dMass mass;
   dMassSetCylinder(&mass, dReal(kDensity), 3, dReal(radius), dReal(2 * half_length));
   const dBodyID body = world.add(geom, mass);

@@ -279,8 +279,7 @@ double fly_by(unsigned seed, Passed passed, double clearance) {
   const double size = random.log_uniform(1e-3, 1);
   World world;
   dWorldSetGravity(world.id(), 0, 0, 0);
-  world.surface.mode = dContactApprox1;  // without it friction is a force that acts before they touch
-  world.surface.mu = dReal(0.5);
+  world.set_friction(0.5);  // without it friction is a force that acts before they touch
   const PassedBody obstacle(world, random, passed, size * random.log_uniform(0.3, 10));
   const Superellipsoids flyer(world.space(), random, size);
   dMass mass;

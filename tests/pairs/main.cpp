@@ -23,7 +23,7 @@ struct Kind {
 };
 
 constexpr Kind kKinds[] = {
-    {"lanes", run_lanes, "of each of eight classes at each of six gaps: the digits alone and among many, the proved interval"},
+    {"lanes", run_lanes, "samples of the soak: the digits alone and among many"},
     {"derivatives", run_derivatives, "of all classes: derivatives beside differences in long double"},
     {"flat_derivatives", run_flat_derivatives, "with faces on one another: gradients beside differences"},
     {"clearances", run_clearances, "of all classes: whether they are farther apart than a distance"},
@@ -31,7 +31,9 @@ constexpr Kind kKinds[] = {
 #ifdef SUPERNORMAL_PAIRS_IN_ODE
     {"fly_bys", run_fly_bys, "a body that passes each kind of obstacle at a thousandth of its size: its velocity"},
 #endif
-    {"soak", run_soak, "hard cases with changes and random pairs: the facts of every answer; one pair alone is printed in full",
+    {"soak", run_soak,
+     "hard cases with changes and random pairs: the facts of every answer; one pair alone is printed in "
+     "full",
      true},
     {"sharp_soak", run_sharp_soak, "the same of bodies with any exponents, and more directions around every answer", true},
 };

@@ -1,15 +1,21 @@
-// Samples of the soak on all threads. One sample alone is printed in full.
+// Samples of the soak on all threads, alone and among many. One sample alone is printed in full.
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <functional>
+#include <map>
 #include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "pairs/kinds.hpp"
+#include "proximity/among_many.hpp"
 #include "soak/examination.hpp"
 #include "soak/sample.hpp"
+#include "support/counted_allocations.hpp"
+#include "support/painted_stack.hpp"
+#include "support/traps.hpp"
 
 namespace supernormal::soak {
 namespace {
@@ -19,63 +25,55 @@ using test::Draws;
 using test::Report;
 
 constexpr std::size_t kMostListed = 20;
+constexpr std::uint64_t kBatch = 251;  // a prime number, so that no width fills its lanes evenly
 
-/// The largest figure of any sample, and the first sample that has it.
-struct Largest {
-  double value = -1;
-  std::uint64_t sample = 0;
-
-  void add(const Largest& other) {
-    if (other.value > value || (other.value == value && other.sample < sample)) *this = other;
-  }
-};
-
-struct Tally {
-  std::uint64_t queries = 0, evaluations = 0;
-  std::uint64_t not_global = 0,
-                not_converged = 0;  ///< samples with an answer that does not claim to be global, or to have converged
-  Largest error, error_of_bound, most_evaluations;
-  std::vector<std::uint64_t> violated;
-
-  void add(std::uint64_t sample, const Finding& finding) {
-    queries += finding.queries;
-    evaluations += finding.evaluations;
-    not_global += finding.is_global ? 0 : 1;
-    not_converged += finding.is_converged ? 0 : 1;
-    error.add({finding.error, sample});
-    error_of_bound.add({finding.error_of_bound, sample});
-    most_evaluations.add({static_cast<double>(finding.most_evaluations), sample});
-    if (!finding.violations.empty()) violated.push_back(sample);
-  }
-};
-
-/// The tally is the same for any number of threads.
-Tally examine_all(const SampleSource& source, Care care, const Draws& draws) {
+/// Calls work(index) for all samples, on all threads.
+void for_each_sample(const Draws& draws, const std::function<void(std::uint64_t)>& work) {
   std::atomic<std::uint64_t> next{draws.first};
   std::mutex mutex;
-  Tally tally;
   std::exception_ptr failure;
-  const auto work = [&] {
+  const auto go = [&] {
     try {
-      Sample sample;
-      for (std::uint64_t index = next++; index < draws.first + draws.count; index = next++) {
-        source.draw(index, sample);
-        const Finding finding = examine(sample, source.random_of_checks(index), care);
-        const std::scoped_lock lock(mutex);
-        tally.add(index, finding);
-      }
+      for (std::uint64_t index = next++; index < draws.first + draws.count; index = next++) work(index);
     } catch (...) {
       const std::scoped_lock lock(mutex);
       failure = std::current_exception();
     }
   };
   std::vector<std::thread> team;
-  for (unsigned k = 1; k < std::thread::hardware_concurrency(); ++k) team.emplace_back(work);
-  work();
+  for (unsigned k = 1; k < std::thread::hardware_concurrency(); ++k) team.emplace_back(go);
+  go();
   for (std::thread& thread : team) thread.join();
   if (failure) std::rethrow_exception(failure);
-  std::ranges::sort(tally.violated);
-  return tally;
+}
+
+/// Samples together, with the settings of the first: in every way they have the digits of each alone, under floating-point traps,
+/// and no way allocates.
+void ask_among_many(const SampleSource& source, std::uint64_t first, std::uint64_t count, Report& report) {
+  std::vector<Sample> samples(count);
+  std::vector<ProximityQuery> queries;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    source.draw(first + k, samples[k]);
+    const samples::HardCase& one = samples[k].pair;
+    const Vector3* const normal = one.first_normal ? &*one.first_normal : nullptr;
+    queries.push_back({one.shape1.get(), &one.pose1, one.shape2.get(), &one.pose2, normal});
+  }
+  const Settings settings = samples[0].settings;
+  std::vector<Proximity> alone(count), among(count);
+  for (std::uint64_t k = 0; k < count; ++k) alone[k] = find_proximity(queries[k], settings);
+  for (const test::WayAmongMany& way : test::ways_among_many()) {
+    const long before = test::allocations();
+    {
+      const test::Traps traps(way.name.c_str());
+      way.ask(queries, settings, among);
+    }
+    if (test::allocations() != before) report.fault(way.name + " allocates, from FIRST " + std::to_string(first));
+    for (std::uint64_t k = 0; k < count; ++k) {
+      if (test::are_identical(test::numbers_of(alone[k]), test::numbers_of(among[k]))) continue;
+      report.fault("FIRST " + std::to_string(first + k) + ": other digits by " + way.name + ", tolerance " +
+                   exact_text(settings.tolerance));
+    }
+  }
 }
 
 void print(const char* name, const samples::Body& body, const Pose& pose) {
@@ -111,26 +109,29 @@ void run(const Draws& draws, Mix mix, Report& report) {
     source.draw(draws.first, sample);
     print(sample);
   }
-  const Tally tally = examine_all(source, care, draws);
-  const auto share = [&](std::uint64_t count) { return 100 * static_cast<double>(count) / static_cast<double>(draws.count); };
+  std::mutex mutex;
+  std::uint64_t evaluations = 0, not_global = 0, not_converged = 0;
+  std::map<std::uint64_t, samples::Violations> violated;
+  for_each_sample(draws, [&](std::uint64_t index) {
+    thread_local Sample one;
+    source.draw(index, one);
+    const Finding finding = examine(one, source.random_of_checks(index), care);
+    const std::scoped_lock lock(mutex);
+    evaluations += static_cast<std::uint64_t>(finding.answer.evaluations);
+    not_global += finding.answer.is_global ? 0 : 1;
+    not_converged += finding.answer.status == Status::Converged ? 0 : 1;
+    if (!finding.violations.empty()) violated[index] = finding.violations;
+  });
+  const auto share = [&](std::uint64_t count) { return static_cast<double>(count) / static_cast<double>(draws.count); };
   report.head({"samples", "number"});
-  report.row("queries", {static_cast<double>(tally.queries)});
-  report.row("evaluations of a query", {static_cast<double>(tally.evaluations) / static_cast<double>(tally.queries)});
-  report.row("% with an answer that does not claim to be global", {share(tally.not_global)});
-  report.row("% with an answer that has not converged", {share(tally.not_converged)});
-  report.head({"largest", "of a sample", "FIRST"});
-  const auto row = [&](const char* what, const Largest& largest) {
-    report.row(what, {largest.value, static_cast<double>(largest.sample)});
-  };
-  row("error, in units of the smaller body's largest half-extent", tally.error);
-  row("error, in units of the promised bound and rounding", tally.error_of_bound);
-  row("evaluations of a query", tally.most_evaluations);
-  for (std::size_t k = 0; k < tally.violated.size(); ++k) {
-    std::string what = "FIRST " + std::to_string(tally.violated[k]);
-    if (k < kMostListed) {
-      source.draw(tally.violated[k], sample);
-      for (const std::string& violation : examine(sample, source.random_of_checks(tally.violated[k]), care).violations)
-        what += "; " + violation;
+  report.row("evaluations of a cold query", {share(evaluations)});
+  report.row("% that do not claim to be global", {100 * share(not_global)});
+  report.row("% that have not converged", {100 * share(not_converged)});
+  std::size_t listed = 0;
+  for (const auto& [index, violations] : violated) {
+    std::string what = "FIRST " + std::to_string(index);
+    if (listed++ < kMostListed) {
+      for (const std::string& violation : violations) what += "; " + violation;
     }
     report.fault(what);
   }
@@ -141,3 +142,12 @@ void run(const Draws& draws, Mix mix, Report& report) {
 
 void supernormal::test::run_soak(const Draws& draws, Report& report) { soak::run(draws, soak::Mix::Everything, report); }
 void supernormal::test::run_sharp_soak(const Draws& draws, Report& report) { soak::run(draws, soak::Mix::Sharp, report); }
+
+void supernormal::test::run_lanes(const Draws& draws, Report& report) {
+  const soak::SampleSource source(draws.seed);
+  report.head({"samples among many", "number"});
+  for (std::uint64_t first = 0; first < draws.count; first += soak::kBatch) {
+    soak::ask_among_many(source, first, std::min(soak::kBatch, draws.count - first), report);
+  }
+  report.row("in each way", {static_cast<double>(draws.count)});
+}

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
+#include "proximity/collider_reference.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "support/draw.hpp"
@@ -22,6 +24,7 @@ constexpr int kDeepPairs = 1500;      // of each kind; a share of one in five hu
 constexpr double kDeepest = 0.3;      // of the smallest half-extent
 constexpr double kMissed = 1e-6;      // of the same
 constexpr double kMissedShare = 0.002;
+constexpr int kReferenced = 15;  // of each kind: deep pairs beside a branch and bound, which is independent of the solvers
 
 std::string describe(const RandomKind& kind, int k, const Proximity& answer, double known) {
   return kind.name + " " + std::to_string(k) + ": gap " + std::to_string(answer.gap) + " off by " +
@@ -29,12 +32,23 @@ std::string describe(const RandomKind& kind, int k, const Proximity& answer, dou
          (answer.is_global ? ", global, " : ", not global, ") + std::to_string(answer.evaluations) + " evaluations";
 }
 
+GapFunction gap_of(const RandomPair& pair) { return {*pair.shape1, {}, *pair.shape2, pair.pose2}; }
+
+/// The gap belongs to the normal, and the witness points are on both boundaries, a gap apart.
 Proximity solve(const RandomPair& pair, const Settings& settings = {}) {
   const Traps traps("contract of an answer");
-  return find_proximity(*pair.shape1, {}, *pair.shape2, pair.pose2, settings);
+  const Proximity answer = find_proximity(*pair.shape1, {}, *pair.shape2, pair.pose2, settings);
+  GapFunction gap = gap_of(pair);
+  const double rounding = 4 * gap.rounding();
+  GapJet jet;
+  gap.evaluate(answer.normal, Order::Value, jet);
+  CHECK(std::abs(jet.s - answer.gap) <= rounding);
+  CHECK(std::abs(answer.normal.norm() - 1) <= 4e-16);
+  CHECK(std::abs(answer.normal.dot(answer.point1) - pair.shape1->support(answer.normal)) <= rounding);
+  CHECK(std::abs(answer.normal.dot(answer.point2 - answer.point1) - answer.gap) <= rounding);
+  CHECK(answer.contact.allFinite());
+  return answer;
 }
-
-GapFunction gap_of(const RandomPair& pair) { return {*pair.shape1, {}, *pair.shape2, pair.pose2}; }
 
 Proximity certified(const RandomPair& pair) {
   Settings settings;
@@ -86,13 +100,27 @@ void check_deep(const RandomKind& kind, int k, const RandomPair& pair, Missed& o
   out.missed += miss > kMissed;
   out.worst = std::max(out.worst, miss);
   out.unproved += !best.is_global;
+  const Proximity swapped = find_proximity(*pair.shape2, pair.pose2, *pair.shape1, {});
+  CHECK_MESSAGE(swapped.gap <= answer.gap + answer.global_error + rounding, describe(kind, k, answer, known));
+  CHECK_MESSAGE(answer.gap <= swapped.gap + swapped.global_error + rounding, describe(kind, k, answer, known));
+  if (k < kReferenced) {
+    const GapBounds bounds = bound_gap(*pair.shape1, {}, *pair.shape2, pair.pose2, 1e-9 * pair.unit);
+    CHECK_MESSAGE(best.gap <= bounds.upper + rounding, describe(kind, k, best, bounds.upper));
+    CHECK_MESSAGE(bounds.lower <= best.gap + best.global_error + rounding, describe(kind, k, best, bounds.lower));
+  }
   out.unconverged += answer.status != Status::Converged;
+}
+
+std::vector<RandomKind> all_kinds() {
+  std::vector<RandomKind> kinds = random_kinds();
+  for (const RandomKind& kind : composed_kinds()) kinds.push_back(kind);
+  return kinds;
 }
 
 }  // namespace
 
 TEST_CASE("apart, touching, or overlapping by less than the ball that rolls inside: converged, proved, within the tolerance") {
-  for (const RandomKind& kind : random_kinds()) {
+  for (const RandomKind& kind : all_kinds()) {
     RandomBodies bodies(kind, 91);
     for (int k = 0; k < kProvedPairs; ++k) {
       RandomPair pair = bodies.draw_apart();
@@ -103,7 +131,7 @@ TEST_CASE("apart, touching, or overlapping by less than the ball that rolls insi
 }
 
 TEST_CASE("deep overlaps: the interval holds for every pair, and one in five hundred at most misses the maximum") {
-  for (const RandomKind& kind : random_kinds()) {
+  for (const RandomKind& kind : all_kinds()) {
     RandomBodies bodies(kind, 92);
     Missed out;
     for (int k = 0; k < kDeepPairs; ++k) check_deep(kind, k, bodies.draw(bodies.uniform(-kDeepest, 0)), out);

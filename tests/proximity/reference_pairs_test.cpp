@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 
+#include "proximity/collider_reference.hpp"
 #include "proximity/local/local_model.hpp"
 #include "supernormal/proximity/solve.hpp"
 
@@ -183,4 +184,30 @@ TEST_CASE("witness points and normals where they are determined") {
   const std::size_t most = normal_errors.size() * 9 / 10;
   MESSAGE(compared, " compared; 90 % of the normals within ", normal_errors[most], ", of the points within ", point_errors[most]);
   CHECK(compared > 1500);
+}
+
+TEST_CASE("branch and bound, with which other tests compare, encloses the gaps of the reference pairs") {
+  for (const ReferencePair& pair : some_of(reference_pairs())) {
+    const double width = 1e-12 * pair.unit;
+    const GapBounds bounds = bound_gap(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, width);
+    const double rounding =
+        1e-15 * (pair.pose2.position.norm() + pair.surface1.half_axes().maxCoeff() + pair.surface2.half_axes().maxCoeff());
+    const bool good =
+        bounds.upper - bounds.lower <= width && bounds.lower <= pair.gap + rounding && bounds.upper >= pair.gap - rounding;
+    if (!good) FAIL_CHECK(pair.name, " gap ", pair.gap, " between ", bounds.lower - pair.gap, " and ", bounds.upper - pair.gap);
+  }
+}
+
+TEST_CASE("a pure translation by 10 km: the answer belongs to the rounded positions, bit for bit") {
+  const Vector3 far(6000, -7000, 3872.983346207417);
+  for (const ReferencePair& pair : reference_pairs()) {
+    const Pose one{far, pair.pose1.rotation}, two{far + pair.pose2.position, pair.pose2.rotation};
+    const Pose rounded{two.position - one.position, two.rotation};  // exact: no digit is left to round away
+    const Proximity out = find_proximity(*pair.shape1, one, *pair.shape2, two);
+    const Proximity expected = find_proximity(*pair.shape1, {Vector3::Zero(), one.rotation}, *pair.shape2, rounded);
+    const bool same = out.gap == expected.gap && out.error == expected.error && out.normal == expected.normal &&
+                      out.evaluations == expected.evaluations && out.point1 == expected.point1 + far &&
+                      out.point2 == expected.point2 + far;
+    if (!same) FAIL_CHECK(pair.name, "\n  gap ", out.gap, " instead of ", expected.gap);
+  }
 }

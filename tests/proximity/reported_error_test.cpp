@@ -16,14 +16,14 @@
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "support/relative.hpp"
+#include "support/rotation_between.hpp"
+#include "support/shape_samples.hpp"
 #include "support/without_hessian.hpp"
-#include "support/z_axis_to.hpp"
 
 using namespace supernormal;
 using supernormal::test::gap_at;
 using supernormal::test::must_be_proved;
 using supernormal::test::without_hessian;
-using supernormal::test::z_axis_to;
 
 namespace {
 
@@ -61,7 +61,8 @@ TEST_CASE("apex on a flat top, apart: the error covers every normal around, besi
   const Superellipsoid apex(Vector3(0.611306, 1.00865, 0.507747), 3.33016, 1.31775);
   const Superellipsoid top(Vector3(0.658949, 1.03858, 0.716509), 1.33293, 3.87141);
   const Vector3 n(-6.1304644873200358e-07, -7.8583620252973426e-08, 1);
-  const Pose pose2{Vector3(0.0043862700608445059, 5.6630166193835717e-05, 1.2252065452805536), z_axis_to(n)};
+  const Pose pose2{Vector3(0.0043862700608445059, 5.6630166193835717e-05, 1.2252065452805536),
+                   test::rotation_between(Vector3::UnitZ(), n).toRotationMatrix()};
   const Proximity answer = find_proximity(apex, {}, top, pose2, {});
   check_proved(answer);
   for (int i = -200; i <= 200; ++i) {
@@ -195,4 +196,19 @@ TEST_CASE("a box beside an edge of another one a million times as large, apart b
   gap.evaluate(Vector3(2.93676e-11, -0.400022, 0.916505).normalized(), Order::Value, jet);
   CHECK(jet.s > gap.rounding());
   CHECK(jet.s - gap.rounding() <= answer.gap + answer.global_error);
+}
+
+TEST_CASE("a box in a flat body, aligned but for rounding: the gap belongs to the normal") {
+  const Box box({0.0637, 0.6113, 2.1592});
+  const Superellipsoid flat({4.2668, 1.3804, 0.1145}, 41, 97);
+  double tilt = 1e-16;
+  for (const Vector3& axis : test::random_normals(400, 91)) {
+    tilt = tilt < 1e-10 ? 1.1 * tilt : 1e-16;
+    const Pose pose{1e-9 * axis, Eigen::AngleAxisd(tilt, axis).toRotationMatrix()};
+    const Proximity out = find_proximity(flat, {}, box, pose);
+    GapFunction gap(flat, {}, box, pose);
+    GapJet jet;
+    gap.evaluate(out.normal, Order::Value, jet);
+    CHECK(std::abs(jet.s - out.gap) <= gap.rounding());
+  }
 }

@@ -17,6 +17,8 @@
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/raycast/ray.hpp"
 #include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/capsule.hpp"
+#include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
@@ -244,6 +246,10 @@ TEST_CASE("each class of bodies takes its mean evaluations, and no more") {
          const double taper = draw.uniform(0, 0.1), delta = draw.uniform(2.2, 6.2);
          return std::make_shared<Superovoid>(half, delta, draw.uniform(2.2, 6.2), taper, taper);
        }},
+      {"capsules", 3.3, 11,
+       [](Draw&, const Vector3& half) -> std::shared_ptr<const Shape> { return std::make_shared<Capsule>(half.x(), half.y()); }},
+      {"cylinders", 16.3, 255,
+       [](Draw&, const Vector3& half) -> std::shared_ptr<const Shape> { return std::make_shared<Cylinder>(half.x(), half.y()); }},
       {"boxes", 5.1, 21, [](Draw&, const Vector3& half) -> std::shared_ptr<const Shape> { return std::make_shared<Box>(half); }},
       {"rounded boxes", 4.8, 15, [](Draw&, const Vector3& half) -> std::shared_ptr<const Shape> {
          return std::make_shared<Rounded>(std::make_shared<Box>(half), 0.1);

@@ -53,6 +53,20 @@ void check_nothing_before(const Superellipsoid& shape, const Ray& ray, const Ray
   CHECK(least >= 1 - 1e-13);
 }
 
+/// Calls check(random, body, shape) for `count` bodies of each class; the shape is the body as a program makes it.
+template <typename Check>
+void for_bodies(unsigned seed, int count, const Check& check) {
+  for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
+    RandomRays random(++seed);
+    for (int k = 0; k < count; ++k) {
+      CAPTURE(kind.name);
+      CAPTURE(k);
+      const Superellipsoid body = random.shape(kind);
+      check(random, body, *make_shape(body));
+    }
+  }
+}
+
 }  // namespace
 
 TEST_CASE("rays at spheres and ellipsoids have the closed form, from outside, inside and behind") {
@@ -124,97 +138,66 @@ TEST_CASE(
 }
 
 TEST_CASE("grazing rays hit or miss rightly down to one part in 1e9") {
-  unsigned seed = 40;
-  for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
-    RandomRays random(++seed);
-    for (int k = 0; k < kRaysPerClass / 4; ++k) {
-      const Superellipsoid surface = random.shape(kind);
-      const auto shape = make_shape(surface);
-      for (const double share : {0.01, 1e-4, 1e-9}) {
-        const std::string name = std::string(kind.name) + " " + std::to_string(k) + " at " + std::to_string(share);
-        CAPTURE(name);
-        const Ray outer = random.past(surface, 1 + share);
-        const RayHit miss = find_ray_hit(*shape, {}, outer.origin, outer.direction, kInfinity);
-        CHECK_FALSE(miss.hit);
-        CHECK(miss.status == Status::Converged);
-        const Ray inner = random.past(surface, 1 - share);
-        const RayHit hit = find_ray_hit(*shape, {}, inner.origin, inner.direction, kInfinity);
-        REQUIRE(hit.hit);
-        CHECK(hit.status == Status::Converged);
-        check_hit(surface, inner, hit, find_crossings(surface, inner).entry, 1e-7);
-      }
+  for_bodies(40, kRaysPerClass / 4, [](RandomRays& random, const Superellipsoid& surface, const Shape& shape) {
+    for (const double share : {0.01, 1e-4, 1e-9}) {
+      CAPTURE(share);
+      const Ray outer = random.past(surface, 1 + share);
+      const RayHit miss = find_ray_hit(shape, {}, outer.origin, outer.direction, kInfinity);
+      CHECK_FALSE(miss.hit);
+      CHECK(miss.status == Status::Converged);
+      const Ray inner = random.past(surface, 1 - share);
+      const RayHit hit = find_ray_hit(shape, {}, inner.origin, inner.direction, kInfinity);
+      REQUIRE(hit.hit);
+      CHECK(hit.status == Status::Converged);
+      check_hit(surface, inner, hit, find_crossings(surface, inner).entry, 1e-7);
     }
-  }
+  });
 }
 
 TEST_CASE("grazing rays hit or miss rightly at a coarse tolerance, too") {
-  unsigned seed = 220;
   Settings coarse;
   coarse.tolerance = 1e-3;
-  for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
-    RandomRays random(++seed);
-    for (int k = 0; k < kRaysPerClass / 10; ++k) {
-      const Superellipsoid surface = random.shape(kind);
-      const WithoutHessian bare(surface);
-      const Superellipsoid* const full = &surface;
-      for (const double share : {1e-4, 1e-6, 1e-9}) {
-        const std::string name = std::string(kind.name) + " " + std::to_string(k) + " at " + std::to_string(share);
-        CAPTURE(name);
-        const Ray outer = random.past(surface, 1 + share), inner = random.past(surface, 1 - share);
-        const double entry = find_crossings(surface, inner).entry;
-        for (const Shape* shape : {static_cast<const Shape*>(full), static_cast<const Shape*>(&bare)}) {
-          CHECK_FALSE(find_ray_hit(*shape, {}, outer.origin, outer.direction, kInfinity, coarse).hit);
-          const RayHit hit = find_ray_hit(*shape, {}, inner.origin, inner.direction, kInfinity, coarse);
-          REQUIRE(hit.hit);
-          CHECK(hit.boundary_error <= 1e-3 * surface.half_axes().minCoeff());
-          CHECK(std::abs(hit.distance - entry) <= hit.distance_error + 1e-9);
-        }
+  for_bodies(220, kRaysPerClass / 10, [&](RandomRays& random, const Superellipsoid& surface, const Shape& /*shape*/) {
+    const WithoutHessian bare(surface);
+    for (const double share : {1e-4, 1e-6, 1e-9}) {
+      CAPTURE(share);
+      const Ray outer = random.past(surface, 1 + share), inner = random.past(surface, 1 - share);
+      const double entry = find_crossings(surface, inner).entry;
+      for (const Shape* shape : {static_cast<const Shape*>(&surface), static_cast<const Shape*>(&bare)}) {
+        CHECK_FALSE(find_ray_hit(*shape, {}, outer.origin, outer.direction, kInfinity, coarse).hit);
+        const RayHit hit = find_ray_hit(*shape, {}, inner.origin, inner.direction, kInfinity, coarse);
+        REQUIRE(hit.hit);
+        CHECK(hit.boundary_error <= 1e-3 * surface.half_axes().minCoeff());
+        CHECK(std::abs(hit.distance - entry) <= hit.distance_error + 1e-9);
       }
     }
-  }
+  });
 }
 
 TEST_CASE("rays from inside hit the exit, also along the flattest direction, and rays wholly inside hit nothing") {
-  unsigned seed = 60;
-  for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
-    RandomRays random(++seed);
-    for (int k = 0; k < kRaysPerClass / 4; ++k) {
-      const std::string name = std::string(kind.name) + " " + std::to_string(k);
-      CAPTURE(name);
-      const Superellipsoid surface = random.shape(kind);
-      const auto shape = make_shape(surface);
-      const Ray ray{random.point(surface, random.uniform(0, 0.99)), random.direction()};
-      const RayHit hit = find_ray_hit(*shape, {}, ray.origin, ray.direction, kInfinity);
-      REQUIRE(hit.hit);
-      CHECK(hit.from_inside);
-      CHECK(hit.status == Status::Converged);
-      check_hit(surface, ray, hit, find_crossings(surface, ray).exit, 1e-8);
-      const double margin = 1e-4 * hit.distance;
-      CHECK_FALSE(find_ray_hit(*shape, {}, ray.origin, ray.direction, hit.distance - margin).hit);
-      CHECK(find_ray_hit(*shape, {}, ray.origin, ray.direction, hit.distance + margin).hit);
-    }
-  }
+  for_bodies(60, kRaysPerClass / 4, [](RandomRays& random, const Superellipsoid& surface, const Shape& shape) {
+    const Ray ray{random.point(surface, random.uniform(0, 0.99)), random.direction()};
+    const RayHit hit = find_ray_hit(shape, {}, ray.origin, ray.direction, kInfinity);
+    REQUIRE(hit.hit);
+    CHECK(hit.from_inside);
+    CHECK(hit.status == Status::Converged);
+    check_hit(surface, ray, hit, find_crossings(surface, ray).exit, 1e-8);
+    const double margin = 1e-4 * hit.distance;
+    CHECK_FALSE(find_ray_hit(shape, {}, ray.origin, ray.direction, hit.distance - margin).hit);
+    CHECK(find_ray_hit(shape, {}, ray.origin, ray.direction, hit.distance + margin).hit);
+  });
 }
 
 TEST_CASE("rays hit exactly if they are long enough and point to the body") {
-  unsigned seed = 80;
-  for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
-    RandomRays random(++seed);
-    for (int k = 0; k < kRaysPerClass / 4; ++k) {
-      const std::string name = std::string(kind.name) + " " + std::to_string(k);
-      CAPTURE(name);
-      const Superellipsoid surface = random.shape(kind);
-      const auto shape = make_shape(surface);
-      const Ray ray = random.past(surface, random.uniform(0, 0.9));
-      const double t = find_crossings(surface, ray).entry;
-      CHECK_FALSE(find_ray_hit(*shape, {}, ray.origin, ray.direction, 0.9999 * t).hit);
-      CHECK(find_ray_hit(*shape, {}, ray.origin, ray.direction, 1.0001 * t).hit);
-      CHECK_FALSE(find_ray_hit(*shape, {}, ray.origin, -ray.direction, kInfinity).hit);
-      const double behind = find_crossings(surface, ray).exit * 1.0001;
-      CHECK_FALSE(find_ray_hit(*shape, {}, ray.at(behind), ray.direction, kInfinity).hit);
-      CHECK_FALSE(find_ray_hit(*shape, {}, ray.origin, ray.direction, 0).hit);
-    }
-  }
+  for_bodies(80, kRaysPerClass / 4, [](RandomRays& random, const Superellipsoid& surface, const Shape& shape) {
+    const Ray ray = random.past(surface, random.uniform(0, 0.9));
+    const Crossings crossings = find_crossings(surface, ray);
+    CHECK_FALSE(find_ray_hit(shape, {}, ray.origin, ray.direction, 0.9999 * crossings.entry).hit);
+    CHECK(find_ray_hit(shape, {}, ray.origin, ray.direction, 1.0001 * crossings.entry).hit);
+    CHECK_FALSE(find_ray_hit(shape, {}, ray.origin, -ray.direction, kInfinity).hit);
+    CHECK_FALSE(find_ray_hit(shape, {}, ray.at(1.0001 * crossings.exit), ray.direction, kInfinity).hit);
+    CHECK_FALSE(find_ray_hit(shape, {}, ray.origin, ray.direction, 0).hit);
+  });
 }
 
 TEST_CASE("rays at shapes without a Hessian have the same hits") {

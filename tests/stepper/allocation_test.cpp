@@ -7,8 +7,7 @@
 using namespace supernormal::test;
 
 TEST_CASE("once warm, no step allocates") {
-  OdeSession session;
-  StepperWorld scene(0.01, dSimpleSpaceCreate(nullptr));  // ODE's hash space allocates
+  StepperWorld scene(0.01, dSimpleSpaceCreate);  // ODE's hash space allocates
   scene.surface.mode |= dContactRolling | dContactBounce;
   scene.surface.mu = dReal(0.5);
   scene.surface.rho = dReal(1e-4);

@@ -1,13 +1,20 @@
 // What the snStepper… functions promise besides motions.
 #include <doctest/doctest.h>
 
+#include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "stepper/stepper_world.hpp"
+#include "supernormal/stepper.hpp"
 
 using namespace supernormal::test;
+using supernormal::ode::Stepper;
 
 namespace {
 
@@ -23,10 +30,7 @@ dContact contact_at(const Vec& place) {
 
 /// Positions and velocities after a fall of grains.
 std::vector<double> fall() {
-  OdeSession session;
-  StepperWorld scene(0.005);
-  scene.surface.mu = dReal(0.5);
-  scene.world.add_plane();
+  OnFloor scene(0.005);
   Random random(3);
   std::vector<dBodyID> bodies;
   for (int i = 0; i < 12; ++i) {
@@ -53,7 +57,6 @@ TEST_CASE("two runs give the same digits, wherever their geoms are in memory") {
 }
 
 TEST_CASE("bodies, contacts, steps and accuracies out of range are refused, and nothing changes") {
-  OdeSession session;
   CHECK(snStepperCreate(nullptr) == nullptr);
   CHECK(refused_with("snStepperCreate: world = NULL"));
   StepperWorld scene(0.01);
@@ -128,9 +131,7 @@ TEST_CASE("bodies, contacts, steps and accuracies out of range are refused, and 
 }
 
 TEST_CASE("a body that is removed, and then destroyed, takes its contacts with it") {
-  OdeSession session;
-  StepperWorld scene(0.01);
-  scene.world.add_plane();
+  OnFloor scene(0.01, 0);
   const dBodyID first = scene.add_ball(0.05, {0, 0, 0.05});
   const dBodyID second = scene.add_ball(0.05, {0, 0, 0.15});
   const dBodyID third = scene.add_ball(0.05, {0.5, 0, 0.05});
@@ -153,9 +154,7 @@ TEST_CASE("a body that is removed, and then destroyed, takes its contacts with i
 }
 
 TEST_CASE("a body at the address of a removed one does not take over its forces") {
-  OdeSession session;
-  StepperWorld scene(0.01);
-  scene.world.add_plane();
+  OnFloor scene(0.01, 0);
   double highest = 0;
   for (int i = 0; i < 6; ++i) {
     const dBodyID brick = scene.add_brick(20, i % 2 == 0 ? 1e5 : 1, {0, 0, 0.05});
@@ -172,10 +171,7 @@ TEST_CASE("a body at the address of a removed one does not take over its forces"
 
 TEST_CASE("a step that is far shorter than the others, as what rounding leaves of a frame, throws nothing and costs nothing") {
   for (const double rest : {1e-4, 1e-6, 1e-9, 1e-15}) {
-    OdeSession session;
-    StepperWorld scene(0.02);
-    scene.surface.mu = dReal(0.5);
-    scene.world.add_plane();
+    OnFloor scene(0.02);
     const std::vector<dBodyID> tower = scene.add_tower(5);
     // One falls, so that the short step has an impact.
     const dBodyID falling = scene.add_brick(8, 1000, {0.5, 0, 0.05 + 0.5 * kGravity * 0.25 * 0.25});
@@ -192,7 +188,6 @@ TEST_CASE("a step that is far shorter than the others, as what rounding leaves o
 }
 
 TEST_CASE("a step ends early where a bullet throws a brick on, and the brick does not pass a wall") {
-  OdeSession session;
   StepperWorld scene(0.01);
   dWorldSetGravity(scene.world.id(), 0, 0, 0);
   const dBodyID bullet =
@@ -215,7 +210,6 @@ TEST_CASE("a step ends early where a bullet throws a brick on, and the brick doe
 TEST_CASE("forces that are added once act for a whole step, also if it ends early; those added for the rest take their place") {
   // 0: once a step; 1: before each call; 2: once, and the rest is never asked for; 3: once, on a body that quickstep moves
   for (const int way : {0, 1, 2, 3}) {
-    OdeSession session;
     StepperWorld scene(0.01);
     dWorldSetGravity(scene.world.id(), 0, 0, 0);
     const dBodyID bullet = scene.add_ball(0.02, {-0.125, 0, 0});
@@ -252,10 +246,7 @@ TEST_CASE("forces that are added once act for a whole step, also if it ends earl
 }
 
 TEST_CASE("kinematic bodies move as told, and push what they meet") {
-  OdeSession session;
-  StepperWorld scene(0.01);
-  scene.surface.mu = dReal(0.3);
-  scene.world.add_plane();
+  OnFloor scene(0.01, 0.3);
   const dBodyID brick = scene.add_brick(8, 1000, {0, 0, 0.05});
   const dBodyID pusher = scene.add_brick(8, 1000, {-0.25, 0, 0.051});
   dBodySetKinematic(pusher);
@@ -267,7 +258,6 @@ TEST_CASE("kinematic bodies move as told, and push what they meet") {
 }
 
 TEST_CASE("a brick rides on a kinematic plate that turns") {
-  OdeSession session;
   for (const double step : {0.002, 0.01}) {
     StepperWorld scene(step);
     scene.surface.mu = dReal(0.5);
@@ -289,7 +279,6 @@ TEST_CASE("a brick rides on a kinematic plate that turns") {
 }
 
 TEST_CASE("gravity modes, damping and the largest angular speed are those of the bodies") {
-  OdeSession session;
   StepperWorld scene(0.01);
   const dBodyID floating = scene.add_ball(0.05, {0, 0, 1});
   dBodySetGravityMode(floating, 0);
@@ -304,9 +293,7 @@ TEST_CASE("gravity modes, damping and the largest angular speed are those of the
 }
 
 TEST_CASE("a disabled body sleeps until something that moves touches it") {
-  OdeSession session;
-  StepperWorld scene(0.01);
-  scene.world.add_plane();
+  OnFloor scene(0.01, 0);
   const dBodyID brick = scene.add_brick(8, 1000, {0, 0, 0.2});
   dBodyDisable(brick);
   scene.run(0.1);
@@ -319,10 +306,7 @@ TEST_CASE("a disabled body sleeps until something that moves touches it") {
 }
 
 TEST_CASE("bodies at rest fall asleep together, stay, and wake together") {
-  OdeSession session;
-  StepperWorld scene(0.01);
-  scene.surface.mu = dReal(0.5);
-  scene.world.add_plane();
+  OnFloor scene(0.01);
   scene.let_sleep();
   const std::vector<dBodyID> tower = scene.add_tower(12);
   const dBodyID apart = scene.add_ball(0.05, {1, 0, 0.05});
@@ -344,10 +328,7 @@ TEST_CASE("bodies at rest fall asleep together, stay, and wake together") {
 }
 
 TEST_CASE("quickstep moves bodies that were not added, and bodies of other joints with all that they touch") {
-  OdeSession session;
-  StepperWorld scene(0.01);
-  scene.surface.mu = dReal(0.5);
-  scene.world.add_plane();
+  OnFloor scene(0.01);
   const dBodyID free = scene.world.add(snCreateEllipsoid(scene.world.space(), 1, 1, 1), 1000);
   dBodySetPosition(free, 0, 50, 100);
   const dBodyID left = scene.add_ball(0.05, {0, 0, 0.05});
@@ -380,10 +361,7 @@ TEST_CASE("quickstep moves bodies that were not added, and bodies of other joint
 }
 
 TEST_CASE("contacts that are added twice carry as those that are added once") {
-  OdeSession session;
-  StepperWorld scene(0.01);
-  scene.surface.mu = dReal(0.5);
-  scene.world.add_plane();
+  OnFloor scene(0.01);
   const std::vector<dBodyID> tower = scene.add_tower(6);
   for (int i = 0; i < 200; ++i) {
     scene.collide();
@@ -395,10 +373,7 @@ TEST_CASE("contacts that are added twice carry as those that are added once") {
 }
 
 TEST_CASE("a kinematic body that jumps into a pile throws nothing faster than its overlap allows, and the pile rests again") {
-  OdeSession session;
-  StepperWorld scene(0.01);
-  scene.surface.mu = dReal(0.5);
-  scene.world.add_plane();
+  OnFloor scene(0.01);
   const std::vector<dBodyID> tower = scene.add_tower(3);
   const dBodyID block = scene.add_brick(8, 1000, {1, 0, 0.05});
   dBodySetKinematic(block);
@@ -414,10 +389,7 @@ TEST_CASE("a kinematic body that jumps into a pile throws nothing faster than it
 }
 
 TEST_CASE("steps whose length changes, and a mass ratio of a million, throw nothing") {
-  OdeSession session;
-  StepperWorld scene(0.01);
-  scene.surface.mu = dReal(0.5);
-  scene.world.add_plane();
+  OnFloor scene(0.01);
   const dBodyID light = scene.add_brick(8, 1e-3, {0, 0, 0.05});
   const dBodyID heavy = scene.add_brick(8, 1e3, {0, 0, 0.15});
   for (int i = 0; i < 300; ++i) {
@@ -427,4 +399,86 @@ TEST_CASE("steps whose length changes, and a mass ratio of a million, throw noth
       REQUIRE(norm(velocity_of(body)) < 10);
     }
   }
+}
+
+TEST_CASE("a stepper that takes what another one has saved goes on as that one, and refuses what is no such thing") {
+  OdeSession session;
+  // 0: nothing else; 1: another stepper takes what is saved; 2: another one begins anew
+  std::array<double, 3> sink{};
+  for (const int way : {0, 1, 2}) {
+    const World world;
+    REQUIRE(snSetDefaultLookAhead(dReal(0.01)) == 1);
+    std::vector<dGeomID> geoms = {dCreatePlane(world.space(), 0, 0, 1, 0)};
+    std::optional<Stepper> stepper(std::in_place, world.id());
+    std::vector<dBodyID> bodies;
+    for (int i = 0; i < 2; ++i) {
+      geoms.push_back(snCreateSuperellipsoid(world.space(), dReal(0.1), dReal(0.07), dReal(0.05), 8, 8));
+      bodies.push_back(world.add(geoms.back(), i == 0 ? 1000 : 2e4));
+      dBodySetPosition(bodies.back(), 0, 0, dReal(0.05 + 0.1 * i));
+      stepper->add_body(bodies.back());
+    }
+    const auto step = [&] {
+      for (std::size_t i = 0; i < 2; ++i) {
+        std::array<dContact, World::kRoom> found{};
+        const int count = dCollide(geoms[i], geoms[i + 1], World::kRoom, &found[0].geom, sizeof(dContact));
+        for (int k = 0; k < count; ++k) {
+          found[std::size_t(k)].surface.mode = dContactApprox1;
+          stepper->add_contact(found[std::size_t(k)], dGeomGetBody(geoms[i]), dGeomGetBody(geoms[i + 1]));
+        }
+      }
+      CHECK(stepper->step(dReal(0.01)) == dReal(0.01));
+    };
+    for (int i = 0; i < 100; ++i) step();
+    const double before = place_of(bodies[1])[2];
+    std::vector<double> saved = stepper->save(geoms);
+    CHECK(stepper->save({}).size() < saved.size());
+    if (way > 0) {
+      stepper.reset();
+      stepper.emplace(world.id());
+      for (const dBodyID body : bodies) stepper->add_body(body);
+    }
+    if (way == 1) {
+      stepper->load(geoms, saved);
+      CHECK(stepper->save(geoms) == saved);
+      CHECK_THROWS_WITH_AS(stepper->load({}, saved), doctest::Contains("numbers are none of snStepperSave"), std::invalid_argument);
+      saved.back() = std::nan("");
+      CHECK_THROWS_AS(stepper->load(geoms, saved), std::invalid_argument);
+      saved.pop_back();
+      CHECK_THROWS_AS(stepper->load(geoms, saved), std::invalid_argument);
+      CHECK_THROWS_AS(stepper->load(geoms, {}), std::invalid_argument);
+    }
+    step();
+    sink[std::size_t(way)] = place_of(bodies[1])[2] - before;
+  }
+  CHECK(sink[1] == sink[0]);
+  CHECK(std::abs(sink[2]) > 1e-6 + std::abs(sink[0]));
+}
+
+TEST_CASE("the C++ object does what the C functions do, and throws what they refuse") {
+  OdeSession session;
+  const World world;
+  Stepper made(world.id());
+  Stepper stepper = std::move(made);
+  stepper.set_accuracy(dReal(1e-3));
+  const dBodyID ball = world.add(snCreateEllipsoid(world.space(), dReal(0.05), dReal(0.05), dReal(0.05)), 1000);
+  dBodySetPosition(ball, 0, 0, dReal(0.05));
+  stepper.add_body(ball);
+  dContact contact{};
+  contact.surface.mode = dContactApprox1;
+  contact.geom.normal[2] = 1;
+  for (int i = 0; i < 5; ++i) {
+    stepper.add_contact(contact, ball, nullptr);
+    CHECK(stepper.step(dReal(0.01)) == dReal(0.01));
+  }
+  CHECK(stepper.contact_force(0).z() == doctest::Approx(kGravity * mass_of(ball)));
+  CHECK_THROWS_WITH_AS(stepper.contact_force(1), doctest::Contains("contact = 1 is not one of the 1 contacts"),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(stepper.step(0), doctest::Contains("snStepperStep: step = 0"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(stepper.add_body(ball), doctest::Contains("must be added once"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(stepper.set_accuracy(2), doctest::Contains("sag = 2 is outside"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Stepper(nullptr), doctest::Contains("world = NULL"), std::invalid_argument);
+  stepper.remove_body(ball);
+  CHECK_THROWS_WITH_AS(stepper.add_contact(contact, ball, nullptr), doctest::Contains("body1 is not a body of the stepper"),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(stepper.remove_body(ball), doctest::Contains("body is not a body of the stepper"), std::invalid_argument);
 }

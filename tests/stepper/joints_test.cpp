@@ -41,7 +41,6 @@ double inertia_of(dBodyID body) {
 }  // namespace
 
 TEST_CASE("a pendulum on a hinge has the period of the elliptic integral and keeps its energy") {
-  OdeSession session;
   for (const double step : {0.002, 0.01}) {
     for (const bool is_reversed : {false, true}) {
       StepperWorld scene(step);
@@ -77,7 +76,6 @@ TEST_CASE("a pendulum on a hinge has the period of the elliptic integral and kee
 }
 
 TEST_CASE("a body on a ball joint keeps its energy and its angular momentum about the vertical") {
-  OdeSession session;
   for (const double step : {0.002, 0.01}) {
     StepperWorld scene(step);
     const dBodyID top = scene.add_brick(8, 1000, {0.15, 0, 0});
@@ -95,7 +93,6 @@ TEST_CASE("a body on a ball joint keeps its energy and its angular momentum abou
 }
 
 TEST_CASE("a motor turns as its torque says, holds what is below its stall torque, and lets go what is above") {
-  OdeSession session;
   for (const bool is_reversed : {false, true}) {
     StepperWorld scene(0.01);
     const dBodyID rotor = scene.add_brick(8, 1000, {0, 0, 1});
@@ -123,7 +120,6 @@ TEST_CASE("a motor turns as its torque says, holds what is below its stall torqu
 }
 
 TEST_CASE("a slider falls along its axis as free, with a motor by what is left, and rests at its stop") {
-  OdeSession session;
   for (const bool is_reversed : {false, true}) {
     StepperWorld scene(0.01);
     const double c = std::sqrt(0.5);
@@ -146,7 +142,6 @@ TEST_CASE("a slider falls along its axis as free, with a motor by what is left, 
 }
 
 TEST_CASE("a pendulum rests at the stop of its hinge, and the joint tells its force") {
-  OdeSession session;
   for (const double step : {0.002, 0.01, 0.033}) {
     StepperWorld scene(step);
     const dBodyID brick = scene.add_brick(8, 1000, {0.2, 0, 0});
@@ -166,7 +161,6 @@ TEST_CASE("a pendulum rests at the stop of its hinge, and the joint tells its fo
 }
 
 TEST_CASE("a beam of bricks that are fixed to one another and to the world stays where it is") {
-  OdeSession session;
   StepperWorld scene(0.01);
   std::array<dBodyID, 6> beam{};
   std::array<dJointFeedback, 6> told{};
@@ -184,7 +178,6 @@ TEST_CASE("a beam of bricks that are fixed to one another and to the world stays
 }
 
 TEST_CASE("two shafts that a universal joint ties turn as Cardan's angles say") {
-  OdeSession session;
   constexpr double kBend = 0.5;
   for (const double step : {0.002, 0.01}) {
     StepperWorld scene(step);
@@ -218,7 +211,6 @@ TEST_CASE("two shafts that a universal joint ties turn as Cardan's angles say") 
 }
 
 TEST_CASE("a body on a universal joint rests at the stops at which it rests by quickstep") {
-  OdeSession session;
   for (const bool is_reversed : {false, true}) {
     std::array<Vec, 2> places{};
     for (const bool is_ours : {false, true}) {
@@ -245,7 +237,6 @@ TEST_CASE("a body on a universal joint rests at the stops at which it rests by q
 }
 
 TEST_CASE("a chain carries a hundred times the mass of a link, and hangs still") {
-  OdeSession session;
   for (const double step : {0.002, 0.01, 0.02}) {
     StepperWorld scene(step);
     std::array<dBodyID, 10> chain{};
@@ -260,7 +251,6 @@ TEST_CASE("a chain carries a hundred times the mass of a link, and hangs still")
 }
 
 TEST_CASE("bodies are free once their joint is gone or disabled, and a body that is removed takes its joint along") {
-  OdeSession session;
   StepperWorld scene(0.01);
   std::array<dBodyID, 3> bricks{};
   std::array<dJointID, 3> joints{};
@@ -287,7 +277,6 @@ TEST_CASE("bodies are free once their joint is gone or disabled, and a body that
 
 TEST_CASE(
     "a joint that bounces at its stop, or to a body that was not added, is quickstep's, and stays when it is solved here again") {
-  OdeSession session;
   for (const bool bounces : {true, false}) {
     StepperWorld scene(0.005);
     const dBodyID brick = scene.add_brick(8, 1000, {0.2, 0, 0});
@@ -308,7 +297,6 @@ TEST_CASE(
 }
 
 TEST_CASE("a hinge whose axis a program sets anew between two steps turns about that axis from then on") {
-  OdeSession session;
   StepperWorld scene(0.005);
   dWorldSetGravity(scene.world.id(), 0, 0, 0);
   const dBodyID brick = scene.add_brick(8, 1000, {0, 0, 0});
@@ -324,10 +312,7 @@ TEST_CASE("a hinge whose axis a program sets anew between two steps turns about 
 }
 
 TEST_CASE("bodies that joints tie fall asleep and wake together") {
-  OdeSession session;
-  StepperWorld scene(0.01);
-  scene.surface.mu = dReal(0.5);
-  scene.world.add_plane();
+  OnFloor scene(0.01);
   scene.let_sleep();
   std::array<dBodyID, 4> chain{};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -342,10 +327,7 @@ TEST_CASE("bodies that joints tie fall asleep and wake together") {
 }
 
 TEST_CASE("a paddle turns at the velocity of its motor in a heap of grains") {
-  OdeSession session;
-  StepperWorld scene(0.004);
-  scene.surface.mu = dReal(0.5);
-  scene.world.add_plane();
+  OnFloor scene(0.004);
   for (const double side : {-1, 1}) {
     dCreatePlane(scene.world.space(), dReal(side), 0, 0, dReal(-0.5));
     dCreatePlane(scene.world.space(), 0, dReal(side), 0, dReal(-0.5));

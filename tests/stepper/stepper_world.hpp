@@ -8,10 +8,12 @@
 namespace supernormal::test {
 
 class StepperWorld {
+  OdeSession session_;  // outlives the world
+
  public:
   /// Bodies that are created from now on look ahead by a step (s).
-  explicit StepperWorld(double step, dSpaceID space = dHashSpaceCreate(nullptr))
-      : world(space), step_(step), stepper(snStepperCreate(world.id())) {
+  explicit StepperWorld(double step, dSpaceID (*create_space)(dSpaceID) = dHashSpaceCreate)
+      : world(create_space(nullptr)), step_(step), stepper(snStepperCreate(world.id())) {
     REQUIRE(stepper != nullptr);
     REQUIRE(snSetDefaultLookAhead(dReal(step)) == 1);
     surface.mode = dContactApprox1;
@@ -95,6 +97,14 @@ class StepperWorld {
       REQUIRE(snStepperAddContact(scene.stepper, &contact, body1, body2) == 1);
     }
     scene.contacts += count;
+  }
+};
+
+/// A world with the plane z = 0.
+struct OnFloor : StepperWorld {
+  explicit OnFloor(double step, double friction = 0.5) : StepperWorld(step) {
+    surface.mu = dReal(friction);
+    world.add_plane();
   }
 };
 

@@ -45,7 +45,6 @@ struct BallOnFloor {
 }  // namespace
 
 TEST_CASE("friction without Approx1 is a force") {
-  OdeSession session;
   BallOnFloor on;
   on.contact.surface.mode &= ~dContactApprox1;
   on.contact.surface.mu = dReal(0.7);  // N
@@ -55,7 +54,6 @@ TEST_CASE("friction without Approx1 is a force") {
 }
 
 TEST_CASE("two coefficients of friction: the force in their ellipse that dissipates most") {
-  OdeSession session;
   BallOnFloor on;
   on.contact.surface.mode |= dContactMu2;
   on.contact.surface.mu = dReal(0.2);
@@ -69,7 +67,6 @@ TEST_CASE("two coefficients of friction: the force in their ellipse that dissipa
 }
 
 TEST_CASE("friction without limit lets nothing slip, and leaves the other direction alone") {
-  OdeSession session;
   BallOnFloor on;
   on.contact.surface.mode |= dContactMu2;
   on.contact.surface.mu = dInfinity;
@@ -81,7 +78,6 @@ TEST_CASE("friction without limit lets nothing slip, and leaves the other direct
 }
 
 TEST_CASE("surfaces move") {
-  OdeSession session;
   BallOnFloor on;
   on.contact.surface.mode |= dContactMotion1 | dContactMotion2;
   on.contact.surface.mu = 1;
@@ -97,7 +93,6 @@ TEST_CASE("surfaces move") {
 }
 
 TEST_CASE("a belt moves bodies as it does in quickstep, in both orders of the bodies, with and without fdir1") {
-  OdeSession session;
   for (const bool is_first : {true, false}) {
     for (const int direction : {0, int{dContactFDir1}}) {
       BallOnFloor on;
@@ -124,7 +119,6 @@ TEST_CASE("a belt moves bodies as it does in quickstep, in both orders of the bo
 }
 
 TEST_CASE("slip is proportional to the force") {
-  OdeSession session;
   BallOnFloor on;
   on.contact.surface.mode |= dContactSlip1 | dContactRolling;
   on.contact.surface.mu = 1;
@@ -135,7 +129,6 @@ TEST_CASE("slip is proportional to the force") {
 }
 
 TEST_CASE("soft ERP and CFM are the spring and the damper that they are to quickstep") {
-  OdeSession session;
   const double stiffness = 1000;  // N/m
   const double damping = 4;       // N s/m
   BallOnFloor on;
@@ -152,7 +145,6 @@ TEST_CASE("soft ERP and CFM are the spring and the damper that they are to quick
 }
 
 TEST_CASE("soft ERP alone corrects its share of an overlap in a step") {
-  OdeSession session;
   BallOnFloor on;
   dWorldSetGravity(on.scene.world.id(), 0, 0, 0);
   on.contact.surface.mode |= dContactSoftERP;
@@ -167,7 +159,6 @@ TEST_CASE("soft ERP alone corrects its share of an overlap in a step") {
 }
 
 TEST_CASE("rolling and spinning resistance brake as their lengths say") {
-  OdeSession session;
   BallOnFloor on;
   on.contact.surface.mode |= dContactRolling | dContactAxisDep;
   on.contact.surface.mu = on.contact.surface.mu2 = 1;
@@ -185,7 +176,6 @@ TEST_CASE("rolling and spinning resistance brake as their lengths say") {
 }
 
 TEST_CASE("slow impacts do not bounce, and negative thresholds let nothing bounce") {
-  OdeSession session;
   for (const auto& [threshold, speed] : {std::pair{0.5, 0.0}, {1.5, -0.1}, {-1.0, -0.1}}) {
     StepperWorld scene(kStep);
     dWorldSetGravity(scene.world.id(), 0, 0, 0);
@@ -205,7 +195,6 @@ TEST_CASE("slow impacts do not bounce, and negative thresholds let nothing bounc
 }
 
 TEST_CASE("the world's surface layer is not corrected, and its correcting velocity is the largest") {
-  OdeSession session;
   StepperWorld scene(kStep);
   dWorldSetGravity(scene.world.id(), 0, 0, 0);
   dWorldSetContactSurfaceLayer(scene.world.id(), dReal(1e-3));

@@ -75,6 +75,12 @@ class World {
     dJointGroupEmpty(joints_);
   }
 
+  /// Coulomb's friction at every contact.
+  void set_friction(double mu) {
+    surface.mode = dContactApprox1;
+    surface.mu = dReal(mu);
+  }
+
   static constexpr int kRoom = 8;
 
   dSurfaceParameters surface{};  ///< parameters of every contact; frictionless unless set

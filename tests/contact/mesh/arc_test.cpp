@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <vector>
 
 #include "support/draw.hpp"
 #include "support/mesh_samples.hpp"

@@ -47,15 +47,6 @@ std::vector<Vec> sphere_points(int count) {
   return points;
 }
 
-bool same(const std::vector<dContactGeom>& a, const std::vector<dContactGeom>& b) {
-  if (a.size() != b.size()) return false;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a[i].depth != b[i].depth || to_vec(a[i].pos) != to_vec(b[i].pos) || to_vec(a[i].normal) != to_vec(b[i].normal))
-      return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 TEST_CASE("dConvex: all vertices are found in any pose") {
@@ -109,7 +100,7 @@ TEST_CASE("dConvex: inside a moving dGeomTransform the vertices are found, altho
     random.turn(body);
     const auto expected = collide(body, direct);
     touching += static_cast<int>(expected.size());
-    CHECK(same(collide(body, transform), expected));  // a function of the poses, to the last bit
+    CHECK(same_bits(collide(body, transform), expected));  // a function of the poses, to the last bit
   }
   CHECK(touching > 100);
 }

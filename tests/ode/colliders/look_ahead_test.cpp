@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ode/mesh_fixture.hpp"
+#include "ode/terrain.hpp"
 #include "support/ode_world.hpp"
 
 using namespace supernormal::test;
@@ -36,43 +37,27 @@ constexpr Wall kWalls[] = {Wall::Plane, Wall::Box, Wall::Ours, Wall::Mesh, Wall:
 class Front {
  public:
   Front(dSpaceID space, Wall wall, double thickness) {
-    constexpr dReal kWide = 400;
+    constexpr double kWide = 400;
     if (wall == Wall::Plane) {
       dCreatePlane(space, 0, 0, 1, 0);
     } else if (wall == Wall::Box) {
-      place(dCreateBox(space, kWide, kWide, dReal(thickness)), {0, 0, -thickness / 2});
+      place(dCreateBox(space, dReal(kWide), dReal(kWide), dReal(thickness)), {0, 0, -thickness / 2});
     } else if (wall == Wall::Ours) {
       place(body_of(space, {kWide / 2, kWide / 2, thickness / 2}, 60, 60), {0, 0, -thickness / 2});
     } else if (wall == Wall::Mesh) {
-      mesh_ = dGeomTriMeshDataCreate();
-      dGeomTriMeshDataBuildSingle(mesh_, vertices_.data(), 3 * sizeof(float), 4, indices_.data(), 6, 3 * sizeof(dTriIndex));
-      geom_ = dCreateTriMesh(space, mesh_, nullptr, nullptr, nullptr);
+      mesh_.emplace(floor_arrays(1, 1, kWide), space);
+      place(*mesh_, {-kWide / 2, -kWide / 2, 0});
     } else {
-      field_ = dGeomHeightfieldDataCreate();
-      dGeomHeightfieldDataBuildDouble(field_, heights_.data(), 0, kWide, kWide, 9, 9, 1, 0, dReal(thickness), 0);
-      geom_ = dCreateHeightfield(space, field_, 1);
-      dMatrix3 upright;
-      dRFromAxisAndAngle(upright, 1, 0, 0, dReal(std::numbers::pi / 2));
-      dGeomSetRotation(geom_, upright);
+      terrain_.emplace(Terrain::Layout{9, 9, kWide, kWide}, [](int, int) { return 0.0; });
+      field_.emplace(terrain_->create(true, space));
+      turn_by(*field_, std::numbers::pi / 2, {1, 0, 0});
     }
   }
-  ~Front() {
-    if (geom_ != nullptr) dGeomDestroy(geom_);
-    if (mesh_ != nullptr) dGeomTriMeshDataDestroy(mesh_);
-    if (field_ != nullptr) dGeomHeightfieldDataDestroy(field_);
-  }
-  Front(const Front&) = delete;
-  Front(Front&&) = delete;
-  Front& operator=(const Front&) = delete;
-  Front& operator=(Front&&) = delete;
 
  private:
-  dGeomID geom_ = nullptr;  // the geom that has data
-  dTriMeshDataID mesh_ = nullptr;
-  dHeightfieldDataID field_ = nullptr;
-  std::array<float, 12> vertices_ = {-200, -200, 0, 200, -200, 0, 200, 200, 0, -200, 200, 0};
-  std::array<dTriIndex, 6> indices_ = {0, 1, 2, 0, 2, 3};
-  std::array<double, 81> heights_{};
+  std::optional<MeshGeom> mesh_;
+  std::optional<Terrain> terrain_;
+  std::optional<Geom> field_;
 };
 
 struct Flight {
@@ -96,8 +81,7 @@ Flight shoot(Random& random, const Shot& shot) {
   const double thickness = random.log_uniform(1e-3, 0.1);
   World world;
   dWorldSetGravity(world.id(), 0, 0, 0);
-  world.surface.mode = dContactApprox1;
-  world.surface.mu = dReal(shot.mu);
+  world.set_friction(shot.mu);
   const Front front(world.space(), shot.wall, thickness);
   const dGeomID geom = body_of(world.space(), {size, size * random.uniform(0.3, 1), size * random.uniform(0.3, 1)},
                                any_exponent(random), any_exponent(random));
@@ -440,8 +424,7 @@ TEST_CASE("bodies dropped on a plane, a box and a sheet rest at their height at 
       for (const double step : {0.002, 0.02, 0.1}) {
         World world;
         dWorldSetQuickStepNumIterations(world.id(), 100);  // converged: the velocity is rounding
-        world.surface.mode = dContactApprox1;
-        world.surface.mu = dReal(0.5);
+        world.set_friction(0.5);
         const Front front(world.space(), wall, 1);
         const dGeomID geom = body_of(world.space(), lying.half_axes, lying.delta, lying.epsilon);
         const dBodyID body = world.add(geom, 1000);
@@ -502,8 +485,7 @@ TEST_CASE("on slopes below the angle of friction no body creeps") {
         World world;
         // Converged: with 100 a can twice as high as wide, two of whose points carry a ninth of the others, creeps by 1 um/s.
         dWorldSetQuickStepNumIterations(world.id(), 400);
-        world.surface.mode = dContactApprox1;
-        world.surface.mu = dReal(0.5);
+        world.set_friction(0.5);
         world.add_plane(incline);
         const dGeomID geom = body_of(world.space(), lying.half_axes, lying.delta, lying.epsilon);
         const dBodyID body = world.add(geom, 1000);

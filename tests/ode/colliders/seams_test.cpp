@@ -17,7 +17,7 @@ using namespace supernormal::test;
 namespace {
 
 /// A floor and its frame: `up` is its normal.
-struct Floor {
+struct SeamedFloor {
   std::vector<std::unique_ptr<MeshGeom>> tiles;
   std::vector<std::unique_ptr<Terrain>> terrains;
   std::vector<Geom> fields;
@@ -35,7 +35,7 @@ struct Floor {
   Vec at(double x, double y, double z) const { return origin + x * along + y * across + z * up; }
 };
 
-void tilt(Floor& floor) {
+void tilt(SeamedFloor& floor) {
   dMatrix3 turn;
   dRFromAxisAndAngle(turn, 1, 2, dReal(0.5), dReal(0.4));
   floor.along = {turn[0], turn[4], turn[8]};
@@ -44,7 +44,8 @@ void tilt(Floor& floor) {
 }
 
 /// Adds two triangles with their own vertices, each moved at random by up to `apart` (m).
-void add_rectangle(MeshArrays& mesh, const Floor& floor, double x0, double x1, double y0, double y1, double apart, Random& random) {
+void add_rectangle(MeshArrays& mesh, const SeamedFloor& floor, double x0, double x1, double y0, double y1, double apart,
+                   Random& random) {
   const auto vertex = [&](double x, double y) {
     const Vec v = floor.at(x, y, 0) + random.uniform(0, apart) * random.direction();
     return mesh.add(v[0], v[1], v[2]);
@@ -59,8 +60,8 @@ void add_rectangle(MeshArrays& mesh, const Floor& floor, double x0, double x1, d
 
 enum class Laying { Tiles, TJunctions, BrickBond, Unwelded };
 
-Floor lay(Laying laying, bool is_tilted, double apart = 0, double far = 0) {
-  Floor floor;
+SeamedFloor lay(Laying laying, bool is_tilted, double apart = 0, double far = 0) {
+  SeamedFloor floor;
   if (is_tilted) tilt(floor);
   floor.origin = far * floor.along + far * floor.across;
   floor.rounding = apart + 4e-7 * (1 + 2 * far);  // the rounding of floats
@@ -88,8 +89,8 @@ Floor lay(Laying laying, bool is_tilted, double apart = 0, double far = 0) {
 }
 
 /// Four level heightfields side by side, with the y axis up.
-Floor lay_heightfields() {
-  Floor floor;
+SeamedFloor lay_heightfields() {
+  SeamedFloor floor;
   floor.along = {0, 0, 1};
   floor.across = {1, 0, 0};
   floor.up = {0, 1, 0};
@@ -106,7 +107,7 @@ Floor lay_heightfields() {
 
 struct Row {
   std::string name;
-  std::function<Floor()> lay;
+  std::function<SeamedFloor()> lay;
 };
 
 std::vector<Row> rows() {
@@ -139,7 +140,7 @@ double height_of(Faller kind) {
 }
 
 /// Rotates the body so that its z axis is the floor's normal.
-void stand_on(const Floor& floor, dGeomID geom) {
+void stand_on(const SeamedFloor& floor, dGeomID geom) {
   dMatrix3 turn{};
   for (std::size_t k = 0; k < 3; ++k) {
     turn[4 * k] = dReal(floor.along[k]);
@@ -155,7 +156,7 @@ TEST_CASE("a body anywhere on a floor with seams has the normal and the depth of
   const OdeSession session;
   for (const Row& row : rows()) {
     CAPTURE(row.name);
-    const Floor floor = row.lay();
+    const SeamedFloor floor = row.lay();
     for (const Faller kind : {Faller::Ball, Faller::Ellipsoid, Faller::Brick, Faller::Can}) {
       CAPTURE(static_cast<int>(kind));
       const Geom body(make_body(kind));
@@ -194,7 +195,7 @@ TEST_CASE("a body slides over seams as it slides over a plane" * doctest::skip(k
   const OdeSession session;
   for (const Row& row : rows()) {
     CAPTURE(row.name);
-    const Floor floor = row.lay();
+    const SeamedFloor floor = row.lay();
     for (const Faller kind : {Faller::Ball, Faller::Ellipsoid, Faller::Brick, Faller::Can}) {
       CAPTURE(static_cast<int>(kind));
       const Vec velocity = 1.3 * floor.along + 1.1 * floor.across;

@@ -2,13 +2,18 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <numbers>
 
 #include "ode/mesh_fixture.hpp"
+#include "ode/terrain.hpp"
+#include "support/draw.hpp"
 #include "support/ode_world.hpp"
 #include "support/relative.hpp"
 
 using namespace supernormal::test;
+using namespace supernormal;
 
 namespace {
 
@@ -32,6 +37,120 @@ void check_swapped(const std::vector<dContactGeom>& one, const std::vector<dCont
     CHECK(one[i].side2 == other[i].side1);
     CHECK(one[i].depth == other[i].depth);
     CHECK(to_vec(one[i].normal) == -1.0 * to_vec(other[i].normal));
+  }
+}
+
+struct Told {
+  std::vector<int> indices;
+  dGeomID by = nullptr;
+};
+Told told;
+
+void tell(dGeomID /*mesh*/, dGeomID geom, const int* indices, int count) {
+  told.indices.assign(indices, indices + count);
+  told.by = geom;
+}
+
+int wants_even(dGeomID /*mesh*/, dGeomID /*geom*/, int index) { return index % 2 == 0 ? 1 : 0; }
+
+/// A closed ring of flat faces: convex outside, with saddles inside.
+MeshArrays ring_arrays(double ring_radius, double tube_radius, unsigned around, unsigned about) {
+  MeshArrays mesh;
+  for (unsigned i = 0; i < around; ++i) {
+    for (unsigned j = 0; j < about; ++j) {
+      const double u = 2 * std::numbers::pi * i / around;
+      const double v = 2 * std::numbers::pi * j / about;
+      const double r = ring_radius + tube_radius * std::cos(v);
+      mesh.add(r * std::cos(u), r * std::sin(u), tube_radius * std::sin(v));
+    }
+  }
+  for (unsigned i = 0; i < around; ++i) {
+    for (unsigned j = 0; j < about; ++j) {
+      const auto at = [&](unsigned k, unsigned l) { return (k % around) * about + l % about; };
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
+/// A closed block with a step in its top, 2 x 1 x 1 without a quarter. It has convex and concave edges.
+MeshArrays step_arrays() {
+  MeshArrays mesh;
+  const std::array<std::array<double, 2>, 6> outline = {{{-1, -0.5}, {1, -0.5}, {1, 0}, {0, 0}, {0, 0.5}, {-1, 0.5}}};
+  for (const double y : {-0.5, 0.5}) {
+    for (const auto& [x, z] : outline) mesh.add(x, y, z);
+  }
+  for (unsigned k = 0; k < 6; ++k) {
+    const unsigned next = (k + 1) % 6;
+    mesh.triangles.push_back({k, next, next + 6});
+    mesh.triangles.push_back({k, next + 6, k + 6});
+  }
+  // Each side consists of two convex pieces.
+  const std::array<std::array<unsigned, 3>, 4> side = {{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}};
+  for (const auto& [a, b, c] : side) {
+    mesh.triangles.push_back({a, c, b});
+    mesh.triangles.push_back({a + 6, b + 6, c + 6});
+  }
+  for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
+  return mesh;
+}
+
+const std::array<MeshArrays, 3>& hollow_meshes() {
+  static const std::array<MeshArrays, 3> meshes = {ring_arrays(1, 0.4, 12, 8), ring_arrays(1, 0.3, 40, 20), step_arrays()};
+  return meshes;
+}
+
+constexpr int kCells = 40;
+
+/// Triangles over a square about a place, with the height at each vertex.
+MeshArrays sheet(const Vec& middle, double cell, const std::function<double(double x, double y)>& height) {
+  MeshArrays mesh = floor_arrays(kCells, kCells, 1);
+  for (auto& vertex : mesh.vertices) {
+    const double x = middle[0] + cell * (double{vertex[0]} - 0.5 * kCells);
+    const double y = middle[1] + cell * (double{vertex[1]} - 0.5 * kCells);
+    vertex = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(height(x, y))};
+  }
+  return mesh;
+}
+
+/// How far a vertex at this distance from the origin of its mesh may be rounded, m.
+double rounding_at(double distance) { return 0.5 * std::numeric_limits<float>::epsilon() * distance; }
+
+/// Checks bodies of 0.1 m on a floor of cells within a slope: the contacts have the number, the normals and the depth of those with
+/// the plane.
+void check_is_plane(dGeomID floor, dGeomID plane, const Vec& middle, double cell, double rounding) {
+  dVector4 level;
+  dGeomPlaneGetParams(plane, level);
+  const Vec up = to_vec(level);
+  Random random(5);
+  World world;
+  for (int i = 0; i < 12; ++i) {
+    CAPTURE(i);
+    const dReal exponent = i % 3 == 0 ? 2 : 20;
+    const Geom geom(snCreateSuperellipsoid(nullptr, dReal(0.1), dReal(0.07), dReal(0.05), exponent, exponent));
+    const dBodyID body = world.add(geom, 1000);
+    dMatrix3 turn;
+    dRFromZAxis(turn, dReal(up[0]), dReal(up[1]), dReal(up[2]));
+    dBodySetRotation(body, turn);
+    if (i % 3 != 1) random.turn(geom);
+    place(geom, middle + 0.2 * random.direction() + up);
+    for (int k = 0; k < 2; ++k) {
+      snProximity now;
+      snGeomProximity(geom, plane, &now);
+      const double depth = k == 0 ? 0 : std::max(random.log_uniform(1e-5, 1e-3), 8 * rounding);
+      move(geom, -(now.gap + depth) * up);
+    }
+    dBodySetLinearVel(body, 1, 0, dReal(-up[0] / up[2] - 0.05));
+    for (const double time : {0.0, 0.005}) {
+      CAPTURE(time);
+      snGeomSetLookAhead(geom, dReal(time));
+      const auto found = collide(geom, floor), wanted = collide(geom, plane);
+      REQUIRE(found.size() == wanted.size());
+      REQUIRE(!found.empty());
+      CHECK(std::abs(double{found[0].depth} - double{wanted[0].depth}) < 2 * rounding);
+      for (const dContactGeom& contact : found) CHECK(norm(to_vec(contact.normal) - up) < 4 * rounding / std::max(cell, 0.1));
+    }
   }
 }
 
@@ -182,23 +301,6 @@ TEST_CASE("a query of a body that looks ahead at a mesh is counted") {
   dWorldDestroy(world);
 }
 
-namespace {
-
-struct Told {
-  std::vector<int> indices;
-  dGeomID by = nullptr;
-};
-Told told;
-
-void tell(dGeomID /*mesh*/, dGeomID geom, const int* indices, int count) {
-  told.indices.assign(indices, indices + count);
-  told.by = geom;
-}
-
-int wants_even(dGeomID /*mesh*/, dGeomID /*geom*/, int index) { return index % 2 == 0 ? 1 : 0; }
-
-}  // namespace
-
 TEST_CASE("the callbacks of a mesh are called and stay set") {
   OdeSession session;
   const MeshGeom floor(floor_arrays(8, 8, 0.5));
@@ -241,4 +343,73 @@ TEST_CASE("meshes collide after ODE was closed and opened again, and ignore bodi
     snProximity proximity;
     CHECK(snGeomProximity(body, floor, &proximity) == 0);
   }
+}
+
+TEST_CASE(
+    "the gap of a body and a mesh with hollows is minus the depth of the deepest contact, and a gap that is not positive has a "
+    "contact") {
+  OdeSession session;
+  Random random(82);
+  std::size_t contact_count = 0;
+  for (const MeshArrays& arrays : hollow_meshes()) {
+    const MeshGeom mesh(arrays);
+    for (int i = 0; i < draws(1000); ++i) {
+      CAPTURE(i);
+      const auto half_axis = [&] { return dReal(random.uniform(0.1, 0.6)); };
+      const auto exponent = [&] { return dReal(1 + 0.02 * std::pow(1e4, random.uniform(0, 1))); };
+      const std::array<dReal, 5> size = {half_axis(), half_axis(), half_axis(), exponent(), exponent()};
+      const Geom body(snCreateSuperellipsoid(nullptr, size[0], size[1], size[2], size[3], size[4]));
+      place(body, random.uniform(0.2, 2) * random.direction());
+      random.turn(body);
+      const auto contacts = collide(body, mesh, 64);
+      const snProximity one = proximity_of(body, mesh), other = proximity_of(mesh, body);
+      CHECK(one.gap == other.gap);
+      CHECK(to_vec(one.normal) == -1.0 * to_vec(other.normal));
+      contact_count += contacts.size();
+      if (std::abs(one.gap) > 1e-9) CHECK(contacts.empty() == (one.gap > 0));
+      if (contacts.empty()) continue;
+      CHECK(double{contacts[0].depth} == -one.gap);
+      CHECK(norm(to_vec(contacts[0].normal) + to_vec(one.normal)) < 1e-15);
+      for (const dContactGeom& contact : contacts) CHECK(contact.depth <= contacts[0].depth);
+    }
+  }
+  CHECK(contact_count > draws(750));
+}
+
+TEST_CASE("a slope of rounded vertices has the contacts of a plane" * doctest::skip(kIsSinglePrecision)) {
+  OdeSession session;
+  for (const double slope : {0.05, 1.0}) {
+    for (const double away : {0.0, 1000.0}) {
+      for (const double cell : {0.02, 1.0}) {
+        CAPTURE(slope);
+        CAPTURE(away);
+        CAPTURE(cell);
+        const auto height = [slope](double x, double y) { return slope * (x + 0.3 * y); };
+        const Geom plane(dCreatePlane(nullptr, dReal(-slope), dReal(-0.3 * slope), 1, 0));
+        const Vec middle = {away, away, height(away, away)};
+        const double half = 0.5 * kCells * cell;
+        const double rounding = rounding_at(norm(middle) + 2 * half);
+        check_is_plane(MeshGeom(sheet(middle, cell, height)), plane, middle, cell, rounding);
+        // The x of a heightfield is the world's, its y is up, its z is -y of the world. `away` raises it here.
+        const Terrain terrain(
+            {.columns = kCells + 1, .rows = kCells + 1, .width = 2 * half, .depth = 2 * half, .source = Source::Single},
+            [&](int i, int j) { return height(away + i * cell - half, half - j * cell); });
+        const Geom field(terrain.create(true));
+        dMatrix3 turn;
+        dRFromAxisAndAngle(turn, 1, 0, 0, dReal(0.5 * 3.14159265358979323846));
+        dGeomSetRotation(field, turn);
+        place(field, {away, 0, 0});
+        check_is_plane(field, plane, {away, 0, slope * away}, cell, rounding);
+      }
+    }
+  }
+}
+
+TEST_CASE("two slopes of rounded vertices that meet at 1e-3 rad are no plane") {
+  OdeSession session;
+  const Vec up = (1 / std::sqrt(1.09)) * Vec{0, -0.3, 1}, middle = {10, 10, 3};
+  const MeshGeom valley(sheet(middle, 0.1, [](double x, double y) { return 0.3 * y + 5e-4 * std::abs(x - 10); }));
+  const Geom ball(snCreateEllipsoid(nullptr, 10, 10, 10));
+  place(ball, middle + (10 - 1e-3) * up);
+  CHECK(collide(ball, valley).size() == 2);
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ode/collider_fixture.hpp"
+#include "support/ode_fixture.hpp"
 #include "support/ode_world.hpp"
 #include "support/relative.hpp"
 
@@ -49,7 +50,7 @@ struct Found {
 // Pairs of ODE's own geoms are ignored.
 bool is_one_ours(dGeomID o1, dGeomID o2) { return dGeomGetClass(o1) == snGeomClass() || dGeomGetClass(o2) == snGeomClass(); }
 
-void near_callback(void* data, dGeomID o1, dGeomID o2) {
+void find_pair(void* data, dGeomID o1, dGeomID o2) {
   if (!is_one_ours(o1, o2)) return;
   auto& found = *static_cast<Found*>(data);
   const auto pair = std::minmax(o1, o2);
@@ -58,11 +59,11 @@ void near_callback(void* data, dGeomID o1, dGeomID o2) {
 }
 
 // 60 crowded bodies, five of each of ODE's geoms and two planes. Destroy it before the space.
-struct Crowd {
+struct SpaceCrowd {
   std::vector<ColliderGeom> colliders;
   std::vector<dGeomID> geoms;
 
-  explicit Crowd(dSpaceID space) {
+  explicit SpaceCrowd(dSpaceID space) {
     Random random(3);
     for (int i = 0; i < 60; ++i) geoms.push_back(random_body(random, space));
     for (const ColliderKind kind : kSolidKinds) {
@@ -83,69 +84,6 @@ Pairs touching_without_space(const std::vector<dGeomID>& geoms) {
   }
   return touching;
 }
-
-}  // namespace
-
-TEST_CASE("every space finds exactly the touching pairs") {
-  OdeSession session;
-  for (const SpaceKind& kind : space_kinds()) {
-    CAPTURE(kind.name);
-    const dSpaceID space = kind.create();
-    {
-      const Crowd crowd(space);
-      const Pairs expected = touching_without_space(crowd.geoms);
-      REQUIRE(expected.size() > 60);
-      Found found;
-      dSpaceCollide(space, &found, near_callback);
-      CHECK(found.touching == expected);
-    }
-    dSpaceDestroy(space);
-  }
-}
-
-TEST_CASE("a plane that no body touches causes no near callback") {
-  OdeSession session;
-  const std::vector<std::array<dReal, 4>> planes = {
-      {0, 0, 1, -8}, {1, 0, 0, -8}, {0, -1, 0, -8}, {dReal(0.6), dReal(0.48), dReal(0.64), -12}};
-  for (const SpaceKind& kind : space_kinds()) {
-    CAPTURE(kind.name);
-    const dSpaceID space = kind.create();
-    Random random(4);
-    for (int i = 0; i < 100; ++i)
-      place(random_body(random, space), {random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(-4, 4)});
-    for (const auto& p : planes) {
-      const dGeomID plane = dCreatePlane(space, p[0], p[1], p[2], p[3]);
-      Found found;
-      dSpaceCollide(space, &found, near_callback);
-      const auto calls = std::count_if(found.near_pairs.begin(), found.near_pairs.end(),
-                                       [&](const auto& pair) { return pair.first == plane || pair.second == plane; });
-      CHECK(calls == 0);
-      dGeomDestroy(plane);
-    }
-    dSpaceDestroy(space);
-  }
-}
-
-TEST_CASE("a box whose corner is in a body's bounding box but not near the body is culled, and a near one is not") {
-  OdeSession session;
-  const dSpaceID space = dSimpleSpaceCreate(nullptr);
-  snCreateEllipsoid(space, 1, 1, 1);
-  const dGeomID box = dCreateBox(space, 1, 1, 1);
-  const auto calls = [&] {
-    int count = 0;
-    dSpaceCollide(space, &count, [](void* n, dGeomID, dGeomID) { ++*static_cast<int*>(n); });
-    return count;
-  };
-  const double touching = 0.5 + 1 / std::sqrt(3.0);  // the corner is on the unit sphere
-  const double aside = within_rounding(1e-9, 4);
-  place(box, {touching - aside, touching - aside, touching - aside});
-  CHECK(calls() == 1);
-  place(box, {touching + aside, touching + aside, touching + aside});
-  CHECK(calls() == 0);
-  dSpaceDestroy(space);
-}
-
-namespace {
 
 // Puts `inner` into the transform, both anywhere near the origin. Puts `direct`, the same geom again, where `inner` then is.
 void wrap(dGeomID transform, dGeomID inner, dGeomID direct, Random& random) {
@@ -176,7 +114,71 @@ int check_same_contacts(dGeomID transform, dGeomID direct, dGeomID other) {
   return 1;
 }
 
+struct Box {
+  std::array<dReal, 6> side{};
+  explicit Box(dGeomID geom) { dGeomGetAABB(geom, side.data()); }
+};
+
 }  // namespace
+
+TEST_CASE("every space finds exactly the touching pairs") {
+  OdeSession session;
+  for (const SpaceKind& kind : space_kinds()) {
+    CAPTURE(kind.name);
+    const dSpaceID space = kind.create();
+    {
+      const SpaceCrowd crowd(space);
+      const Pairs expected = touching_without_space(crowd.geoms);
+      REQUIRE(expected.size() > 60);
+      Found found;
+      dSpaceCollide(space, &found, find_pair);
+      CHECK(found.touching == expected);
+    }
+    dSpaceDestroy(space);
+  }
+}
+
+TEST_CASE("a plane that no body touches causes no near callback") {
+  OdeSession session;
+  const std::vector<std::array<dReal, 4>> planes = {
+      {0, 0, 1, -8}, {1, 0, 0, -8}, {0, -1, 0, -8}, {dReal(0.6), dReal(0.48), dReal(0.64), -12}};
+  for (const SpaceKind& kind : space_kinds()) {
+    CAPTURE(kind.name);
+    const dSpaceID space = kind.create();
+    Random random(4);
+    for (int i = 0; i < 100; ++i)
+      place(random_body(random, space), {random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(-4, 4)});
+    for (const auto& p : planes) {
+      const dGeomID plane = dCreatePlane(space, p[0], p[1], p[2], p[3]);
+      Found found;
+      dSpaceCollide(space, &found, find_pair);
+      const auto calls = std::count_if(found.near_pairs.begin(), found.near_pairs.end(),
+                                       [&](const auto& pair) { return pair.first == plane || pair.second == plane; });
+      CHECK(calls == 0);
+      dGeomDestroy(plane);
+    }
+    dSpaceDestroy(space);
+  }
+}
+
+TEST_CASE("a box whose corner is in a body's bounding box but not near the body is culled, and a near one is not") {
+  OdeSession session;
+  const dSpaceID space = dSimpleSpaceCreate(nullptr);
+  snCreateEllipsoid(space, 1, 1, 1);
+  const dGeomID box = dCreateBox(space, 1, 1, 1);
+  const auto calls = [&] {
+    int count = 0;
+    dSpaceCollide(space, &count, [](void* n, dGeomID, dGeomID) { ++*static_cast<int*>(n); });
+    return count;
+  };
+  const double touching = 0.5 + 1 / std::sqrt(3.0);  // the corner is on the unit sphere
+  const double aside = within_rounding(1e-9, 4);
+  place(box, {touching - aside, touching - aside, touching - aside});
+  CHECK(calls() == 1);
+  place(box, {touching + aside, touching + aside, touching + aside});
+  CHECK(calls() == 0);
+  dSpaceDestroy(space);
+}
 
 TEST_CASE("a body inside a dGeomTransform has the contacts of the body itself") {
   OdeSession session;
@@ -261,4 +263,48 @@ TEST_CASE("a geom offset moves the geom, not the body") {
     }
     CHECK(touching > 100);
   }
+}
+
+TEST_CASE("the bounding box contains the support points, also far from the origin") {
+  OdeSession session;
+  Random random(9);
+  for (int i = 0; i < 2000; ++i) {
+    const Geom geom(random_body(random));
+    const double scale = std::pow(10.0, random.uniform(0, 6));
+    place(geom, scale * random.direction());
+    const Box box(geom);
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (const int sign : {-1, 1}) {
+        dVector3 direction = {0, 0, 0, 0};
+        direction[k] = dReal(sign);
+        dVector3 point;
+        REQUIRE(snGeomSupport(geom, direction, point) == 1);
+        const std::size_t side = 2 * k + (sign > 0 ? 1 : 0);
+        CHECK(dReal(sign) * box.side[side] >= dReal(sign) * point[k]);
+        CHECK(std::abs(box.side[side] - point[k]) < within_rounding(1e-13) * (1 + scale));
+      }
+    }
+  }
+}
+
+TEST_CASE("the bounding box follows the parameters, the rounding and the pose") {
+  OdeSession session;
+  const Geom geom(snCreateEllipsoid(nullptr, 1, 2, 3));
+  const auto check_half = [&](double x, double y, double z) {
+    const Box box(geom);
+    CHECK(box.side[1] == relative(x).epsilon(within_rounding(1e-14)));
+    CHECK(box.side[3] == relative(y).epsilon(within_rounding(1e-14)));
+    CHECK(box.side[5] == relative(z).epsilon(within_rounding(1e-14)));
+  };
+  check_half(1, 2, 3);
+  REQUIRE(snGeomSuperellipsoidSetParams(geom, 4, 5, 6, 8, 8) == 1);
+  check_half(4, 5, 6);
+  REQUIRE(snGeomSetRounding(geom, dReal(0.5)) == 1);
+  check_half(4.5, 5.5, 6.5);
+  REQUIRE(snGeomSuperellipsoidSetParams(geom, 1, 1, 1, 2, 2) == 1);
+  check_half(1.5, 1.5, 1.5);  // the rounding stays
+  REQUIRE(snGeomSetRounding(geom, 0) == 1);
+  check_half(1, 1, 1);
+  dGeomSetPosition(geom, 10, 0, 0);
+  check_half(11, 1, 1);
 }

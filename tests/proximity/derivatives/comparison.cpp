@@ -20,6 +20,7 @@
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/shapes/superovoid.hpp"
 #include "support/rotation_between.hpp"
+#include "support/superellipsoid_classes.hpp"
 
 namespace supernormal::test {
 namespace {
@@ -331,21 +332,12 @@ PairedBody DerivativePairs::smooth(int kind) {
     const double delta = log_uniform(least, most);
     return paired(std::make_shared<Superellipsoid>(a, delta, log_uniform(least, most)));
   };
+  if (kind < 7) {
+    const SuperellipsoidClass& one = kSuperellipsoidClasses[kind];
+    if (kind < 2) return paired(std::make_shared<Ellipsoid>(lengths(one.least_axis, one.largest_axis)));
+    return superellipsoid(one.least_axis, one.largest_axis, one.least_exponent, one.largest_exponent);
+  }
   switch (kind) {
-    case 0:
-      return paired(std::make_shared<Ellipsoid>(lengths(0.5, 1.5)));
-    case 1:
-      return paired(std::make_shared<Ellipsoid>(lengths(0.05, 5)));
-    case 2:
-      return superellipsoid(0.5, 1.5, 1.3, 5);
-    case 3:
-      return superellipsoid(0.5, 1.5, 6, 20);
-    case 4:
-      return superellipsoid(0.5, 1.5, 50, 200);
-    case 5:
-      return superellipsoid(0.5, 1.5, 1.02, 1.3);
-    case 6:
-      return superellipsoid(0.5, 1.5, 1.05, 50);
     case 7: {
       const Vector3 a = lengths(0.5, 1.5);
       const double delta = log_uniform(1.3, 5), epsilon = log_uniform(1.3, 5);

@@ -85,7 +85,7 @@ TEST_CASE("the hard case: no slope along the negative curvature") {
 
 TEST_CASE("both curvatures negative and equal") {
   for (const Vector2& g : {Vector2(0, 0), Vector2(1e-17, 0), Vector2(1e-300, 1e-300), Vector2(0.1, -0.4)}) {
-    for (const double radius : {1e-8, 1.0, 4.0}) check({g, {-1.25, 0, -1.25}}, radius);
+    for (const double radius : {1e-8, 1.0, 4.0}) check(QuadraticModel{g, {-1.25, 0, -1.25}}, radius);
   }
 }
 

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "support/hard_cases/catalogue.hpp"
 

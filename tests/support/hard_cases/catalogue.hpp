@@ -1,7 +1,6 @@
 // The catalogue of hard cases: pairs of smooth convex bodies on which methods fail, each with its reason.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,7 +22,7 @@ struct HardCase {
   std::optional<Vector3> first_normal = {};  ///< unit, body 1's frame; the start of the solver
 };
 
-/// All cases, in the order of the themes. They live in cases/, one file a theme.
+/// All cases, in the order of the themes.
 std::vector<HardCase> hard_cases();
 
 /// The case with the bodies exchanged.
@@ -34,18 +33,5 @@ HardCase moved(const HardCase& original, const Pose& motion);
 
 /// The case with lengths in units of `unit` m. Throws std::invalid_argument when a length leaves the range of its shape.
 HardCase scaled(const HardCase& original, double unit);
-
-/// An input that must be refused with std::invalid_argument.
-struct Refusal {
-  std::string name;
-  std::string reason;
-  std::function<void()> attempt;
-};
-
-/// Parameters of shapes and settings that are not finite, too small, too large or contradict each other.
-std::vector<Refusal> refusals();
-
-/// Poses that are not finite: a query must end with Status::InvalidInput.
-std::vector<HardCase> cases_without_answer();
 
 }  // namespace supernormal::samples

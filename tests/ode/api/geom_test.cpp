@@ -1,6 +1,10 @@
-// Mass properties, in ODE's conventions.
+// What a geom says of itself: mass, depth of a point, support, mesh; in ODE's conventions.
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <limits>
+
+#include "support/ode_fixture.hpp"
 #include "support/ode_world.hpp"
 #include "support/relative.hpp"
 
@@ -32,6 +36,27 @@ void oblique_point(const void* /*user*/, const dReal n[3], dReal point[3]) {
   const double h = norm(v);
   const Vec r = {9000 * v[0] + 2000 * v[2], 4000 * v[0] + 11000 * v[1], 3000 * v[1] + 7000 * v[2]};
   for (std::size_t i = 0; i < 3; ++i) point[i] = dReal(r[i] / h);
+}
+
+// A point at signed distance `depth` inside the boundary point with a given normal. Inwards this is exact up to the smallest radius
+// of curvature; beyond it another boundary point is nearer.
+Vec point_at_depth(dGeomID geom, const Vec& direction, double depth) {
+  const dVector3 n = {dReal(direction[0]), dReal(direction[1]), dReal(direction[2]), 0};
+  dVector3 boundary;
+  REQUIRE(snGeomSupport(geom, n, boundary) == 1);
+  return to_vec(boundary) - depth * direction;
+}
+
+double depth_of(dGeomID geom, const Vec& p) { return snGeomPointDepth(geom, dReal(p[0]), dReal(p[1]), dReal(p[2])); }
+
+double volume(const snMesh& mesh) {
+  double sum = 0;
+  for (int k = 0; k < mesh.triangles; ++k) {
+    const auto corner = [&](int i) { return to_vec(mesh.position + 3 * mesh.index[3 * k + i]); };
+    const Vec a = corner(0), b = corner(1), c = corner(2);
+    sum += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -109,4 +134,92 @@ TEST_CASE("mass: ODE accepts the mass of every body in its range") {
     CHECK(dMassCheck(&mass) == 1);
     dBodySetMass(dBodyCreate(world.id()), &mass);  // ODE asserts it
   }
+}
+
+TEST_CASE("point depth: a sphere has the radius minus the distance") {
+  OdeSession session;
+  Random random(13);
+  const Geom geom(snCreateEllipsoid(nullptr, 2, 2, 2));
+  const Geom reference(dCreateSphere(nullptr, 2));
+  const Vec centre = {1, -2, 3};
+  place(geom, centre);
+  place(reference, centre);
+  for (int i = 0; i < 300; ++i) {
+    const Vec p = centre + random.uniform(0, 10) * random.direction();
+    const double expected = dGeomSpherePointDepth(reference, dReal(p[0]), dReal(p[1]), dReal(p[2]));
+    CHECK(std::abs(depth_of(geom, p) - expected) < within_rounding(1e-12));
+  }
+  CHECK(depth_of(geom, centre) == relative(2).epsilon(1e-14));
+}
+
+TEST_CASE("point depth: superellipsoids in any pose have the distance along their normals") {
+  OdeSession session;
+  Random random(14);
+  for (int i = 0; i < 300; ++i) {
+    CAPTURE(i);
+    const Geom geom(random_body(random));
+    place(geom, {random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-9, 9)});
+    const Vec n = random.direction();
+    const double distance = random.uniform(0, 5);
+    CHECK(std::abs(depth_of(geom, point_at_depth(geom, n, -distance)) + distance) < within_rounding(2e-9));
+    CHECK(std::abs(depth_of(geom, point_at_depth(geom, n, 0))) < within_rounding(2e-9));
+  }
+}
+
+TEST_CASE("support: the farthest boundary point is returned for a direction of any length") {
+  OdeSession session;
+  Random random(16);
+  for (int i = 0; i < 100; ++i) {
+    const Geom geom(random_body(random));
+    place(geom, {4, 5, 6});
+    const Vec n = random.direction();
+    const Vec farthest = point_at_depth(geom, n, 0);
+    for (int k = 0; k < 50; ++k) CHECK(dot(n, point_at_depth(geom, random.direction(), 0)) <= dot(n, farthest) + 1e-13);
+    for (const double length : {1e-200, 0.1, 7.0, 1e200}) {
+      if (length < double{std::numeric_limits<dReal>::min()} || length > double{std::numeric_limits<dReal>::max()}) continue;
+      const dVector3 scaled = {dReal(length * n[0]), dReal(length * n[1]), dReal(length * n[2]), 0};
+      dVector3 point;
+      REQUIRE(snGeomSupport(geom, scaled, point) == 1);
+      CHECK(norm(to_vec(point) - farthest) < within_rounding(1e-13));
+    }
+  }
+}
+
+TEST_CASE("a mesh has the volume of its geom, and its vertices have the geom's normals") {
+  OdeSession session;
+  const Geom geom(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 3, 3));
+  REQUIRE(snGeomSetRounding(geom, dReal(0.05)) == 1);
+  dMass mass;
+  REQUIRE(snMassSet(&mass, 1, geom) == 1);
+  snMesh mesh;
+  REQUIRE(snGeomTessellate(geom, dReal(2e-4), &mesh) == 1);
+  CHECK(volume(mesh) == relative(mass.mass).epsilon(1e-3));
+  CHECK(volume(mesh) < mass.mass);  // its vertices are on the boundary of a convex body
+  for (int k = 0; k < mesh.points; ++k) {
+    const dReal* n = mesh.normal + 3 * k;
+    const dVector3 direction = {n[0], n[1], n[2]};
+    dVector3 point;
+    REQUIRE(snGeomSupport(geom, direction, point) == 1);
+    for (int i = 0; i < 3; ++i) CHECK(std::abs(point[i] - mesh.position[3 * k + i]) < within_rounding(1e-12));
+  }
+  snMeshRelease(&mesh);
+  CHECK(mesh.position == nullptr);
+  snMeshRelease(&mesh);
+  snMeshRelease(nullptr);
+}
+
+TEST_CASE("a mesh with invalid arguments is refused and empty") {
+  OdeSession session;
+  const Geom geom(snCreateEllipsoid(nullptr, 3, 2, 1));
+  snMesh mesh;
+  for (const dReal wrong : {dReal(0), dReal(-1), std::numeric_limits<dReal>::quiet_NaN(), std::numeric_limits<dReal>::infinity()}) {
+    CHECK(refused(snGeomTessellate(geom, wrong, &mesh), "chord_error ="));
+    CHECK(mesh.triangles == 0);
+    CHECK(mesh.position == nullptr);
+  }
+  CHECK(snGeomTessellate(geom, dReal(0.1), nullptr) == 0);
+  CHECK(snGeomTessellate(nullptr, dReal(0.1), &mesh) == 0);
+  dGeomID sphere = dCreateSphere(nullptr, 1);
+  CHECK(snGeomTessellate(sphere, dReal(0.1), &mesh) == 0);
+  dGeomDestroy(sphere);
 }
