@@ -24,12 +24,6 @@ using namespace supernormal::test;
 
 namespace {
 
-// The gap function itself.
-double separation_along(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Vector3& normal) {
-  return normal.dot(pose2.position - pose1.position) - shape1.support(pose1.rotation.transpose() * normal) -
-         shape2.support(pose2.rotation.transpose() * -normal);
-}
-
 // The nearest of all points of the triangle. `kind`: 0 inside, 1 on an edge, 2 a vertex.
 Vector3 nearest_point(const MeshTriangle& triangle, const Vector3& point, int& kind) {
   const Vector3 normal = normal_of(triangle);
@@ -134,43 +128,6 @@ TEST_CASE("a rod deep in a fine floor has its contact, although only triangles i
     check_is_plane_contact(contacts_of(rod, pose, near), plane);
   }
   CHECK(standing > 200);
-}
-
-TEST_CASE("contacts with closed convex meshes agree with the solid hull of their vertices") {
-  Draw draw(3);
-  const std::array<TriangleMesh, 4> meshes = {
-      icosahedron_mesh(), box_mesh({0.9, 1.4, 0.7}), hull_mesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}),
-      hull_mesh({{1, 0, 0}, {-1, 0, 0}, {0, 1.5, 0}, {0, -1.5, 0}, {0, 0, 0.3}, {0, 0, -2}})};
-  int overlapping = 0;
-  for (int i = 0; i < draws(3000); ++i) {
-    CAPTURE(i);
-    const TriangleMesh& mesh = meshes[static_cast<std::size_t>(i) % meshes.size()];
-    const Polytope hull(mesh.vertices);
-    const Pose mesh_pose{draw.in_box({5, 5, 5}), draw.rotation()};
-    const std::unique_ptr<Shape> body = draw_body(draw);
-    const double smallest = std::min(body->half_extents().minCoeff(), hull.half_extents().minCoeff());
-    const Matrix3 rotation = draw.rotation();
-    const double wanted = i % 5 == 0 ? 0 : draw.uniform(-0.1, 0.02) * smallest;
-    const Pose pose = placed_at_gap(wanted, *body, rotation, hull, mesh_pose, draw.direction());
-    const Proximity expected = find_proximity(*body, pose, hull, mesh_pose);
-    const std::vector<MeshContact> contacts = contacts_of(*body, pose, mesh.placed(mesh_pose));
-    if (std::abs(expected.gap) < 1e-9 * smallest) continue;  // neither apart nor overlapping within the tolerance
-    if (expected.gap > 0) {
-      CHECK(contacts.empty());
-      continue;
-    }
-    ++overlapping;
-    CAPTURE(expected.gap);
-    REQUIRE(contacts.size() == 1);
-    const Proximity& contact = contacts[0].proximity;
-    CHECK(std::abs(contact.gap - expected.gap) < 1e-9 * smallest);
-    // Two separating translations may be equally long within that tolerance.
-    CHECK(std::abs(separation_along(*body, pose, hull, mesh_pose, contact.normal) - expected.gap) < 1e-9 * smallest);
-    if (body->traits().has_flat_faces) continue;  // one normal has many support points
-    CHECK((contact.point1 - expected.point1).norm() < 1e-3 * smallest);
-    CHECK((contact.point2 - expected.point2).norm() < 1e-3 * smallest);
-  }
-  CHECK(overlapping > draws(1500));
 }
 
 // A flat side has nearly the same normal at an edge and at the end of the edge. The contact is at the end once the body reaches

@@ -55,6 +55,8 @@ TEST_CASE(
     if (std::abs(expected.lower) > 1e-9 * unit) REQUIRE(contacts.empty() == (expected.lower > 0));
     const Proximity found = contacts.empty() ? find_nearest_triangle(*body, pose, triangles, {}).proximity : contacts[0].proximity;
     worst = std::max({worst, (expected.lower - found.gap) / unit, (found.gap - expected.upper) / unit});
+    CHECK(contacts.size() <= 1);
+    CHECK(std::abs(found.normal.dot(found.point2 - found.point1) - found.gap) < 1e-9 * unit);
     CHECK(found.gap > expected.lower - 1e-9 * unit);
     CHECK(found.gap < expected.upper + 1e-9 * unit);
     CHECK(std::abs(height_over(*body, pose, found.normal, found.point1)) < 1e-9 * unit);
