@@ -5,6 +5,7 @@
 #include <span>
 
 #include "effects/effects_world.hpp"
+#include "ode/mesh_fixture.hpp"
 #include "support/relative.hpp"
 
 using namespace supernormal::test;
@@ -194,56 +195,16 @@ TEST_CASE("the middle of a region moves by at most 4/pi times the contacts, also
   }
 }
 
-namespace {
-
-/// A valley along y between two slopes at a right angle, made of squares cut in two.
-class Valley {
- public:
-  explicit Valley(dSpaceID space) : data_(dGeomTriMeshDataCreate()) {
-    constexpr int kCells = 8;  // on each slope
-    for (int i = -kCells; i <= kCells; ++i) {
-      const Vec across = (0.03 * std::abs(i)) * (i > 0 ? kRight : kLeft);
-      for (int j = 0; j <= kCells; ++j) {
-        for (const double c : across + Vec{0, 0.03 * j - 0.11, 0}) vertices_.push_back(static_cast<float>(c));
-      }
-    }
-    for (int i = 0; i < 2 * kCells; ++i) {
-      for (int j = 0; j < kCells; ++j) {
-        const int a = i * (kCells + 1) + j;
-        const int b = a + kCells + 1;
-        for (const int index : {a, b, a + 1, b, b + 1, a + 1}) indices_.push_back(static_cast<dTriIndex>(index));
-      }
-    }
-    dGeomTriMeshDataBuildSingle(data_, vertices_.data(), 3 * sizeof(float), static_cast<int>(vertices_.size() / 3), indices_.data(),
-                                static_cast<int>(indices_.size()), 3 * sizeof(dTriIndex));
-    geom_ = dCreateTriMesh(space, data_, nullptr, nullptr, nullptr);
-  }
-  ~Valley() {
-    dGeomDestroy(geom_);
-    dGeomTriMeshDataDestroy(data_);
-  }
-  Valley(const Valley&) = delete;
-  Valley(Valley&&) = delete;
-  Valley& operator=(const Valley&) = delete;
-  Valley& operator=(Valley&&) = delete;
-
-  dGeomID geom() const { return geom_; }
-
-  static constexpr Vec kRight = {0.6, 0, 0.8};  ///< up the right slope, and the normal of the left one
-  static constexpr Vec kLeft = {-0.8, 0, 0.6};
-
- private:
-  dTriMeshDataID data_;
-  dGeomID geom_;
-  std::vector<float> vertices_;
-  std::vector<dTriIndex> indices_;
-};
-
-}  // namespace
-
 TEST_CASE("each slope of a mesh sticks once, at any number of triangles and order of contacts") {
   EffectsWorld scene({fx::Adhesion{kPullOff, {}}}, kLongStep);
-  const Valley valley(scene.world.space());
+  const Vec right = {0.6, 0, 0.8}, left = {-0.8, 0, 0.6};  // up each slope, and the normal of the other one
+  // A valley along y between two slopes at a right angle, made of squares cut in two.
+  TriangleMesh slopes = sheet_mesh(16, 8, 0.03, -8);
+  for (supernormal::Vector3& v : slopes.vertices) {
+    const Vec at = std::abs(v.x()) * (v.x() > 0 ? right : left);
+    v = {at[0], v.y() - 0.11, at[2]};
+  }
+  const MeshGeom valley(slopes, scene.world.space());
   const dGeomID brick = snCreateSuperellipsoid(scene.world.space(), dReal(0.05), dReal(0.05), dReal(0.05), 60, 60);
   const dGeomID box = dCreateBox(scene.world.space(), dReal(0.1), dReal(0.1), dReal(0.1));
   dMass mass;
@@ -253,15 +214,15 @@ TEST_CASE("each slope of a mesh sticks once, at any number of triangles and orde
   for (const dGeomID geom : {brick, box}) {
     const dBodyID body = scene.world.add(geom, mass);
     turn(body, {0, 1, 0}, -std::atan2(0.8, 0.6));
-    const Vec up_the_slope = 0.1513 * Valley::kRight + deep * Valley::kLeft;
+    const Vec up_the_slope = 0.1513 * right + deep * left;
     dBodySetPosition(body, dReal(up_the_slope[0]), dReal(0.0037), dReal(up_the_slope[2]));
-    REQUIRE(set_up(scene.effects, geom, valley.geom()) > 3);
-    CHECK(norm(to_vec(dBodyGetForce(body)) + kPullOff * Valley::kLeft) < 1e-4 * kPullOff);
+    REQUIRE(set_up(scene.effects, geom, valley) > 3);
+    CHECK(norm(to_vec(dBodyGetForce(body)) + kPullOff * left) < 1e-4 * kPullOff);
   }
   const dBodyID body = dGeomGetBody(brick);
-  const Vec in_the_valley = deep * (Valley::kRight + Valley::kLeft);
+  const Vec in_the_valley = deep * (right + left);
   dBodySetPosition(body, dReal(in_the_valley[0]), 0, dReal(in_the_valley[2]));
   forget_forces(body);
-  REQUIRE(set_up(scene.effects, brick, valley.geom()) > 4);
-  CHECK(norm(to_vec(dBodyGetForce(body)) + kPullOff * (Valley::kRight + Valley::kLeft)) < 1e-4 * kPullOff);
+  REQUIRE(set_up(scene.effects, brick, valley) > 4);
+  CHECK(norm(to_vec(dBodyGetForce(body)) + kPullOff * (right + left)) < 1e-4 * kPullOff);
 }

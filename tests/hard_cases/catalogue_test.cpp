@@ -8,7 +8,6 @@
 #include <set>
 
 #include "invariants.hpp"
-#include "reference.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "support/hard_cases/builders.hpp"

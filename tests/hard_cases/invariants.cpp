@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "proximity/collider_reference.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
 
@@ -377,5 +378,14 @@ Violations check_invariance(const HardCase& one, const Settings& settings, const
   for (const Vector3& start : {Vector3(-n), n.unitOrthogonal()}) opinions.compare_started(start);
   return violations;
 }
+
+Reference enclose_gap(const HardCase& one, int max_evaluations) {
+  const GapFunction gap(*one.shape1, one.pose1, *one.shape2, one.pose2);
+  const double width = std::max(1e-12 * gap.length_unit(), gap.rounding());
+  const test::GapBounds bounds = test::bound_gap(*one.shape1, one.pose1, *one.shape2, one.pose2, width, max_evaluations);
+  return {bounds.lower, bounds.upper};
+}
+
+Reference find_reference(const HardCase& one) { return one.gap ? Reference{*one.gap, *one.gap} : enclose_gap(one); }
 
 }  // namespace supernormal::samples

@@ -1,6 +1,7 @@
 // Conditions that every answer has to satisfy, checked without another answer.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -50,5 +51,21 @@ Violations check_invariance(const HardCase& one, const Settings& settings, const
 
 /// All of these checks.
 Violations check(const HardCase& one, const Settings& settings = {});
+
+/// lower <= signed gap <= upper, up to the rounding of the support functions; from a source other than the solvers.
+struct Reference {
+  double lower = 0;  ///< m
+  double upper = 0;  ///< m
+
+  /// The distance of a gap from the interval, m; 0 inside.
+  double distance(double gap) const { return std::max({lower - gap, gap - upper, 0.}); }
+};
+
+/// Encloses the gap by branch and bound over all normals (tests/proximity/collider_reference), to 1e-12 of the smallest half-extent
+/// or rounding. Stops after `max_evaluations` with a wider interval.
+Reference enclose_gap(const HardCase& one, int max_evaluations = 1000000);
+
+/// The case's own gap, if it has one; otherwise it is enclosed.
+Reference find_reference(const HardCase& one);
 
 }  // namespace supernormal::samples

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "invariants.hpp"
-#include "reference.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 
 namespace {

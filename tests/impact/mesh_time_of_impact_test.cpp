@@ -3,43 +3,22 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <array>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <vector>
 
 #include "random_motions.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
+#include "support/mesh_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;
 
-namespace {
-
-/// A sheet with hills of 2 * cells^2 triangles, about the origin, 1 m a cell.
-std::vector<MeshTriangle> hills(int cells) {
-  const auto point = [&](int i, int j) {
-    const double x = i - 0.5 * cells, y = j - 0.5 * cells;
-    return Vector3(x, y, 0.4 * std::sin(1.3 * x) * std::cos(0.9 * y));
-  };
-  std::vector<MeshTriangle> triangles;
-  const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c) {
-    triangles.push_back({{a, b, c}, static_cast<int>(triangles.size())});
-  };
-  for (int i = 0; i < cells; ++i) {
-    for (int j = 0; j < cells; ++j) {
-      add(point(i, j), point(i + 1, j), point(i, j + 1));
-      add(point(i + 1, j), point(i + 1, j + 1), point(i, j + 1));
-    }
-  }
-  return triangles;
-}
-
-}  // namespace
-
 TEST_CASE("triangles: at the impact the nearest triangle is within the tolerance, and none is nearer before") {
-  const std::vector<MeshTriangle> triangles = hills(8);
+  TriangleMesh hills = floor_mesh(8, 1);
+  for (Vector3& v : hills.vertices) v.z() = 0.4 * std::sin(1.3 * v.x()) * std::cos(0.9 * v.y());
+  const std::vector<MeshTriangle> triangles = hills.placed();
   RandomMotions random(11);
   int hits = 0;
   for (int k = 0; k < 40; ++k) {
@@ -72,11 +51,7 @@ TEST_CASE("triangles: at the impact the nearest triangle is within the tolerance
 
 TEST_CASE("triangles: at the impact with a closed mesh no contact is deeper than the tolerance") {
   // For an open mesh, a body that touches an edge or a vertex from outside is far below the planes of the faces.
-  const std::array<Vector3, 4> corners = {Vector3(-1, -1, 0), Vector3(1, -1, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)};
-  const std::vector<MeshTriangle> tetrahedron = {{{corners[0], corners[2], corners[1]}, 0},
-                                                 {{corners[0], corners[1], corners[3]}, 1},
-                                                 {{corners[1], corners[2], corners[3]}, 2},
-                                                 {{corners[2], corners[0], corners[3]}, 3}};
+  const std::vector<MeshTriangle> tetrahedron = hull_mesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {0, 0, 1}}).placed();
   RandomMotions random(12);
   MeshContacts contacts;
   int hits = 0;

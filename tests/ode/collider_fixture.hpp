@@ -1,12 +1,15 @@
-// One geom of every convex kind that collides with a body of ours, for tests that make the same checks for all of them.
+// One geom of every convex kind that collides with a body of ours, for tests that make the same checks for all of them; bodies of
+// every kind; poses in the form of the core.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "supernormal/proximity/pose.hpp"
 #include "support/ode_fixture.hpp"
 
 namespace supernormal::test {
@@ -129,6 +132,46 @@ inline void overlap(dGeomID body, dGeomID collider, double depth, Random& random
   snProximity apart;
   snGeomProximity(body, collider, &apart);
   move(body, (apart.gap + depth) * to_vec(apart.normal));
+}
+
+inline dReal ellipsoid_support(const void* user, const dReal direction[3]) {
+  const auto* const axes = static_cast<const dReal*>(user);
+  return std::hypot(axes[0] * direction[0], axes[1] * direction[1], axes[2] * direction[2]);
+}
+
+inline void ellipsoid_point(const void* user, const dReal direction[3], dReal point[3]) {
+  const auto* const axes = static_cast<const dReal*>(user);
+  const dReal h = ellipsoid_support(user, direction);
+  for (int k = 0; k < 3; ++k) point[k] = axes[k] * axes[k] * direction[k] / h;
+}
+
+inline dReal user_axes[3] = {dReal(0.6), dReal(0.9), dReal(0.4)};
+
+/// Draws a body of any kind: ellipsoids; round, boxy and pointed superellipsoids; rounded bodies; user shapes.
+inline dGeomID draw_body(Random& random) {
+  const auto axis = [&] { return dReal(random.uniform(0.2, 1)); };
+  const auto exponent = [&] { return dReal(1 + 0.02 * std::pow(1e4, random.uniform(0, 1))); };  // 1.02…201
+  const dReal a = axis(), b = axis(), c = axis(), delta = exponent(), epsilon = exponent();
+  const double sort = random.uniform(0, 6);
+  const snShape shape = {ellipsoid_support, ellipsoid_point, nullptr, user_axes, nullptr};
+  const dGeomID geom = sort < 1   ? snCreateEllipsoid(nullptr, a, b, c)
+                       : sort < 2 ? snCreateConvex(nullptr, &shape)
+                                  : snCreateSuperellipsoid(nullptr, a, b, c, delta, epsilon);
+  if (sort > 5) snGeomSetRounding(geom, dReal(random.uniform(0.01, 0.3)));
+  random.turn(geom);
+  return geom;
+}
+
+/// Poses and vectors of ODE in the form of the core.
+inline Eigen::Vector3d to_eigen(const Vec& v) { return {v[0], v[1], v[2]}; }
+
+inline Pose pose_of(dGeomID geom) {
+  const dReal* const rotation = dGeomGetRotation(geom);
+  Pose pose{to_eigen(to_vec(dGeomGetPosition(geom))), {}};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) pose.rotation(row, column) = double{rotation[4 * row + column]};
+  }
+  return pose;
 }
 
 }  // namespace supernormal::test

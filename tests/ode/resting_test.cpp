@@ -49,7 +49,7 @@ class RestingScene {
     } else if (floor == Floor::Box) {
       dGeomSetPosition(dCreateBox(world_.space(), 4, 4, 1), 0, 0, dReal(-0.5));
     } else {
-      mesh_.emplace(MeshArrays{{{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, {{0, 1, 2}, {0, 2, 3}}}, world_.space());
+      mesh_.emplace(TriangleMesh{{{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, {{0, 1, 2}, {0, 2, 3}}}, world_.space());
     }
   }
 

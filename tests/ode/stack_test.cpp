@@ -72,7 +72,7 @@ TEST_CASE("meshes and heightfields give the same digits over any stack, and comp
   OdeSession session;
   snSetWarmStart(0);
   Random random(18);
-  const MeshGeom block(box_arrays(1, 1, 1));
+  const MeshGeom block(box_mesh({1, 1, 1}));
   const Terrain terrain({}, [](int i, int j) { return 0.1 * ((3 * i + 5 * j) % 4); });
   const Geom ground(terrain.create());
   for (int k = 0; k < kPairs; ++k) {

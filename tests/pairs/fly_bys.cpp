@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "ode/core_pose.hpp"
+#include "ode/collider_fixture.hpp"
 #include "ode/mesh_fixture.hpp"
 #include "ode/terrain.hpp"
 #include "pairs/kinds.hpp"
@@ -105,11 +105,11 @@ class PassedBody {
       }
       case Passed::ClosedMesh: {
         const Vec half = any_half_axes(random, size);
-        add_mesh(world, random, box_arrays(half[0], half[1], half[2]));
+        add_mesh(world, random, box_mesh({half[0], half[1], half[2]}));
         break;
       }
       case Passed::Sheet:
-        add_mesh(world, random, floor_arrays(3, 3, size / 2));
+        add_mesh(world, random, sheet_mesh(3, 3, size / 2));
         break;
       case Passed::Heightfield:
         add_terrain(world, random, size);
@@ -137,16 +137,17 @@ class PassedBody {
     parts_.push_back({std::move(shape), pose_of(geom_)});
   }
 
-  void add_mesh(const World& world, Random& random, const MeshArrays& arrays) {
-    mesh_ = std::make_unique<MeshGeom>(arrays, world.space());
+  void add_mesh(const World& world, Random& random, const TriangleMesh& mesh) {
+    mesh_ = std::make_unique<MeshGeom>(mesh, world.space());
     geom_ = *mesh_;
     random.turn(geom_);
     const Pose pose = pose_of(geom_);
-    const auto at = [&](dTriIndex k) {
-      const auto& [x, y, z] = arrays.vertices[k];
-      return Vector3(pose.position + pose.rotation * Vector3(double{x}, double{y}, double{z}));
+    // The mesh that ODE has: its vertices are rounded.
+    const auto at = [&](int k) {
+      const Vector3 vertex = mesh.vertices[static_cast<std::size_t>(k)].cast<float>().cast<double>();
+      return Vector3(pose.position + pose.rotation * vertex);
     };
-    for (const auto& [a, b, c] : arrays.triangles) add_triangle({at(a), at(b), at(c)});
+    for (const auto& [a, b, c] : mesh.triangles) add_triangle({at(a), at(b), at(c)});
   }
 
   void add_terrain(const World& world, Random& random, double size) {

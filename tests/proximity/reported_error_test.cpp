@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
-#include <cfenv>
 #include <cmath>
 #include <memory>
 
@@ -18,6 +17,7 @@
 #include "support/relative.hpp"
 #include "support/rotation_between.hpp"
 #include "support/shape_samples.hpp"
+#include "support/traps.hpp"
 #include "support/without_hessian.hpp"
 
 using namespace supernormal;
@@ -162,10 +162,9 @@ TEST_CASE("next to nothing beside a plane of symmetry: no overflow") {
       Vector3(0.94171784691969096, 0.5574478084197092, 1.2885276416047349), 1.175895557386629, 1.1777243209332211));
   Settings settings;
   settings.tolerance = 1e-15;
-  std::feclearexcept(FE_ALL_EXCEPT);
+  const Traps traps("a body without a Hessian");
   const Proximity answer =
       find_proximity(body1, {}, body2, {Vector3(-1.0730493914807038, 2.0703247356784026e-162, 0), Matrix3::Identity()}, settings);
-  CHECK(std::fetestexcept(FE_OVERFLOW | FE_INVALID | FE_DIVBYZERO) == 0);
   CHECK(answer.gap < 0);
 }
 

@@ -36,7 +36,7 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInf = std::numeric_limits<double>::infinity();
 
 Pose upright_at(const Vector3& position) { return {position, Eigen::Matrix3d::Identity()}; }
 
@@ -276,7 +276,7 @@ TEST_CASE("each class of bodies takes its mean evaluations, and no more") {
 }
 
 TEST_CASE("settings out of range are refused with name, value and range") {
-  for (const double tolerance : {0.0, -1e-9, 0.9e-15, 1.1, kNan, kInfinity}) {
+  for (const double tolerance : {0.0, -1e-9, 0.9e-15, 1.1, kNan, kInf}) {
     Settings settings;
     settings.tolerance = tolerance;
     const std::string message = refusal_of(settings);
@@ -369,7 +369,7 @@ TEST_CASE(
 TEST_CASE("what is not finite is called invalid input") {
   const Superellipsoid shape(Vector3(3, 2, 1), 4, 1.3);
   for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) {
-    for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    for (const double bad : {kNan, kInf, -kInf}) {
       Pose displaced = upright_at({bad, 0, 0}), turned = upright_at({5, 0, 0});
       turned.rotation(1, 2) = bad;
       CHECK(find_proximity(shape, displaced, shape, upright_at({5, 0, 0}), with(solver)).status == Status::InvalidInput);
@@ -399,8 +399,7 @@ TEST_CASE("a body that is known only on one side: an answer or invalid input, an
 TEST_CASE("an unusable first normal is no worse than none") {
   const Superellipsoid shape(Vector3(3, 2, 1), 4, 1.3);
   const Proximity cold = find_proximity(shape, {}, shape, upright_at({3, 4, 2}));
-  for (const Vector3& bad :
-       {Vector3(0, 0, 0), Vector3(kNan, 0, 1), Vector3(0, kInfinity, 0), Vector3(0, 0, 2), Vector3(1e-200, 0, 0)}) {
+  for (const Vector3& bad : {Vector3(0, 0, 0), Vector3(kNan, 0, 1), Vector3(0, kInf, 0), Vector3(0, 0, 2), Vector3(1e-200, 0, 0)}) {
     const Proximity out = find_proximity(shape, {}, shape, upright_at({3, 4, 2}), {}, &bad);
     CHECK(out.gap == cold.gap);
     CHECK(out.evaluations == cold.evaluations);

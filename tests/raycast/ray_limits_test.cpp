@@ -1,15 +1,17 @@
-// Tests of badly conditioned rays: at any scale and place, tangent, along axes, out of range.
+// Tests of badly conditioned rays: at any scale and place, tangent, along axes, out of range. Boundary points around a line.
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
 #include "ray_samples.hpp"
+#include "raycast/portal.hpp"
 #include "supernormal/raycast/ray.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/capsule.hpp"
@@ -17,6 +19,7 @@
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;
@@ -46,6 +49,12 @@ std::shared_ptr<const Shape> any_shape(RandomRays& random, int k, double size, s
       return std::make_shared<Sphere>(k % 3 == 0 ? 0 : length());
   }
 }
+
+// The view is down along -z. The line is the z-axis, c the origin, d = -r.
+const Vector3 kDown = -Vector3::UnitZ();
+constexpr double kPortalRounding = 1e-15;
+
+Vector3 beside(double angle, double length) { return length * Vector3(std::cos(angle), std::sin(angle), 0); }
 
 }  // namespace
 
@@ -110,10 +119,7 @@ TEST_CASE("tangent rays and rays from the boundary hit on the boundary or miss, 
     const Ray tangent = random.past(surface, 1);
     const Ray from_boundary{random.point(surface, 1), random.direction()};
     for (const Ray& ray : {tangent, from_boundary}) {
-      std::feclearexcept(kTrapped);
-      const RayHit hit = find_ray_hit(surface, {}, ray.origin, ray.direction, kInfinity);
-      const int trapped = std::fetestexcept(kTrapped);
-      CHECK(trapped == 0);
+      const RayHit hit = trapped("a ray", [&] { return find_ray_hit(surface, {}, ray.origin, ray.direction, kInfinity); });
       CHECK(hit.status == Status::Converged);
       if (!hit.hit) continue;
       CHECK(hit.distance >= 0);
@@ -139,10 +145,7 @@ TEST_CASE("rays at any shape of any size from anywhere have a valid answer, with
     const double length = lengths[k % 6];
     const Pose pose{k % 2 == 0 ? Vector3(Vector3::Zero()) : Vector3(1e3 * size * random.direction()), random.rotation()};
     const Vector3 origin = pose.rotation * (aim - away * v) + pose.position;
-    std::feclearexcept(kTrapped);
-    const RayHit hit = find_ray_hit(*shape, pose, origin, pose.rotation * v, length);
-    const int trapped = std::fetestexcept(kTrapped);
-    CHECK(trapped == 0);
+    const RayHit hit = trapped("a ray", [&] { return find_ray_hit(*shape, pose, origin, pose.rotation * v, length); });
     CHECK(hit.status == Status::Converged);
     if (!hit.hit) continue;
     ++hits;
@@ -211,4 +214,97 @@ TEST_CASE("rays: invalid arguments are refused, and the limit of evaluations is 
   const RayHit coarse = find_ray_hit(shape, {}, o, v, kInfinity, settings);
   CHECK(coarse.evaluations < hit.evaluations);
   CHECK((coarse.point - hit.point).norm() <= coarse.distance_error);
+}
+
+TEST_CASE("portal: points on one side leave a sector of directions that may separate") {
+  Portal portal(kDown, kPortalRounding);
+  CHECK(portal.sector() == test::relative(2 * std::numbers::pi));
+  portal.add(beside(0.3, 2));
+  CHECK(portal.sector() == test::relative(std::numbers::pi));
+  portal.add(beside(-0.4, 0.5));
+  portal.add(beside(0.1, 7));  // between the two others, so it changes nothing
+  CHECK_FALSE(portal.is_pierced());
+  CHECK(std::isinf(portal.upper_bound()));
+  CHECK(portal.sector() == test::relative(std::numbers::pi - 0.7));
+  CHECK(portal.bisector().normalized().dot(beside(-0.05, 1)) == test::relative(1));
+  CHECK(std::abs(portal.edge_normal().dot(beside(0.3, 2) - beside(-0.4, 0.5))) < 1e-15);
+  CHECK(portal.may_separate(portal.edge_normal()));
+  CHECK(portal.may_separate(beside(std::numbers::pi / 2 - 0.41, 1)));
+  CHECK_FALSE(portal.may_separate(beside(std::numbers::pi / 2 - 0.39, 1)));
+  CHECK_FALSE(portal.may_separate(beside(std::numbers::pi, 1)));
+}
+
+TEST_CASE("portal: three points around the line, or two on either side of it, are a portal") {
+  Portal portal(kDown, kPortalRounding);
+  for (const double angle : {0.0, 2.0, 4.0}) {
+    CHECK_FALSE(portal.is_pierced());
+    portal.add(beside(angle, 1 + angle) - Vector3::UnitZ());  // r at z = 1
+  }
+  REQUIRE(portal.is_pierced());
+  CHECK(portal.upper_bound() == test::relative(-1));  // along -z
+  CHECK((portal.normal().normalized() - Vector3::UnitZ()).norm() < 1e-15);
+
+  Portal segment(kDown, kPortalRounding);
+  segment.add(Vector3(1, 0, -3));
+  segment.add(Vector3(-2, 0, 0));
+  REQUIRE(segment.is_pierced());
+  CHECK(segment.upper_bound() == test::relative(-2));
+  CHECK(std::abs(segment.normal().dot(Vector3(3, 0, -3))) < 1e-15);
+  CHECK(segment.normal().dot(kDown) < 0);
+}
+
+TEST_CASE("portal: a point on the line is a portal") {
+  Portal portal(kDown, kPortalRounding);
+  CHECK(portal.add(Vector3(0.5 * kPortalRounding, 0, -2)));
+  REQUIRE(portal.is_pierced());
+  CHECK(portal.upper_bound() >= -2);
+  CHECK(portal.upper_bound() == test::relative(-2));
+  CHECK((portal.normal().normalized() + kDown).norm() < 1e-15);
+}
+
+// The line passes through a vertex of the triangle or through its middle. The bound includes the rounding of the points.
+TEST_CASE("portal: the bound holds for steep portals of rounded points") {
+  constexpr double kCoarse = 1e-9;
+  std::mt19937_64 engine(6);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  int pierced = 0;
+  for (int k = 0; k < 3000; ++k) {
+    CAPTURE(k);
+    const double steepness = std::pow(10, 3 * uniform(engine));
+    const double turn = 2 * std::numbers::pi * uniform(engine);
+    const Vector3 shift = k % 2 == 0 ? beside(turn, 1) : Vector3(Vector3::Zero());
+    Portal portal(kDown, kCoarse);
+    for (int i = 0; i < 3; ++i) {
+      const Vector3 p = beside(turn + std::numbers::pi + 2.1 * i, 1) + shift;
+      const Vector3 off{uniform(engine) - 0.5, uniform(engine) - 0.5, uniform(engine) - 0.5};
+      portal.add(Vector3(p.x(), p.y(), steepness * p.x()) + kCoarse * off.normalized());
+    }
+    if (!portal.is_pierced()) continue;
+    ++pierced;
+    CHECK(portal.upper_bound() >= 0);
+    CHECK(portal.upper_bound() <= 3 * (1 + steepness) * kCoarse);
+  }
+  CHECK(pierced > 2000);
+}
+
+TEST_CASE("portal: each point in front of the portal raises it, and the bound holds") {
+  std::mt19937_64 engine(5);
+  std::normal_distribution<double> gauss;
+  for (int k = 0; k < 200; ++k) {
+    Portal portal(kDown, kPortalRounding);
+    double highest = -std::numeric_limits<double>::infinity();  // height of the portal so far
+    for (int i = 0; i < 60; ++i) {
+      const Vector3 r = Vector3{gauss(engine), gauss(engine), gauss(engine)}.normalized();  // on the unit sphere
+      portal.add(-r);
+      if (!portal.is_pierced()) continue;
+      const double height = -portal.upper_bound();
+      CHECK(height >= highest);
+      CHECK(height <= 1);
+      highest = height;
+      const Vector3 n = portal.normal().normalized();
+      CHECK(std::abs(portal.support_bound(n) + n.z() * height) < 1e-12);
+    }
+    CHECK(portal.is_pierced());
+    CHECK(highest > 0);
+  }
 }

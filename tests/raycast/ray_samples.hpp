@@ -1,7 +1,6 @@
 // Rays against superellipsoids, and their hits by the implicit equation only.
 #pragma once
 
-#include <cfenv>
 #include <cmath>
 #include <limits>
 
@@ -9,13 +8,12 @@
 #include "support/reference_pairs.hpp"
 #include "support/shape_samples.hpp"
 #include "support/superellipsoid_classes.hpp"
+#include "support/traps.hpp"
+#include "support/without_hessian.hpp"
 
 namespace supernormal::test {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Floating-point exceptions that a program may trap: signs of a faulty query.
-inline constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 
 struct Ray {
   Vector3 origin, direction;
@@ -43,17 +41,6 @@ class RandomRays : public Draw {
     const Vector3 x = direction();
     return x * (factor / gauge(shape, x));
   }
-};
-
-/// The same body without its Hessian.
-class WithoutHessian final : public Shape {
- public:
-  explicit WithoutHessian(const Shape& shape) : shape_(shape) {}
-  void evaluate(const Vector3& n, Order order, Jet& jet) const override { shape_.evaluate(n, std::min(order, Order::Point), jet); }
-  Vector3 half_extents() const override { return shape_.half_extents(); }
-
- private:
-  const Shape& shape_;
 };
 
 /// The gauge along a line is convex. Its smallest value is found by trisection, the crossings of 1 by bisection.

@@ -40,22 +40,25 @@ struct TriangleMesh {
   }
 };
 
-/// A level square of cells * cells * 2 triangles, centred at the origin.
-inline TriangleMesh floor_mesh(int cells, double cell) {
+/// A level rectangle of x_cells * y_cells * 2 triangles. Its first corner is at (x, y) cells.
+inline TriangleMesh sheet_mesh(int x_cells, int y_cells, double cell, double x = 0, double y = 0) {
   TriangleMesh mesh;
-  for (int i = 0; i <= cells; ++i) {
-    for (int j = 0; j <= cells; ++j) mesh.add({(i - 0.5 * cells) * cell, (j - 0.5 * cells) * cell, 0});
+  for (int i = 0; i <= x_cells; ++i) {
+    for (int j = 0; j <= y_cells; ++j) mesh.add({(i + x) * cell, (j + y) * cell, 0});
   }
-  for (int i = 0; i < cells; ++i) {
-    for (int j = 0; j < cells; ++j) {
-      const int a = i * (cells + 1) + j;
-      const int b = a + cells + 1;
+  for (int i = 0; i < x_cells; ++i) {
+    for (int j = 0; j < y_cells; ++j) {
+      const int a = i * (y_cells + 1) + j;
+      const int b = a + y_cells + 1;
       mesh.triangles.push_back({a, b, a + 1});
       mesh.triangles.push_back({b, b + 1, a + 1});
     }
   }
   return mesh;
 }
+
+/// A level square, centred at the origin.
+inline TriangleMesh floor_mesh(int cells, double cell) { return sheet_mesh(cells, cells, cell, -0.5 * cells, -0.5 * cells); }
 
 /// The closed surface of the hull of points in general position or with quadrangles, from every supporting triangle, outward. Slow
 /// for many points.

@@ -61,4 +61,11 @@ class Traps {
 #endif
 };
 
+/// The answer of a query under traps.
+template <typename Query>
+auto trapped(const char* name, const Query& query) {
+  const Traps traps(name);
+  return query();
+}
+
 }  // namespace supernormal::test

@@ -212,7 +212,7 @@ TEST_CASE("derivatives of geoms: a face on a plane says what is not defined, a m
   }
   CHECK(found.gap[2] == 1);
 
-  const MeshGeom floor(floor_arrays(20, 20, 0.5));
+  const MeshGeom floor(sheet_mesh(20, 20, 0.5));
   const Geom ball(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.4), dReal(0.3)));
   place(ball, {dReal(3.2), dReal(4.1), 1});
   const snProximity at = proximity_of(floor, ball);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "ode/collider_fixture.hpp"
-#include "ode/core_pose.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "support/ode_world.hpp"
 

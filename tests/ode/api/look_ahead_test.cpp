@@ -212,7 +212,7 @@ TEST_CASE("a geom that looks ahead with a velocity that is not finite has no con
   const dBodyID body = world.add(ours, 1000);
   REQUIRE(snGeomSetLookAhead(ours, dReal(0.01)) == 1);
   dBodySetPosition(body, 2, 2, dReal(0.9));
-  const MeshGeom mesh(floor_arrays(4, 4, 1));
+  const MeshGeom mesh(sheet_mesh(4, 4, 1));
   const Geom box(dCreateBox(nullptr, 9, 9, dReal(0.01))), plane(dCreatePlane(nullptr, 0, 0, 1, 0));
   for (const dGeomID other : {dGeomID(mesh), dGeomID(box), dGeomID(plane)}) {
     dBodySetLinearVel(body, 0, 0, 0);

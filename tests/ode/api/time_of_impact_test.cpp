@@ -115,7 +115,7 @@ TEST_CASE("time of impact: with every collider the gap is positive before and cl
 TEST_CASE("time of impact: a body hits a sheet of triangles, at rest, moving or rotating, and misses it beyond its border") {
   const OdeSession session;
   const World world;
-  const MeshGeom floor(floor_arrays(20, 20, 0.5));  // 10 m x 10 m from the origin
+  const MeshGeom floor(sheet_mesh(20, 20, 0.5));  // 10 m x 10 m from the origin
   const Geom ball(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.4), dReal(0.3)));
   Mover mover(world.id(), ball);
   const double rounding = within_rounding(1e-8, 50);

@@ -29,7 +29,7 @@ struct Crowd {
   MeshGeom mesh;
   bool throws = false;
 
-  Crowd() : mesh(box_arrays(2, 1.5, 1.1), space) {
+  Crowd() : mesh(box_mesh({2, 1.5, 1.1}), space) {
     Random random(3);
     for (int i = 0; i < 150; ++i) geoms.push_back(random_body(random, space));
     for (const ColliderKind kind : kSolidKinds) {

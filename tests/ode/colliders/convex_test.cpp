@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "ode/collider_fixture.hpp"
-#include "ode/core_pose.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/polytope.hpp"

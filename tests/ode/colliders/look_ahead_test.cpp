@@ -45,7 +45,7 @@ class Front {
     } else if (wall == Wall::Ours) {
       place(body_of(space, {kWide / 2, kWide / 2, thickness / 2}, 60, 60), {0, 0, -thickness / 2});
     } else if (wall == Wall::Mesh) {
-      mesh_.emplace(floor_arrays(1, 1, kWide), space);
+      mesh_.emplace(sheet_mesh(1, 1, kWide), space);
       place(*mesh_, {-kWide / 2, -kWide / 2, 0});
     } else {
       terrain_.emplace(Terrain::Layout{9, 9, kWide, kWide}, [](int, int) { return 0.0; });
@@ -176,7 +176,7 @@ TEST_CASE("bodies that fly into the corner of a mesh in one step stay in front o
   for (int k = 0; k < 100; ++k) {
     World world;
     dWorldSetQuickStepNumIterations(world.id(), 80);
-    const MeshGeom room(box_arrays(kRoom, kRoom, kRoom, true), world.space());
+    const MeshGeom room(box_mesh({kRoom, kRoom, kRoom}, true), world.space());
     const dGeomID geom = body_of(world.space(), {kSize, kSize * random.uniform(0.3, 1), kSize * random.uniform(0.3, 1)}, 8, 8);
     const dBodyID body = world.add(geom, 1000);
     random.turn(geom);
@@ -314,11 +314,11 @@ TEST_CASE("a blade that spins on a floor beside a wall it does not reach keeps i
           constexpr double kLength = 0.01;  // m
           World world;
           dWorldSetQuickStepNumIterations(world.id(), 50);
-          MeshArrays floor;
+          TriangleMesh floor;
           const double wall = kLength * (1 + clearance);
-          for (const double y : {-0.04, 0.04}) floor.add(-0.04, y, 0), floor.add(wall, y, 0), floor.add(wall, y, 0.04);
+          for (const double y : {-0.04, 0.04}) floor.add({-0.04, y, 0}), floor.add({wall, y, 0}), floor.add({wall, y, 0.04});
           floor.triangles = {{0, 1, 4}, {0, 4, 3}};
-          MeshArrays upright = floor;
+          TriangleMesh upright = floor;
           upright.triangles = {{1, 2, 5}, {1, 5, 4}};
           std::optional<MeshGeom> second;
           if (room == Room::TwoMeshes) second.emplace(upright, world.space());
@@ -455,7 +455,7 @@ TEST_CASE("a ball that looks ahead slides and rolls straight on over tiles, at s
     dWorldSetQuickStepNumIterations(world.id(), 60);
     std::vector<std::unique_ptr<MeshGeom>> tiles;
     for (int k = 0; k < 25; ++k) {
-      tiles.push_back(std::make_unique<MeshGeom>(floor_arrays(1, 1, kTile), world.space()));
+      tiles.push_back(std::make_unique<MeshGeom>(sheet_mesh(1, 1, kTile), world.space()));
       const int column = k % 5, row = k / 5;
       place(*tiles.back(), {(column - 2.5) * kTile, (row - 2.5) * kTile, 0});
     }

@@ -44,16 +44,16 @@ void tilt(SeamedFloor& floor) {
 }
 
 /// Adds two triangles with their own vertices, each moved at random by up to `apart` (m).
-void add_rectangle(MeshArrays& mesh, const SeamedFloor& floor, double x0, double x1, double y0, double y1, double apart,
+void add_rectangle(TriangleMesh& mesh, const SeamedFloor& floor, double x0, double x1, double y0, double y1, double apart,
                    Random& random) {
   const auto vertex = [&](double x, double y) {
     const Vec v = floor.at(x, y, 0) + random.uniform(0, apart) * random.direction();
-    return mesh.add(v[0], v[1], v[2]);
+    return mesh.add({v[0], v[1], v[2]});
   };
   for (const bool is_first : {true, false}) {
-    const dTriIndex a = vertex(x0, y0);
-    const dTriIndex b = is_first ? vertex(x1, y0) : vertex(x1, y1);
-    const dTriIndex c = is_first ? vertex(x1, y1) : vertex(x0, y1);
+    const int a = vertex(x0, y0);
+    const int b = is_first ? vertex(x1, y0) : vertex(x1, y1);
+    const int c = is_first ? vertex(x1, y1) : vertex(x0, y1);
     mesh.triangles.push_back({a, b, c});
   }
 }
@@ -66,12 +66,12 @@ SeamedFloor lay(Laying laying, bool is_tilted, double apart = 0, double far = 0)
   floor.origin = far * floor.along + far * floor.across;
   floor.rounding = apart + 4e-7 * (1 + 2 * far);  // the rounding of floats
   Random random(41);
-  MeshArrays one;
+  TriangleMesh one;
   for (int i = -2; i < 2; ++i) {
     const int parts = laying == Laying::TJunctions && i >= 0 ? 3 : 4;
     const double shift = laying == Laying::BrickBond && i % 2 != 0 ? 0.25 : 0;
     for (int j = 0; j < parts; ++j) {
-      const auto add_to = [&](MeshArrays& mesh) {
+      const auto add_to = [&](TriangleMesh& mesh) {
         add_rectangle(mesh, floor, 0.5 * i, 0.5 * i + 0.5, -1 + 2.0 * j / parts + shift, -1 + 2.0 * (j + 1) / parts + shift, apart,
                       random);
       };
@@ -79,7 +79,7 @@ SeamedFloor lay(Laying laying, bool is_tilted, double apart = 0, double far = 0)
         add_to(one);
         continue;
       }
-      MeshArrays tile;
+      TriangleMesh tile;
       add_to(tile);
       floor.tiles.push_back(std::make_unique<MeshGeom>(std::move(tile)));
     }
@@ -229,7 +229,7 @@ TEST_CASE("an overhanging body stays on the border of a sheet, and falls when it
       CAPTURE(static_cast<int>(kind));
       World world;
       world.surface.mu = dReal(0.5);
-      MeshGeom table(floor_arrays(2, 2, 0.5), world.space());
+      MeshGeom table(sheet_mesh(2, 2, 0.5), world.space());
       const dGeomID geom = make_body(kind);
       dSpaceAdd(world.space(), geom);
       const dBodyID body = world.add(geom, 1000);

@@ -54,19 +54,19 @@ void tell(dGeomID /*mesh*/, dGeomID geom, const int* indices, int count) {
 int wants_even(dGeomID /*mesh*/, dGeomID /*geom*/, int index) { return index % 2 == 0 ? 1 : 0; }
 
 /// A closed ring of flat faces: convex outside, with saddles inside.
-MeshArrays ring_arrays(double ring_radius, double tube_radius, unsigned around, unsigned about) {
-  MeshArrays mesh;
-  for (unsigned i = 0; i < around; ++i) {
-    for (unsigned j = 0; j < about; ++j) {
+TriangleMesh ring_mesh(double ring_radius, double tube_radius, int around, int about) {
+  TriangleMesh mesh;
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j < about; ++j) {
       const double u = 2 * std::numbers::pi * i / around;
       const double v = 2 * std::numbers::pi * j / about;
       const double r = ring_radius + tube_radius * std::cos(v);
-      mesh.add(r * std::cos(u), r * std::sin(u), tube_radius * std::sin(v));
+      mesh.add({r * std::cos(u), r * std::sin(u), tube_radius * std::sin(v)});
     }
   }
-  for (unsigned i = 0; i < around; ++i) {
-    for (unsigned j = 0; j < about; ++j) {
-      const auto at = [&](unsigned k, unsigned l) { return (k % around) * about + l % about; };
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j < about; ++j) {
+      const auto at = [&](int k, int l) { return (k % around) * about + l % about; };
       mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
       mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
@@ -75,19 +75,19 @@ MeshArrays ring_arrays(double ring_radius, double tube_radius, unsigned around, 
 }
 
 /// A closed block with a step in its top, 2 x 1 x 1 without a quarter. It has convex and concave edges.
-MeshArrays step_arrays() {
-  MeshArrays mesh;
+TriangleMesh step_mesh() {
+  TriangleMesh mesh;
   const std::array<std::array<double, 2>, 6> outline = {{{-1, -0.5}, {1, -0.5}, {1, 0}, {0, 0}, {0, 0.5}, {-1, 0.5}}};
   for (const double y : {-0.5, 0.5}) {
-    for (const auto& [x, z] : outline) mesh.add(x, y, z);
+    for (const auto& [x, z] : outline) mesh.add({x, y, z});
   }
-  for (unsigned k = 0; k < 6; ++k) {
-    const unsigned next = (k + 1) % 6;
+  for (int k = 0; k < 6; ++k) {
+    const int next = (k + 1) % 6;
     mesh.triangles.push_back({k, next, next + 6});
     mesh.triangles.push_back({k, next + 6, k + 6});
   }
   // Each side consists of two convex pieces.
-  const std::array<std::array<unsigned, 3>, 4> side = {{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}};
+  const std::array<std::array<int, 3>, 4> side = {{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}};
   for (const auto& [a, b, c] : side) {
     mesh.triangles.push_back({a, c, b});
     mesh.triangles.push_back({a + 6, b + 6, c + 6});
@@ -96,20 +96,19 @@ MeshArrays step_arrays() {
   return mesh;
 }
 
-const std::array<MeshArrays, 3>& hollow_meshes() {
-  static const std::array<MeshArrays, 3> meshes = {ring_arrays(1, 0.4, 12, 8), ring_arrays(1, 0.3, 40, 20), step_arrays()};
+const std::array<TriangleMesh, 3>& hollow_meshes() {
+  static const std::array<TriangleMesh, 3> meshes = {ring_mesh(1, 0.4, 12, 8), ring_mesh(1, 0.3, 40, 20), step_mesh()};
   return meshes;
 }
 
 constexpr int kCells = 40;
 
 /// Triangles over a square about a place, with the height at each vertex.
-MeshArrays sheet(const Vec& middle, double cell, const std::function<double(double x, double y)>& height) {
-  MeshArrays mesh = floor_arrays(kCells, kCells, 1);
-  for (auto& vertex : mesh.vertices) {
-    const double x = middle[0] + cell * (double{vertex[0]} - 0.5 * kCells);
-    const double y = middle[1] + cell * (double{vertex[1]} - 0.5 * kCells);
-    vertex = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(height(x, y))};
+TriangleMesh sheet(const Vec& middle, double cell, const std::function<double(double x, double y)>& height) {
+  TriangleMesh mesh = sheet_mesh(kCells, kCells, 1);
+  for (Vector3& vertex : mesh.vertices) {
+    const double x = middle[0] + cell * (vertex.x() - 0.5 * kCells), y = middle[1] + cell * (vertex.y() - 0.5 * kCells);
+    vertex = {x, y, height(x, y)};
   }
   return mesh;
 }
@@ -159,7 +158,7 @@ void check_is_plane(dGeomID floor, dGeomID plane, const Vec& middle, double cell
 TEST_CASE("a floor of triangles gives the contacts of a dPlane, in both orders") {
   OdeSession session;
   Random random(31);
-  const MeshGeom floor(floor_arrays(60, 60, 0.125));
+  const MeshGeom floor(sheet_mesh(60, 60, 0.125));
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
   std::size_t contacts = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -193,7 +192,7 @@ TEST_CASE("a floor of triangles gives the contacts of a dPlane, in both orders")
 TEST_CASE("the distance of a mesh is the distance of its nearest triangle, at any distance") {
   OdeSession session;
   Random random(34);
-  const MeshGeom block(box_arrays(1, 0.75, 0.5));
+  const MeshGeom block(box_mesh({1, 0.75, 0.5}));
   for (int i = 0; i < 300; ++i) {
     CAPTURE(i);
     const double radius = random.uniform(0.1, 0.6);
@@ -209,10 +208,10 @@ TEST_CASE("the distance of a mesh is the distance of its nearest triangle, at an
     CHECK(to_vec(one.point1) == to_vec(other.point2));
   }
   // The body is between two distant blocks of one mesh. The nearer block is not in the first searched box.
-  MeshArrays two = box_arrays(0.5, 0.5, 0.5);
-  const auto count = static_cast<dTriIndex>(two.vertices.size());
+  TriangleMesh two = box_mesh({0.5, 0.5, 0.5});
+  const int count = static_cast<int>(two.vertices.size());
   const auto triangles = two.triangles;
-  for (std::size_t i = 0; i < count; ++i) two.add(two.vertices[i][0] + 100, two.vertices[i][1] + 3, two.vertices[i][2]);
+  for (std::size_t i = 0; i < 8; ++i) two.add(two.vertices[i] + Vector3(100, 3, 0));
   for (const auto& t : triangles) two.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
   const MeshGeom blocks(two);
   const Geom body(snCreateEllipsoid(nullptr, 1, dReal(0.5), dReal(0.25)));
@@ -233,7 +232,7 @@ TEST_CASE("the distance of a mesh is the distance of its nearest triangle, at an
 
 TEST_CASE("a body in a corner of a mesh room has one contact for each wall, and with a smaller max_contacts the deepest ones") {
   OdeSession session;
-  const MeshGeom room(box_arrays(3, 4, 5, true));
+  const MeshGeom room(box_mesh({3, 4, 5}, true));
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
   place(body, {2.0625, -3.125, 4.25});
   const auto contacts = collide(body, room);
@@ -261,7 +260,7 @@ TEST_CASE("a body in a corner of a mesh room has one contact for each wall, and 
 
 TEST_CASE("a flat body in a corner of a mesh room has a contact with each wall, and equal shares of the others") {
   OdeSession session;
-  const MeshGeom room(box_arrays(3, 4, 5, true));
+  const MeshGeom room(box_mesh({3, 4, 5}, true));
   const Geom body(snCreateSuperellipsoid(nullptr, dReal(0.3), dReal(0.2), dReal(0.25), 40, 40));
   place(body, {3 - 0.295, 4 - 0.195, 5 - 0.245});
   for (int most = 1; most <= 12; ++most) {
@@ -281,7 +280,7 @@ TEST_CASE("a flat body in a corner of a mesh room has a contact with each wall, 
 
 TEST_CASE("a query of a body that looks ahead at a mesh is counted") {
   OdeSession session;
-  const MeshGeom floor(floor_arrays(2, 2, 1));
+  const MeshGeom floor(sheet_mesh(2, 2, 1));
   const dWorldID world = dWorldCreate();
   {
     const Geom ball(snCreateEllipsoid(nullptr, dReal(0.1), dReal(0.1), dReal(0.08)));
@@ -303,7 +302,7 @@ TEST_CASE("a query of a body that looks ahead at a mesh is counted") {
 
 TEST_CASE("the callbacks of a mesh are called and stay set") {
   OdeSession session;
-  const MeshGeom floor(floor_arrays(8, 8, 0.5));
+  const MeshGeom floor(sheet_mesh(8, 8, 0.5));
   const Geom body(snCreateEllipsoid(nullptr, dReal(0.4), dReal(0.4), dReal(0.4)));
   dGeomTriMeshSetCallback(floor, wants_even);
   dGeomTriMeshSetArrayCallback(floor, tell);
@@ -334,7 +333,7 @@ TEST_CASE("the callbacks of a mesh are called and stay set") {
 TEST_CASE("meshes collide after ODE was closed and opened again, and ignore bodies that are not finite") {
   for (int round = 0; round < 2; ++round) {
     OdeSession session;
-    const MeshGeom floor(floor_arrays(8, 8, 0.5));
+    const MeshGeom floor(sheet_mesh(8, 8, 0.5));
     const Geom body(snCreateEllipsoid(nullptr, dReal(0.4), dReal(0.4), dReal(0.4)));
     place(body, {2, 2, 0.39});
     CHECK(collide(body, floor).size() == 1);
@@ -351,7 +350,7 @@ TEST_CASE(
   OdeSession session;
   Random random(82);
   std::size_t contact_count = 0;
-  for (const MeshArrays& arrays : hollow_meshes()) {
+  for (const TriangleMesh& arrays : hollow_meshes()) {
     const MeshGeom mesh(arrays);
     for (int i = 0; i < draws(1000); ++i) {
       CAPTURE(i);

@@ -33,7 +33,7 @@ TEST_CASE("after the first call no collider, bounding box or query allocates") {
   colliders.reserve(kColliderKinds.size());
   for (const ColliderKind kind : kColliderKinds) colliders.emplace_back(kind, random);
   const ConvexGeom crowded(std::vector<Vec>(2000, Vec{0.5, 0.5, 0.5}));
-  const MeshGeom mesh(box_arrays(2, 2.5, 1.5));
+  const MeshGeom mesh(box_mesh({2, 2.5, 1.5}));
   const Terrain terrain({}, [](int i, int j) { return 0.3 * ((3 * i + 5 * j) % 4); });
   const Geom hills(terrain.create(true));
 

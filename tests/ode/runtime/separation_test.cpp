@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "ode/battery_bodies.hpp"
+#include "ode/collider_fixture.hpp"
 #include "ode/colliders/contact.hpp"
 #include "ode/colliders/solve_pair.hpp"
 #include "ode/runtime/warm_start.hpp"

@@ -83,7 +83,7 @@ class Comparison {
 
   void run() {
     ++tally_.pairs;
-    const Shape &shape1 = *pair_.body1.shape, &shape2 = *pair_.body2.shape;
+    const Shape &shape1 = *pair_.shape1, &shape2 = *pair_.shape2;
     const Proximity answer = find_proximity(shape1, pair_.pose1, shape2, pair_.pose2);
     found_ = find_proximity_derivatives(shape1, pair_.pose1, shape2, pair_.pose2, answer);
     ++tally_.statuses[found_.status];
@@ -100,7 +100,7 @@ class Comparison {
       return shape.traits().has_nonsmooth_points && shape.min_curvature_radius_estimate() == 0;
     };
     if (is_sharp(shape1) && is_sharp(shape2)) step_ = std::min(1.0, std::abs(answer.gap) / unit_);
-    const LongNormal reference(pair_.body1, pose1_, pair_.body2, pose2_, found_.common_normal);
+    const LongNormal reference(*pair_.shape1, pose1_, *pair_.shape2, pose2_, found_.common_normal);
     bool is_exact = true;
     base_ = values_of(reference.solve(pose1_, pose2_), pose1_, is_exact);
     if (!is_exact || (base_.segment<3>(1).cast<double>() - found_.common_normal).norm() > 1e-6) {
@@ -163,8 +163,8 @@ class Comparison {
   }
 
   void compare_swapped() {
-    const ProximityDerivatives swapped = find_proximity_derivatives(*pair_.body2.shape, pair_.pose2, *pair_.body1.shape,
-                                                                    pair_.pose1, answer_at(-found_.common_normal));
+    const ProximityDerivatives swapped =
+        find_proximity_derivatives(*pair_.shape2, pair_.pose2, *pair_.shape1, pair_.pose1, answer_at(-found_.common_normal));
     Eigen::MatrixXd swap = Eigen::MatrixXd::Zero(12, 12);
     swap.topRightCorner(6, 6).setIdentity();
     swap.bottomLeftCorner(6, 6).setIdentity();
@@ -180,7 +180,7 @@ class Comparison {
     const Pose moved1{Vector3::Zero(), R * pair_.pose1.rotation},
         moved2{R * (pair_.pose2.position - pair_.pose1.position), R * pair_.pose2.rotation};
     const ProximityDerivatives moved =
-        find_proximity_derivatives(*pair_.body1.shape, moved1, *pair_.body2.shape, moved2, answer_at(R * found_.common_normal));
+        find_proximity_derivatives(*pair_.shape1, moved1, *pair_.shape2, moved2, answer_at(R * found_.common_normal));
     Eigen::MatrixXd turn = Eigen::MatrixXd::Zero(12, 12);
     for (int i = 0; i < 12; i += 3) turn.block(i, i, 3, 3) = R;
     const ProximityDerivatives back = turned(moved, turn, R.transpose());
@@ -263,7 +263,7 @@ class Comparison {
   void compare_parameters(const LongNormal& reference) {
     for (const bool is_first : {true, false}) {
       const ParameterGradient& claimed = is_first ? found_.parameters1 : found_.parameters2;
-      const LongBody &exact1 = *pair_.body1.exact, &exact2 = *pair_.body2.exact;
+      const LongBody &exact1 = reference.body1(), &exact2 = reference.body2();
       const LongBody& body = is_first ? exact1 : exact2;
       // An ellipsoid has no exponents.
       for (std::size_t k = 0; k < std::min(claimed.size(), body.parameter_count()); ++k) {
@@ -326,15 +326,15 @@ Vector3 DerivativePairs::direction() {
 
 Vector3 DerivativePairs::lengths(double low, double high) { return scale_ * log_within(low, high); }
 
-PairedBody DerivativePairs::smooth(int kind) {
+std::shared_ptr<const Shape> DerivativePairs::smooth(int kind) {
   const auto superellipsoid = [this](double low, double high, double least, double most) {
     const Vector3 a = lengths(low, high);
     const double delta = log_uniform(least, most);
-    return paired(std::make_shared<Superellipsoid>(a, delta, log_uniform(least, most)));
+    return std::make_shared<Superellipsoid>(a, delta, log_uniform(least, most));
   };
   if (kind < 7) {
     const SuperellipsoidClass& one = kSuperellipsoidClasses[kind];
-    if (kind < 2) return paired(std::make_shared<Ellipsoid>(lengths(one.least_axis, one.largest_axis)));
+    if (kind < 2) return std::make_shared<Ellipsoid>(lengths(one.least_axis, one.largest_axis));
     return superellipsoid(one.least_axis, one.largest_axis, one.least_exponent, one.largest_exponent);
   }
   switch (kind) {
@@ -342,41 +342,41 @@ PairedBody DerivativePairs::smooth(int kind) {
       const Vector3 a = lengths(0.5, 1.5);
       const double delta = log_uniform(1.3, 5), epsilon = log_uniform(1.3, 5);
       const double taper = uniform(-0.9, 0.9) * Superovoid::max_taper(epsilon);
-      return paired(std::make_shared<Superovoid>(a, delta, epsilon, taper, taper));
+      return std::make_shared<Superovoid>(a, delta, epsilon, taper, taper);
     }
     case 8:
-      return paired(std::make_shared<Rounded>(superellipsoid(0.5, 1.5, 1.05, 20).shape, scale_ * log_uniform(0.01, 0.5)));
+      return std::make_shared<Rounded>(superellipsoid(0.5, 1.5, 1.05, 20), scale_ * log_uniform(0.01, 0.5));
     case 9: {
-      const PairedBody first = superellipsoid(0.5, 1.5, 1.3, 8);
-      return paired(std::make_shared<MinkowskiSum>(first.shape, std::make_shared<Ellipsoid>(lengths(0.2, 1))));
+      const auto first = superellipsoid(0.5, 1.5, 1.3, 8);
+      return std::make_shared<MinkowskiSum>(first, std::make_shared<Ellipsoid>(lengths(0.2, 1)));
     }
     default: {
       Matrix3 matrix = Eigen::AngleAxisd(uniform(0, 3), direction()).toRotationMatrix();
       for (int i = 0; i < 9; ++i) matrix(i) += 0.3 * uniform(-1, 1);
-      return paired(std::make_shared<LinearImage>(superellipsoid(0.5, 1.5, 1.3, 8).shape, matrix));
+      return std::make_shared<LinearImage>(superellipsoid(0.5, 1.5, 1.3, 8), matrix);
     }
   }
 }
 
-PairedBody DerivativePairs::any(int kind) {
+std::shared_ptr<const Shape> DerivativePairs::any(int kind) {
   if (kind <= kSmoothKinds) return smooth(kind);
   const Vector3 a = lengths(0.5, 1.5);
   switch (kind) {
     case 11:
-      return paired(std::make_shared<Box>(a));
+      return std::make_shared<Box>(a);
     case 12:
-      return paired(std::make_shared<Capsule>(a.x(), a.z()));
+      return std::make_shared<Capsule>(a.x(), a.z());
     case 13:
-      return paired(std::make_shared<Cylinder>(a.x(), a.z()));
+      return std::make_shared<Cylinder>(a.x(), a.z());
     case 14: {
       auto points = std::make_shared<std::vector<Vector3>>();
       const int count = whole(3, 12);
       for (int k = 0; k < count; ++k) points->push_back(a.cwiseProduct(direction()));
       // It refers to its points.
-      return paired(std::shared_ptr<const Shape>(new Polytope(*points), [points](const Shape* it) { delete it; }));
+      return std::shared_ptr<const Shape>(new Polytope(*points), [points](const Shape* it) { delete it; });
     }
     default:
-      return paired(std::make_shared<Rounded>(std::make_shared<Box>(a), scale_ * log_uniform(0.01, 0.5)));
+      return std::make_shared<Rounded>(std::make_shared<Box>(a), scale_ * log_uniform(0.01, 0.5));
   }
 }
 
@@ -432,8 +432,8 @@ DerivativePair DerivativePairs::draw_flat() {
   DerivativePair pair{std::string(kKindNames[kind1]) + " and " + kKindNames[kind2], any(kind1), {}, {}, {}};
   const bool is_small = uniform(0, 1) < 0.5;  // a body anywhere on the side of a larger one
   if (is_small) scale_ *= log_uniform(1e-3, 1);
-  pair.body2 = any(kind2);
-  const Vector3 n1 = normal_of_face_or_edge(kind1, *pair.body1.shape), n2 = normal_of_face_or_edge(kind2, *pair.body2.shape);
+  pair.shape2 = any(kind2);
+  const Vector3 n1 = normal_of_face_or_edge(kind1, *pair.shape1), n2 = normal_of_face_or_edge(kind2, *pair.shape2);
   pair.pose1.rotation = Eigen::AngleAxisd(uniform(0, 3.14), direction()).toRotationMatrix();
   const Vector3 n = pair.pose1.rotation * n1;
   const double tilt = uniform(0, 1) < 0.2 ? 0 : log_uniform(1e-14, 1e-3);
@@ -441,13 +441,13 @@ DerivativePair DerivativePairs::draw_flat() {
                 about = Eigen::AngleAxisd(uniform(0, 6.28), n).toRotationMatrix(),
                 tilted = Eigen::AngleAxisd(tilt, n.cross(direction()).normalized()).toRotationMatrix();
   pair.pose2.rotation = tilted * about * facing;
-  const double smallest = std::min(pair.body1.shape->half_extents().minCoeff(), pair.body2.shape->half_extents().minCoeff());
+  const double smallest = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
   const int place = count_ / kKinds % 3;
   const double gap = smallest * (place == 0 ? uniform(0, 1) : place == 1 ? 0 : -uniform(0, 0.2));
-  const Vector3 point1 = pair.pose1.rotation * witness(*pair.body1.shape, n1);
-  const Vector3 point2 = pair.pose2.rotation * witness(*pair.body2.shape, -(pair.pose2.rotation.transpose() * n));
+  const Vector3 point1 = pair.pose1.rotation * witness(*pair.shape1, n1);
+  const Vector3 point2 = pair.pose2.rotation * witness(*pair.shape2, -(pair.pose2.rotation.transpose() * n));
   const Vector3 aside =
-      is_small ? Vector3(uniform(0, 0.4) * pair.body1.shape->half_extents().minCoeff() * n.cross(direction())) : Vector3(0, 0, 0);
+      is_small ? Vector3(uniform(0, 0.4) * pair.shape1->half_extents().minCoeff() * n.cross(direction())) : Vector3(0, 0, 0);
   pair.pose2.position = point1 + gap * n - point2 + aside;
   ++count_;
   scale_ = 1;
@@ -466,20 +466,20 @@ DerivativePair DerivativePairs::draw() {
   // Half of the bodies with faces are placed at the normal of a face or of an edge.
   Vector3 n = direction();
   if (kind1 > kSmoothKinds && uniform(0, 1) < 0.5) {
-    n = pair.pose1.rotation * normal_of_face_or_edge(kind1, *pair.body1.shape);
+    n = pair.pose1.rotation * normal_of_face_or_edge(kind1, *pair.shape1);
   } else if (kind2 > kSmoothKinds && uniform(0, 1) < 0.5) {
-    n = -(pair.pose2.rotation * normal_of_face_or_edge(kind2, *pair.body2.shape));
+    n = -(pair.pose2.rotation * normal_of_face_or_edge(kind2, *pair.shape2));
   } else if (kind1 > kSmoothKinds && kind2 > kSmoothKinds) {
     n = pair.pose1.rotation.col(2).cross(pair.pose2.rotation.col(2)).normalized();  // edges along z
   }
-  const Vector3 half1 = pair.body1.shape->half_extents(), half2 = pair.body2.shape->half_extents();
+  const Vector3 half1 = pair.shape1->half_extents(), half2 = pair.shape2->half_extents();
   const double largest = std::min(half1.maxCoeff(), half2.maxCoeff()), smallest = std::min(half1.minCoeff(), half2.minCoeff());
   const int place = (count_ / (2 * kKinds)) % 4;
   const double gap = place == 0   ? largest * uniform(0, 2)
                      : place == 1 ? 1e-6 * largest * uniform(0, 1)
                                   : -smallest * uniform(0, 0.3);
-  const Vector3 point1 = pair.pose1.rotation * witness(*pair.body1.shape, pair.pose1.rotation.transpose() * n);
-  const Vector3 point2 = pair.pose2.rotation * witness(*pair.body2.shape, -(pair.pose2.rotation.transpose() * n));
+  const Vector3 point1 = pair.pose1.rotation * witness(*pair.shape1, pair.pose1.rotation.transpose() * n);
+  const Vector3 point2 = pair.pose2.rotation * witness(*pair.shape2, -(pair.pose2.rotation.transpose() * n));
   pair.pose2.position = pair.pose1.position + point1 + gap * n - point2;
   ++count_;
   return pair;
@@ -490,7 +490,7 @@ void compare(const DerivativePair& pair, const std::string& name, Tally& tally) 
 void compare_flat(const DerivativePair& pair, const std::string& name, FlatTally& tally) {
   constexpr double kStep = 1e-6;  // rad; a gradient holds within it, by DerivativeStatus
   constexpr double kWrong = 1e-2, kSame = 1e-4;
-  const Shape &shape1 = *pair.body1.shape, &shape2 = *pair.body2.shape;
+  const Shape &shape1 = *pair.shape1, &shape2 = *pair.shape2;
   Settings settings;
   settings.tolerance = 1e-14;
   ++tally.pairs;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <string>
 
 #include "proximity/derivatives/long_normal.hpp"
@@ -13,7 +14,7 @@ namespace supernormal::test {
 
 struct DerivativePair {
   std::string kind;
-  PairedBody body1, body2;
+  std::shared_ptr<const Shape> shape1, shape2;
   Pose pose1, pose2;
 };
 
@@ -29,8 +30,8 @@ class DerivativePairs : private Draw {
  private:
   Vector3 direction();
   Vector3 lengths(double low, double high);
-  PairedBody smooth(int kind);
-  PairedBody any(int kind);
+  std::shared_ptr<const Shape> smooth(int kind);
+  std::shared_ptr<const Shape> any(int kind);
   Vector3 normal_of_face_or_edge(int kind, const Shape& shape);
   Vector3 witness(const Shape& shape, const Vector3& n);
 

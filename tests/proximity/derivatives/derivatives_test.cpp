@@ -81,7 +81,7 @@ TEST_CASE("derivatives: of 6000 flat pairs whose query converges, all but some 6
   int without = 0;
   for (int k = 0; k < 6000; ++k) {
     const DerivativePair pair = pairs.draw_flat();
-    const Shape &shape1 = *pair.body1.shape, &shape2 = *pair.body2.shape;
+    const Shape &shape1 = *pair.shape1, &shape2 = *pair.shape2;
     const Proximity answer = find_proximity(shape1, pair.pose1, shape2, pair.pose2, settings);
     const ProximityDerivatives found = find_proximity_derivatives(shape1, pair.pose1, shape2, pair.pose2, answer);
     without += answer.status == Status::Converged && found.status == DerivativeStatus::NotConverged;
@@ -114,7 +114,7 @@ TEST_CASE("derivatives: the gradient alone has the digits of all derivatives, an
   DerivativePairs pairs(7);
   for (int k = 0; k < 640; ++k) {
     const DerivativePair pair = k % 2 == 0 ? pairs.draw() : pairs.draw_flat();
-    const Shape &shape1 = *pair.body1.shape, &shape2 = *pair.body2.shape;
+    const Shape &shape1 = *pair.shape1, &shape2 = *pair.shape2;
     const Proximity answer = find_proximity(shape1, pair.pose1, shape2, pair.pose2);
     const ProximityDerivatives all = find_proximity_derivatives(shape1, pair.pose1, shape2, pair.pose2, answer);
     const GapGradient found = find_gap_gradient(shape1, pair.pose1, shape2, pair.pose2, answer);
@@ -132,7 +132,7 @@ TEST_CASE("derivatives: a body and a plane have the derivatives of the explicit 
   int compared = 0;
   for (int k = 0; k < 320; ++k) {
     const DerivativePair pair = pairs.draw();
-    const Shape& shape = *pair.body1.shape;
+    const Shape& shape = *pair.shape1;
     const Vector3 normal = kTilted * pair.pose2.rotation.col(0);
     const double offset = normal.dot(pair.pose1.position) - 0.4;
     const auto answer_at = [&](const TwistVector& twist) {

@@ -174,12 +174,13 @@ LongPose exact_pose(const Pose& pose) {
   return out;
 }
 
-LongNormal::LongNormal(PairedBody body1, const LongPose& pose1, PairedBody body2, const LongPose& pose2, const Vector3& normal)
-    : body1_(std::move(body1)), body2_(std::move(body2)) {
+LongNormal::LongNormal(const Shape& shape1, const LongPose& pose1, const Shape& shape2, const LongPose& pose2,
+                       const Vector3& normal)
+    : body1_(long_body_of(shape1)), body2_(long_body_of(shape2)) {
   const Real3 n = normal.cast<Real>().normalized();
   normal1_ = pose1.rotation.transpose() * n;
-  edges1_ = body1_.exact->edges(normal1_);
-  edges2_ = body2_.exact->edges(-(pose2.rotation.transpose() * n));
+  edges1_ = body1_->edges(normal1_);
+  edges2_ = body2_->edges(-(pose2.rotation.transpose() * n));
 }
 
 LongAnswer LongNormal::solve(const LongPose& pose1, const LongPose& pose2, const LongBody& exact1, const LongBody& exact2) const {

@@ -6,14 +6,6 @@
 
 namespace supernormal::test {
 
-/// A body of the library and its reference.
-struct PairedBody {
-  std::shared_ptr<const Shape> shape;
-  std::shared_ptr<const LongBody> exact;
-};
-
-inline PairedBody paired(const std::shared_ptr<const Shape>& shape) { return {shape, long_body_of(*shape)}; }
-
 /// The pose in long double, its matrix made orthonormal beyond double precision.
 LongPose exact_pose(const Pose& pose);
 
@@ -27,14 +19,17 @@ struct LongAnswer {
 class LongNormal {
  public:
   /// `normal`: world frame.
-  LongNormal(PairedBody body1, const LongPose& pose1, PairedBody body2, const LongPose& pose2, const Vector3& normal);
+  LongNormal(const Shape& shape1, const LongPose& pose1, const Shape& shape2, const LongPose& pose2, const Vector3& normal);
 
   /// The answer after both poses have moved, or with other bodies of the same kinds.
   LongAnswer solve(const LongPose& pose1, const LongPose& pose2, const LongBody& exact1, const LongBody& exact2) const;
-  LongAnswer solve(const LongPose& pose1, const LongPose& pose2) const { return solve(pose1, pose2, *body1_.exact, *body2_.exact); }
+  LongAnswer solve(const LongPose& pose1, const LongPose& pose2) const { return solve(pose1, pose2, *body1_, *body2_); }
+
+  const LongBody& body1() const { return *body1_; }
+  const LongBody& body2() const { return *body2_; }
 
  private:
-  PairedBody body1_, body2_;
+  std::shared_ptr<const LongBody> body1_, body2_;
   Real3 normal1_;                       // the start in body 1's frame
   std::vector<Real3> edges1_, edges2_;  // each in its body's frame
 };
