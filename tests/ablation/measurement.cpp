@@ -7,8 +7,6 @@
 #include <thread>
 
 #include "examination.hpp"
-#include "random.hpp"
-#include "reference.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "support/reference_pairs.hpp"
@@ -133,10 +131,7 @@ std::vector<Measurement::Pair> Measurement::draw(int kind, int count) const {
     const Vector3 n = random.direction();
     const Vector3 point2 = one.pose2.rotation * one.shape2->point(-(one.pose2.rotation.transpose() * n));
     one.pose2.position = one.shape1->point(n) - random.uniform(0, kDeepest) * pairs[k].unit * n - point2;
-    Settings settings;
-    settings.certify_depth = true;
-    settings.max_evaluations = kProofEvaluations;
-    const Proximity proved = ask(one, settings);
+    const Proximity proved = ask(one, {.max_evaluations = kProofEvaluations, .certify_depth = true});
     pairs[k].maximum = proved.gap;
     pairs[k].is_known = proved.is_global;
   });

@@ -48,12 +48,7 @@ void report(const HardCase& one, const Settings& settings, const Violations& vio
   FAIL_CHECK(describe(one), "tolerance ", settings.tolerance, ", at most ", settings.max_evaluations, " evaluations:", sentences);
 }
 
-Settings certified() {
-  Settings settings;
-  settings.certify_depth = true;
-  settings.max_evaluations = 20000;
-  return settings;
-}
+Settings certified() { return {.max_evaluations = 20000, .certify_depth = true}; }
 
 /// The answer of an ascent that ends before the maximum, by an angle.
 Proximity beside(const HardCase& one, Proximity answer, double angle) {
@@ -160,8 +155,7 @@ TEST_CASE("hard cases: a certified depth equals the reference") {
 }
 
 TEST_CASE("an answer beside the maximum is detected, for bodies apart, touching or in a certified overlap") {
-  Settings settings;
-  settings.certify_depth = true;
+  const Settings settings{.certify_depth = true};
   for (const double distance : {2.5, 2.0, 1.5}) {
     const HardCase one = pair("", "", ellipsoid(Vector3(1, 0.7, 0.5)), superball(1, 4), at(Vector3(distance, 0.3, 0.2)));
     const Proximity answer = find_proximity(*one.shape1, one.pose1, *one.shape2, one.pose2, settings);

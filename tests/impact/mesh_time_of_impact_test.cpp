@@ -86,9 +86,7 @@ TEST_CASE("triangles: without triangles, too, arguments out of range are refused
     CHECK_THROWS_WITH_AS(find_mesh_time_of_impact(Sphere(1), {}, {}, {}, horizon), doctest::Contains("horizon = "),
                          std::invalid_argument);
   }
-  Settings settings;
-  settings.tolerance = 7;
-  CHECK_THROWS_WITH_AS(find_mesh_time_of_impact(Sphere(1), {}, {}, {}, 1, settings), doctest::Contains("tolerance = 7"),
+  CHECK_THROWS_WITH_AS(find_mesh_time_of_impact(Sphere(1), {}, {}, {}, 1, {.tolerance = 7}), doctest::Contains("tolerance = 7"),
                        std::invalid_argument);
   Motion lost;
   lost.velocity.x() = nan;

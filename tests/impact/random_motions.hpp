@@ -118,8 +118,7 @@ inline LongPose long_pose_at(const Motion& motion, double time) {
 /// The gap of the pair at a time in long double, at the normal of a query from a cold start. This normal has rounding errors. The
 /// gap function is stationary there and changes by their square only; on faces it changes by the rounding itself.
 inline Real gap_at(const MovingPair& pair, double t) {
-  Settings settings;
-  settings.tolerance = 1e-13;
+  const Settings settings{.tolerance = 1e-13};
   const Shape& shape1 = *pair.one.shape;
   const Shape& shape2 = *pair.other.shape;
   const Proximity proximity = find_proximity(shape1, pose_at(pair.one.motion, t), shape2, pose_at(pair.other.motion, t), settings);

@@ -21,11 +21,7 @@ using namespace supernormal::test;
 namespace {
 
 Motion moving(const Vector3& position, const Vector3& velocity, const Vector3& angular_velocity = Vector3::Zero()) {
-  Motion motion;
-  motion.pose.position = position;
-  motion.velocity = velocity;
-  motion.angular_velocity = angular_velocity;
-  return motion;
+  return {.pose = {position, Matrix3::Identity()}, .velocity = velocity, .angular_velocity = angular_velocity};
 }
 
 /// The first t in [0, horizon] at which `gap` is 0, by steps in which it cannot reach 0. The result is the horizon if there is
@@ -352,9 +348,7 @@ TEST_CASE("time of impact: arguments out of range are refused, and motions that 
   CHECK_THROWS_AS(find_time_of_impact(ball, {}, ball, there, std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
   CHECK_THROWS_AS(find_plane_time_of_impact(ball, {}, Vector3::UnitX(), 0, std::numeric_limits<double>::infinity()),
                   std::invalid_argument);
-  Settings settings;
-  settings.tolerance = 2;
-  CHECK_THROWS_AS(find_time_of_impact(ball, {}, ball, there, 1, settings), std::invalid_argument);
+  CHECK_THROWS_AS(find_time_of_impact(ball, {}, ball, there, 1, {.tolerance = 2}), std::invalid_argument);
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e80}) {
     const Traps traps("an impact out of range");
     CHECK(find_time_of_impact(ball, {}, ball, moving({5, 0, 0}, {bad, 0, 0}), 1).status == ImpactStatus::InvalidInput);

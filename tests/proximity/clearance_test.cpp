@@ -107,9 +107,7 @@ TEST_CASE("find_clearance: a lower bound of the gap, better with more evaluation
     RandomBodies bodies(kind, 72);
     for (int k = 0; k < draws(200); ++k) {
       const RandomPair pair = bodies.draw(bodies.uniform(-0.3, 2));
-      Settings settings;
-      settings.certify_depth = true;
-      const Proximity answer = find_proximity(*pair.shape1, {}, *pair.shape2, pair.pose2, settings);
+      const Proximity answer = find_proximity(*pair.shape1, {}, *pair.shape2, pair.pose2, {.certify_depth = true});
       double last = -std::numeric_limits<double>::infinity();
       for (const int budget : {1, 2, 3}) {
         const Clearance bound = find_clearance(*pair.shape1, {}, *pair.shape2, pair.pose2, 1e300, budget);

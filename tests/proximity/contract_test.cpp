@@ -51,11 +51,7 @@ Proximity solve(const RandomPair& pair, const Settings& settings = {}) {
 }
 
 Proximity certified(const RandomPair& pair) {
-  Settings settings;
-  settings.certify_depth = true;
-  settings.tolerance = 0.1 * kMissed;
-  settings.max_evaluations = 5000;
-  return solve(pair, settings);
+  return solve(pair, {.tolerance = 0.1 * kMissed, .max_evaluations = 5000, .certify_depth = true});
 }
 
 /// A gap that is proved, in m: apart, touching, or within the ball that rolls inside, from rounding to the unit of length.
@@ -153,9 +149,7 @@ TEST_CASE("a followed normal is left for one of a depth that is less by more tha
       const Vector3 first = bodies.draw_apart().pose2.rotation.col(0);
       const Proximity answer = find_proximity(*pair.shape1, {}, *pair.shape2, pair.pose2, {}, &first);
       if (-answer.gap < kLooks * pair.unit || answer.evaluations >= 200) continue;
-      Settings settings;
-      settings.certify_depth = true;
-      const Proximity best = find_proximity(*pair.shape1, {}, *pair.shape2, pair.pose2, settings);
+      const Proximity best = find_proximity(*pair.shape1, {}, *pair.shape2, pair.pose2, {.certify_depth = true});
       ++followed;
       CAPTURE(kind.name);
       CAPTURE(k);

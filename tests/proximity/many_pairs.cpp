@@ -99,8 +99,7 @@ class Pairs {
 
 void print_row(const Kind& kind, std::size_t count, int rounds, unsigned seed) {
   const Pairs pairs(kind, count, seed);
-  Settings settings;
-  settings.stop_when_apart = kind.is_early;
+  const Settings settings{.stop_when_apart = kind.is_early};
   std::vector<Proximity> answers(count);
   std::vector<std::function<void()>> ways = {[&] {
     for (std::size_t k = 0; k < count; ++k) answers[k] = find_proximity(pairs.queries()[k], settings);

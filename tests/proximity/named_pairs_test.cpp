@@ -23,11 +23,7 @@ using samples::Body;
 
 namespace {
 
-Settings fine() {
-  Settings settings;
-  settings.tolerance = 1e-12;
-  return settings;
-}
+Settings fine() { return {.tolerance = 1e-12}; }
 
 Pose at(const Vector3& position, const Eigen::Quaterniond& orientation = Eigen::Quaterniond::Identity()) {
   return {position, orientation.toRotationMatrix()};
@@ -159,8 +155,7 @@ TEST_CASE("concentric, identical, aligned superballs below exponent 2 separate t
 }
 
 TEST_CASE("homothetic aligned bodies touch where their common boundary says so") {
-  Settings settings;
-  settings.tolerance = 1e-10;
+  const Settings settings{.tolerance = 1e-10};
   constexpr double kScale1 = 0.3, kScale2 = 1.1;
   for (const Superellipsoid& shape : superellipsoids(1.02, 200)) {
     const Superellipsoid shape1(kScale1 * shape.half_axes(), shape.delta(), shape.epsilon());

@@ -151,8 +151,7 @@ TEST_CASE("witness points lie on both boundaries, have the normal, and are a gap
 // |dn| <= sqrt(2 e / least eigenvalue of A). The boundary point moves by H1 dn, and |H1 dn|^2 <= |H1| dn.H1 dn, dn.H1 dn <= 2 e +
 // max(-s, 0) dn^2. Both bounds take the worse of the curvatures at either end.
 TEST_CASE("witness points and normals where they are determined") {
-  Settings tight;
-  tight.tolerance = 1e-14;
+  const Settings tight{.tolerance = 1e-14};
   int compared = 0;
   std::vector<double> normal_errors, point_errors;
   for (const ReferencePair& pair : reference_pairs()) {

@@ -102,8 +102,7 @@ TEST_CASE("on a cylinder's face from a normal beside it: the face's depth to rou
   const Matrix3 R = Eigen::AngleAxisd(2.1, Vector3(0.3, -0.9, 0.4).normalized()).toRotationMatrix();
   const double height = body.support(-(R.transpose() * Vector3::UnitZ()));
   const Pose pose2{Vector3(0.1, -0.2, 0.6836455581 + height - 1.2e-5), R};
-  Settings settings;
-  settings.tolerance = 1e-15;
+  const Settings settings{.tolerance = 1e-15};
   const Proximity cold = find_proximity(cylinder, {}, body, pose2, settings);
   check_proved(cold);
   CHECK(cold.gap == test::relative(-1.2e-5).epsilon(1e-9));
@@ -160,8 +159,7 @@ TEST_CASE("next to nothing beside a plane of symmetry: no overflow") {
                              1.0772194785899689);
   const CallbackShape body2 = without_hessian(std::make_shared<Superellipsoid>(
       Vector3(0.94171784691969096, 0.5574478084197092, 1.2885276416047349), 1.175895557386629, 1.1777243209332211));
-  Settings settings;
-  settings.tolerance = 1e-15;
+  const Settings settings{.tolerance = 1e-15};
   const Traps traps("a body without a Hessian");
   const Proximity answer =
       find_proximity(body1, {}, body2, {Vector3(-1.0730493914807038, 2.0703247356784026e-162, 0), Matrix3::Identity()}, settings);

@@ -40,11 +40,7 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 
 Pose upright_at(const Vector3& position) { return {position, Eigen::Matrix3d::Identity()}; }
 
-Settings with(Solver solver) {
-  Settings settings;
-  settings.solver = solver;
-  return settings;
-}
+Settings with(Solver solver) { return {.solver = solver}; }
 
 /// A body whose functions return NaN.
 class NotANumber final : public Shape {
@@ -126,9 +122,7 @@ TEST_CASE("the contact point of every solver depends less on the error of the no
       loose.tolerance = 1e-3;
       const Proximity out = solve(pair, loose);
       if (out.status != Status::Converged) continue;
-      Settings tight;
-      tight.tolerance = 1e-13;
-      const Vector3 exact = solve(pair, tight).contact;
+      const Vector3 exact = solve(pair, {.tolerance = 1e-13}).contact;
       of_contact += (out.contact - exact).norm() / pair.unit;
       of_middle += (0.5 * (out.point1 + out.point2) - exact).norm() / pair.unit;
     }
@@ -192,8 +186,7 @@ TEST_CASE("an early out stops at the first normal that separates") {
 }
 
 TEST_CASE("an early out from the normal of an earlier pose takes at most one evaluation") {
-  Settings early;
-  early.stop_when_apart = true;
+  const Settings early{.stop_when_apart = true};
   for (const ReferencePair& pair : reference_pairs()) {
     if (!(pair.nominal > 0)) continue;
     const Vector3 normal = solve(pair).normal;
@@ -277,28 +270,20 @@ TEST_CASE("each class of bodies takes its mean evaluations, and no more") {
 
 TEST_CASE("settings out of range are refused with name, value and range") {
   for (const double tolerance : {0.0, -1e-9, 0.9e-15, 1.1, kNan, kInf}) {
-    Settings settings;
-    settings.tolerance = tolerance;
-    const std::string message = refusal_of(settings);
+    const std::string message = refusal_of({.tolerance = tolerance});
     check_contains(message, "tolerance");
     check_contains(message, "1e-15");
   }
   for (const int limit : {0, -5, 1000001}) {
-    Settings settings;
-    settings.max_evaluations = limit;
-    const std::string message = refusal_of(settings);
+    const std::string message = refusal_of({.max_evaluations = limit});
     check_contains(message, "max_evaluations");
     check_contains(message, limit == 1000001 ? "1000001" : std::to_string(limit));
   }
   for (const double tolerance : {1e-15, 1.0}) {
-    Settings settings;
-    settings.tolerance = tolerance;
-    CHECK(refusal_of(settings).empty());
+    CHECK(refusal_of({.tolerance = tolerance}).empty());
   }
   for (const int limit : {1, 1000000}) {
-    Settings settings;
-    settings.max_evaluations = limit;
-    CHECK(refusal_of(settings).empty());
+    CHECK(refusal_of({.max_evaluations = limit}).empty());
   }
 }
 
@@ -427,10 +412,8 @@ TEST_CASE("a point in and outside an ellipsoid: its true distance") {
   // The smallest radius of curvature is 1/3: no deeper than that, the nearest point of the boundary is where the normal says.
   for (const Vector3& n : random_normals(50, 32)) {
     for (const double distance : {-0.3, -0.1, -1e-6, 0.0, 1e-6, 0.1, 5.0, 1e3}) {
-      Settings settings;
-      settings.tolerance = 1e-13;
       const Vector3 foot = body.point(n);
-      const Proximity out = find_proximity(body, {}, Sphere(0), upright_at(foot + distance * n), settings);
+      const Proximity out = find_proximity(body, {}, Sphere(0), upright_at(foot + distance * n), {.tolerance = 1e-13});
       const bool good = out.status == Status::Converged && std::abs(out.gap - distance) <= out.error + 1e-15 * (3 + distance) &&
                         (out.point1 - foot).norm() <= 1e-5;
       if (!good) FAIL_CHECK("n ", text(n), " distance ", distance, " gap ", out.gap, " status ", static_cast<int>(out.status));

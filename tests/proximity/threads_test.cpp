@@ -118,8 +118,7 @@ TEST_CASE("queries run on a stack of 64 KiB") {
 TEST_CASE("reference pairs: every solver gives the same digits over any stack, and computes with nothing that it has not set") {
   for (const ReferencePair& pair : some_of(reference_pairs())) {
     for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) {
-      Settings settings;
-      settings.solver = solver;
+      const Settings settings{.solver = solver};
       const auto ask = [&] { return find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, settings); };
       if (!is_same_on_every_stack(ask)) FAIL_CHECK(pair.name);
       const Traps traps(pair.name.c_str());

@@ -187,8 +187,7 @@ TEST_CASE("rays: invalid arguments are refused, and the limit of evaluations is 
   CHECK_THROWS_WITH_AS(find_ray_hit(shape, {}, o, 2 * v, 1), doctest::Contains("length of the ray's direction = 2"),
                        std::invalid_argument);
   CHECK_THROWS_AS(find_ray_hit(shape, {}, o, v, std::nan("")), std::invalid_argument);
-  Settings settings;
-  settings.tolerance = 2;
+  Settings settings{.tolerance = 2};
   CHECK_THROWS_AS(find_ray_hit(shape, {}, o, v, 1, settings), std::invalid_argument);
 
   for (const Vector3& bad : {Vector3(std::nan(""), 0, 0), Vector3(0, kInfinity, 0)}) {

@@ -151,8 +151,7 @@ TEST_CASE("grazing rays hit or miss rightly down to one part in 1e9") {
 }
 
 TEST_CASE("grazing rays hit or miss rightly at a coarse tolerance, too") {
-  Settings coarse;
-  coarse.tolerance = 1e-3;
+  const Settings coarse{.tolerance = 1e-3};
   for_bodies(220, kRaysPerClass / 10, [&](RandomRays& random, const Superellipsoid& surface, const Shape& /*shape*/) {
     const CallbackShape bare = without_hessian(make_shape(surface));
     for (const double share : {1e-4, 1e-6, 1e-9}) {
@@ -288,9 +287,7 @@ TEST_CASE("rays at rounded bodies hit at the radius from the core") {
       const Ray ray = random.past(core, random.uniform(0, 1));
       const RayHit hit = find_ray_hit(shape, {}, ray.origin, ray.direction, kInfinity);
       REQUIRE(hit.hit);
-      Settings tight;
-      tight.tolerance = 1e-12;
-      const Proximity to_core = find_proximity(core, {}, Sphere(0), {hit.point, Matrix3::Identity()}, tight);
+      const Proximity to_core = find_proximity(core, {}, Sphere(0), {hit.point, Matrix3::Identity()}, {.tolerance = 1e-12});
       CHECK(std::abs(to_core.gap - radius) <= 1.1e-9 * (unit + radius));
       CHECK((to_core.normal - hit.normal).norm() < 1e-5);
     }

@@ -68,12 +68,7 @@ Shapes without_equation() {
 
 constexpr double kRounding = 1e-15;
 
-Pose somewhere() {
-  Pose pose;
-  pose.position = {0.3, -2, 5};
-  pose.rotation = Eigen::AngleAxisd(0.7, Vector3(1, 2, -2).normalized()).toRotationMatrix();
-  return pose;
-}
+Pose somewhere() { return {{0.3, -2, 5}, Eigen::AngleAxisd(0.7, Vector3(1, 2, -2).normalized()).toRotationMatrix()}; }
 
 void check_box(const BoundingBox& box, const Vector3& centre, const Vector3& half_lengths) {
   for (int axis = 0; axis < 3; ++axis) {

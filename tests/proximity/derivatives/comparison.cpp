@@ -155,12 +155,7 @@ class Comparison {
     count(what, off, other.has_normal ? 0 : std::numeric_limits<double>::infinity());
   }
 
-  Proximity answer_at(const Vector3& normal) const {
-    Proximity answer;
-    answer.status = Status::Converged;
-    answer.normal = normal;
-    return answer;
-  }
+  static Proximity answer_at(const Vector3& normal) { return {.normal = normal, .status = Status::Converged}; }
 
   void compare_swapped() {
     const ProximityDerivatives swapped =
@@ -491,8 +486,7 @@ void compare_flat(const DerivativePair& pair, const std::string& name, FlatTally
   constexpr double kStep = 1e-6;  // rad; a gradient holds within it, by DerivativeStatus
   constexpr double kWrong = 1e-2, kSame = 1e-4;
   const Shape &shape1 = *pair.shape1, &shape2 = *pair.shape2;
-  Settings settings;
-  settings.tolerance = 1e-14;
+  const Settings settings{.tolerance = 1e-14};
   ++tally.pairs;
   const Proximity answer = find_proximity(shape1, pair.pose1, shape2, pair.pose2, settings);
   const ProximityDerivatives found = find_proximity_derivatives(shape1, pair.pose1, shape2, pair.pose2, answer);

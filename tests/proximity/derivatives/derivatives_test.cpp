@@ -76,8 +76,7 @@ TEST_CASE("derivatives: where flat sides, faces and edges lie on one another, th
 // A step between two nearly flat sides may lead down. If Newton's method ends there, 13 of these pairs have no derivatives.
 TEST_CASE("derivatives: of 6000 flat pairs whose query converges, all but some 6 have a common normal") {
   DerivativePairs pairs(5);
-  Settings settings;
-  settings.tolerance = 1e-14;
+  const Settings settings{.tolerance = 1e-14};
   int without = 0;
   for (int k = 0; k < 6000; ++k) {
     const DerivativePair pair = pairs.draw_flat();
@@ -222,9 +221,7 @@ TEST_CASE("derivatives: the status says what is not defined, and nothing is NaN"
   CHECK(find_proximity_derivatives(ellipsoid, {}, sharp, {}, {}).status == DerivativeStatus::InvalidInput);
   CHECK(find_gap_gradient(ellipsoid, {}, sharp, {}, {}).gradient.isZero(0));
   CHECK(find_gap_gradient(ellipsoid, broken, sharp, {}, answer).status == DerivativeStatus::InvalidInput);
-  Settings early;
-  early.stop_when_apart = true;
-  const Proximity apart = find_proximity(ellipsoid, {}, sharp, {{9, 3, 0}, kTilted}, early);
+  const Proximity apart = find_proximity(ellipsoid, {}, sharp, {{9, 3, 0}, kTilted}, {.stop_when_apart = true});
   CHECK(apart.status == Status::Apart);
   CHECK(find_proximity_derivatives(ellipsoid, {}, sharp, {{9, 3, 0}, kTilted}, apart).status == DerivativeStatus::NotConverged);
 }
@@ -245,9 +242,8 @@ TEST_CASE("derivatives: a capsule whose end is centred on a vertex or an edge of
     for (int i = 0; i < free; ++i) point[i] *= uniform(-0.9, 0.9);
     axis.tail(3 - free) = axis.tail(3 - free).cwiseAbs();  // the capsule leaves the box
     const double radius = size * uniform(0.01, 0.3), half_length = size * uniform(0.1, 1);
-    Pose pose2;
-    pose2.rotation = test::rotation_between(Vector3::UnitZ(), pose1.rotation * axis).toRotationMatrix();
-    pose2.position = pose1.position + pose1.rotation * (point + half_length * axis);
+    const Pose pose2{pose1.position + pose1.rotation * (point + half_length * axis),
+                     test::rotation_between(Vector3::UnitZ(), pose1.rotation * axis).toRotationMatrix()};
     const ProximityDerivatives found = derivatives(Box(half), pose1, Capsule(radius, half_length), pose2);
     CAPTURE(k);
     CHECK(found.status == (free == 2 ? DerivativeStatus::ActiveSet : DerivativeStatus::SingularCurvature));

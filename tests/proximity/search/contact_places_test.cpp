@@ -396,16 +396,6 @@ TEST_CASE("the contact lies halfway beside the edge of a nearly polyhedral body,
   }
 }
 
-TEST_CASE("two spheres: the middle of the overlap") {
-  for (const Vector3& n : random_normals(20, 81)) {
-    for (const double distance : {2.9, 3.0, 3.1}) {
-      const Proximity out = find_proximity(Sphere(1), at({5, 6, 7}), Sphere(2), at(Vector3(5, 6, 7) + distance * n));
-      const Vector3 middle = Vector3(5, 6, 7) + 0.5 * (1 + distance - 2) * n;
-      CHECK((out.contact - middle).norm() <= 1e-14);
-    }
-  }
-}
-
 TEST_CASE("a flat face and a sharp vertex: at the vertex") {
   // The vertex of an octahedron, off the middle of the face of a box, pushed in by 0.01.
   const Superellipsoid box(Vector3(3, 2, 1), 100, 100), corner(Vector3::Constant(1), 1.05, 1.05);

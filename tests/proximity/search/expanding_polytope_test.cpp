@@ -20,11 +20,7 @@ using namespace supernormal::test;
 
 namespace {
 
-Settings certified() {
-  Settings settings;
-  settings.certify_depth = true;
-  return settings;
-}
+Settings certified() { return {.certify_depth = true}; }
 
 double smallest_radius(const Shape& shape, const Vector3& n) {
   const Jet jet = shape.jet(n);
@@ -57,9 +53,7 @@ TEST_CASE("whatever the start and the solver, a claim to be global is true, and 
     const double rounding = 1e-14 * (std::abs(pair.gap) + pair.surface2.half_axes().maxCoeff());
     for (const Vector3& n : normals) {
       for (const Solver solver : {Solver::Hybrid, Solver::Newton}) {
-        Settings settings;
-        settings.solver = solver;
-        const Proximity out = find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, settings, &n);
+        const Proximity out = find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, {.solver = solver}, &n);
         if (out.status == Status::InvalidInput) continue;
         claims += out.is_global;
         const double missing = pair.gap - out.gap;
@@ -75,8 +69,7 @@ TEST_CASE("whatever the start and the solver, a claim to be global is true, and 
 TEST_CASE("an edge above a parallel edge: the default search does not claim what it does not know") {
   const Superellipsoid boxy({1, 0.8, 0.5}, 60, 60);
   const Vector3 n = Vector3(0, 1, 1).normalized();
-  Pose pose;
-  pose.position = boxy.point(n) - 0.03125 * n - boxy.point(-n);
+  const Pose pose{boxy.point(n) - 0.03125 * n - boxy.point(-n), Matrix3::Identity()};
   const Proximity found = find_proximity(boxy, {}, boxy, pose);
   const Proximity proved = find_proximity(boxy, {}, boxy, pose, certified());
   CHECK(proved.is_global);
@@ -159,9 +152,7 @@ TEST_CASE("bodies that pass through one another keep their normal until another 
 }
 
 TEST_CASE("thin bodies on one another, whose known points are in planes with the centre: the depth is certified") {
-  Settings settings;
-  settings.certify_depth = true;
-  settings.max_evaluations = 2000;
+  const Settings settings{.max_evaluations = 2000, .certify_depth = true};
   for (const double thickness : {1e-4, 1e-3, 1e-2, 0.1}) {
     for (const double delta : {1.5, 2.0, 8.0}) {
       const Superellipsoid coin({1, 1, thickness}, delta, 20);
