@@ -115,8 +115,7 @@ double rebound(double b) {
 
 TEST_CASE("at the ends of its axes an ellipsoid has the radii a^2/c and b^2/c") {
   const Vector3 a(3, 2, 0.5);
-  Pose pose;
-  pose.rotation = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+  const Pose pose{Vector3::Zero(), Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).toRotationMatrix()};
   const Vector3 n = pose.rotation * Vector3::UnitZ();
   for (const bool tells : {true, false}) {
     const Matrix3 K = tells ? find_curvature(Ellipsoid(a), pose, n) : find_curvature(Reticent(a), pose, n);
@@ -129,8 +128,7 @@ TEST_CASE("at the ends of its axes an ellipsoid has the radii a^2/c and b^2/c") 
 
 TEST_CASE("the curvatures of two rotated bodies add") {
   const Ellipsoid body(Vector3(2, 1, 1));
-  Pose turned;
-  turned.rotation = Eigen::AngleAxisd(std::acos(0.0), Vector3::UnitZ()).toRotationMatrix();
+  const Pose turned{Vector3::Zero(), Eigen::AngleAxisd(std::acos(0.0), Vector3::UnitZ()).toRotationMatrix()};
   const Vector3 n = Vector3::UnitZ();
   const ContactCurvature crossed = find_contact_curvature(find_curvature(body, {}, n) + find_curvature(body, turned, -n), n);
   CHECK(std::abs(crossed.smaller - 1.25) < 1e-12);

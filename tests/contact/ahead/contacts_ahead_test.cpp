@@ -27,20 +27,13 @@ constexpr double kTime = 0.01;  // s
 
 /// A body of mass 1 that moves without rotation.
 BodyAhead moving(const Shape& shape, const Pose& pose, const Vector3& velocity) {
-  MotionAhead motion;
-  motion.velocity = velocity;
-  motion.centre = pose.position;
-  motion.mobility = 1;
   const double size = shape.half_extents().minCoeff();
-  motion.turning = Matrix3::Identity() / (0.4 * size * size);
-  return {shape, pose, motion};
+  return {shape,
+          pose,
+          {.velocity = velocity, .centre = pose.position, .turning = Matrix3::Identity() / (0.4 * size * size), .mobility = 1}};
 }
 
-BodyAhead standing(const Shape& shape, const Pose& pose) {
-  BodyAhead body{shape, pose, {}};
-  body.motion.centre = pose.position;
-  return body;
-}
+BodyAhead standing(const Shape& shape, const Pose& pose) { return {shape, pose, {.centre = pose.position}}; }
 
 ContactManifold find(const BodyAhead& body1, const BodyAhead& body2) {
   const Proximity now = find_proximity(body1.shape, body1.pose, body2.shape, body2.pose);

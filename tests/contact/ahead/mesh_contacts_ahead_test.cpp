@@ -34,12 +34,9 @@ std::vector<MeshTriangle> corner() {
 }
 
 BodyAhead flying(const Shape& shape, const Vector3& position, const Vector3& velocity) {
-  MotionAhead motion;
-  motion.velocity = velocity;
-  motion.centre = position;
-  motion.mobility = 1;
-  motion.turning = Matrix3::Identity() / 1e-3;
-  return {shape, {position, Matrix3::Identity()}, motion};
+  return {shape,
+          {position, Matrix3::Identity()},
+          {.velocity = velocity, .centre = position, .turning = Matrix3::Identity() / 1e-3, .mobility = 1}};
 }
 
 /// Whether a face, a convex edge or a vertex of the surface has this outward normal: nothing at it rises above its plane. `inside`
@@ -117,8 +114,7 @@ TEST_CASE("a ball near the back or the border of a sheet has no contact with an 
 TEST_CASE("contacts ahead with a moving surface use the relative velocity") {
   MeshContactsAhead ahead;
   const std::vector<MeshTriangle> triangles = corner();
-  MotionAhead surface;
-  surface.velocity = Vector3(0, 0, 20);
+  const MotionAhead surface{.velocity = Vector3(0, 0, 20)};
   const auto found = ahead.find(flying(kBall, Vector3(0, 0, 0.15), Vector3::Zero()), surface, kStep, triangles);
   REQUIRE(found.size() == 1);
   CHECK(found[0].manifold.deepest.gap == doctest::Approx(0.1));

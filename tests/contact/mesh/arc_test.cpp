@@ -20,11 +20,7 @@ namespace {
 
 Arc random_arc(Draw& draw) {
   const Matrix3 frame = draw.rotation();
-  Arc arc;
-  arc.from = frame.col(0);
-  arc.towards = frame.col(1);
-  arc.end = draw.uniform(0.1, std::numbers::pi);
-  return arc;
+  return {.from = frame.col(0), .towards = frame.col(1), .end = draw.uniform(0.1, std::numbers::pi)};
 }
 
 double highest_sample(const Arc& arc, SupportProbe& probe) {
@@ -101,11 +97,8 @@ TEST_CASE("the maximum over an arc agrees with dense sampling") {
 TEST_CASE("a flat side across an edge touches in the point over the edge") {
   const Superellipsoid body({1, 1, 0.5}, 200, 200);
   SupportProbe probe(body, Matrix3::Identity());
-  Arc arc;
-  arc.from = Vector3(-0.6, 0, 0.8);
-  arc.towards = Vector3(0.8, 0, 0.6);
-  arc.end = std::acos(0.28);  // the other normal is (0.6, 0, 0.8)
-  arc.edge_point = {0.3, 0, -0.45};
+  // The other normal is (0.6, 0, 0.8).
+  const Arc arc{.from = {-0.6, 0, 0.8}, .towards = {0.8, 0, 0.6}, .end = std::acos(0.28), .edge_point = {0.3, 0, -0.45}};
   const ArcMaximum found = maximize_between(probe, arc, arc.sample(0, probe), arc.sample(arc.end, probe), 1e-11, 1000);
   REQUIRE(!found.is_apart);
   CHECK(found.gap == relative(-0.05));
@@ -182,9 +175,7 @@ TEST_CASE("the search of an arc finds a higher maximum exactly if there is one")
 TEST_CASE("an arc that its ends rule out costs no evaluation") {
   const Ellipsoid ball(Vector3::Ones());
   SupportProbe probe(ball, Matrix3::Identity());
-  Arc arc;
-  arc.end = 0.5 * std::numbers::pi;
-  arc.edge_point = {-0.9, 0.1, 0};
+  const Arc arc{.end = 0.5 * std::numbers::pi, .edge_point = {-0.9, 0.1, 0}};
   ArcSample low = arc.sample(0, probe);
   ArcSample high = arc.sample(arc.end, probe);
   const int before = probe.evaluations();

@@ -93,9 +93,7 @@ TEST_CASE("bodies with a vertex deep in an edge of a mesh: no shorter translatio
                          Eigen::AngleAxisd(std::numbers::pi * aside.z(), Vector3::Unit(axis)).toRotationMatrix();
     const double depth = kDepths[i / 3 % kDepths.size()] * unit;
     const Pose pose{Vector3(0.9, 1.4, 0.3 * aside.z()) - (half[axis] - depth) * inwards, turn};
-    Settings settings;
-    settings.certify_depth = true;
-    const Proximity expected = find_proximity(body, pose, hull, {}, settings);
+    const Proximity expected = find_proximity(body, pose, hull, {}, {.certify_depth = true});
     REQUIRE(expected.is_global);
     const std::span<const MeshContact> contacts = query.find(body, pose, triangles, {});
     if (expected.gap < -1e-9 * unit) REQUIRE(!contacts.empty());
