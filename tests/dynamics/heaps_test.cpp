@@ -15,6 +15,15 @@ void let_sleep(const World& world, double size) {
   dWorldSetAutoDisableAngularThreshold(world.id(), dReal(0.01 / size));
 }
 
+/// Adds a dBox, or, if there is an exponent, a superellipsoid.
+dBodyID add_brick(const World& world, const Vec& half_axes, double exponent) {
+  const auto a = dReal(half_axes[0]), b = dReal(half_axes[1]), c = dReal(half_axes[2]), e = dReal(exponent);
+  if (exponent > 0) return world.add(snCreateSuperellipsoid(world.space(), a, b, c, e, e), 1000);
+  dMass mass;
+  dMassSetBox(&mass, 1000, 2 * a, 2 * b, 2 * c);
+  return world.add(dCreateBox(world.space(), 2 * a, 2 * b, 2 * c), mass);
+}
+
 struct Watch {
   double start;
   double least;
@@ -62,14 +71,9 @@ TEST_CASE("a wall of 50 bricks stands, and falls asleep as soon as a wall of dBo
     std::vector<Vec> start;
     for (int course = 0; course < 10; ++course) {
       for (int i = 0; i < 5; ++i) {
-        dMass mass;
-        dMassSetBox(&mass, 1000, dReal(2 * a), dReal(2 * b), dReal(2 * c));
-        const dGeomID geom = boxes ? dCreateBox(world.space(), dReal(2 * a), dReal(2 * b), dReal(2 * c))
-                                   : snCreateSuperellipsoid(world.space(), dReal(a), dReal(b), dReal(c), 20, 20);
-        if (!boxes) REQUIRE(snMassSet(&mass, 1000, geom) == 1);
-        bricks.push_back(world.add(geom, mass));
+        bricks.push_back(add_brick(world, {a, b, c}, boxes ? 0 : 20));
         start.push_back({(2 * a + 0.002) * (i + 0.25 * (course % 2)), 0, c + (2 * c + 1e-4) * course});
-        place(geom, start.back());
+        set_position(bricks.back(), start.back());
       }
     }
     const Watch watch = settle(world, bricks, 1e-3, 3);
@@ -100,17 +104,8 @@ TEST_CASE("60 needles side by side fall asleep") {
     Random random(5);
     std::vector<dBodyID> needles;
     for (int k = 0; k < 60; ++k) {
-      dMass mass;
-      dMassSetBox(&mass, 1000, dReal(80 * c), dReal(2 * c), dReal(2 * c));
-      dGeomID geom = nullptr;
-      if (exponent == 0) {
-        geom = dCreateBox(world.space(), dReal(80 * c), dReal(2 * c), dReal(2 * c));
-      } else {
-        geom = snCreateSuperellipsoid(world.space(), dReal(40 * c), dReal(c), dReal(c), dReal(exponent), dReal(exponent));
-        REQUIRE(snMassSet(&mass, 1000, geom) == 1);
-      }
-      needles.push_back(world.add(geom, mass));
-      place(geom, {random.uniform(-c, c), 2.2 * c * k + random.uniform(-0.1, 0.1) * c, 3.2 * c});
+      needles.push_back(add_brick(world, {40 * c, c, c}, exponent));
+      set_position(needles.back(), {random.uniform(-c, c), 2.2 * c * k + random.uniform(-0.1, 0.1) * c, 3.2 * c});
       turn(needles.back(), {0, 1, 0}, random.uniform(-0.002, 0.002));
     }
     const Watch watch = settle(world, needles, 2e-3, 3);

@@ -138,8 +138,7 @@ TEST_CASE("a ball that looks ahead and hits at 45 degrees slides or rolls on by 
   }
 }
 
-TEST_CASE("two bodies that collide without friction keep momentum, angular momentum and energy to rounding") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "two bodies that collide without friction keep momentum, angular momentum and energy to rounding") {
   World world;
   make_elastic(world);
   Random random(4711);

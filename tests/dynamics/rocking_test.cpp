@@ -139,8 +139,7 @@ TEST_CASE("a superellipsoid of exponent 3 rocks for ten periods without friction
   }
 }
 
-TEST_CASE("tumbling bodies do not gain energy from a plane with friction") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "tumbling bodies do not gain energy from a plane with friction") {
   World world;
   world.add_plane();
   world.set_friction(0.5);

@@ -207,8 +207,7 @@ constexpr std::array<double, 4> kExponents = {8, 12, 20, 60};
 
 }  // namespace
 
-TEST_CASE("a flat body falls asleep within twice the time of a dBox") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a flat body falls asleep within twice the time of a dBox") {
   for (const Floor floor : {Floor::Plane, Floor::Box, Floor::Mesh}) {
     const Times box = times_to_sleep({}, floor);
     MESSAGE("floor ", static_cast<int>(floor), ", dBox: ", box.first, " s; median ", box.median, " s, longest ", box.longest, " s");
@@ -223,8 +222,7 @@ TEST_CASE("a flat body falls asleep within twice the time of a dBox") {
   }
 }
 
-TEST_CASE("a body that stands on a small face or a short line falls asleep no more tilted than others") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a body that stands on a small face or a short line falls asleep no more tilted than others") {
   for (const Stubby& what : {Stubby{"capsule, half-length 0.1 radii", create_stubby_capsule, true},
                              Stubby{"capsule, half-length 0.3 radii", create_short_capsule, true},
                              Stubby{"disc, 5/6 rounded", create_rounded_disc, false}}) {
@@ -235,8 +233,7 @@ TEST_CASE("a body that stands on a small face or a short line falls asleep no mo
   }
 }
 
-TEST_CASE("a flat body lies as still as a dBox on a plane") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a flat body lies as still as a dBox on a plane") {
   const Residue box = residue_of_one({}, Floor::Plane);
   for (const Floor floor : {Floor::Plane, Floor::Box, Floor::Mesh}) {
     for (const double exponent : kExponents) {
@@ -250,8 +247,7 @@ TEST_CASE("a flat body lies as still as a dBox on a plane") {
   }
 }
 
-TEST_CASE("a stack of five is as still as five dBoxes") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a stack of five is as still as five dBoxes") {
   const Residue boxes = residue_of_stack({});
   MESSAGE("dBox: ", 1e6 * boxes.energy, " uJ, ", 1e3 * boxes.drift, " mm");
   for (const double exponent : kExponents) {
@@ -263,8 +259,7 @@ TEST_CASE("a stack of five is as still as five dBoxes") {
   }
 }
 
-TEST_CASE("a stack of five stands for ten seconds at steps of 10 to 20 ms") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a stack of five stands for ten seconds at steps of 10 to 20 ms") {
   for (const double step : {0.01, 0.0167, 0.02}) {
     for (const double exponent : {0.0, 12.0, 20.0, 60.0}) {  // 0: dBox
       for (int repetition = 0; repetition < 6; ++repetition) {
@@ -303,8 +298,7 @@ double lowest_point_of_can(dGeomID geom, dSpaceID space, double radius, double h
 
 }  // namespace
 
-TEST_CASE("a can on its side does not sink at any step") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a can on its side does not sink at any step") {
   constexpr double kRadius = 0.05;
   for (const double exponent : {8.0, 20.0, 60.0, 200.0}) {
     for (const double rounding : {0.0, 0.3 * kRadius}) {

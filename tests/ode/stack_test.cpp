@@ -53,8 +53,8 @@ void check_pair(dGeomID g1, dGeomID g2, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("every kind of collider gives the same digits over any stack, and computes nothing with uninitialized memory") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "every kind of collider gives the same digits over any stack, and computes nothing with uninitialized memory") {
   snSetWarmStart(0);  // so results are a pure function of the pair
   Random random(17);
   for (const ColliderKind kind : kColliderKinds) {
@@ -68,8 +68,8 @@ TEST_CASE("every kind of collider gives the same digits over any stack, and comp
   }
 }
 
-TEST_CASE("meshes and heightfields give the same digits over any stack, and compute nothing with uninitialized memory") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "meshes and heightfields give the same digits over any stack, and compute nothing with uninitialized memory") {
   snSetWarmStart(0);
   Random random(18);
   const MeshGeom block(box_mesh({1, 1, 1}));
@@ -87,8 +87,7 @@ TEST_CASE("meshes and heightfields give the same digits over any stack, and comp
 
 // The normals of the two ends of the capsule have equal gaps. Both gaps are lower than the support function by rounding only,
 // because rotations are rounded by more than coordinates.
-TEST_CASE("a body of micrometres inside a short capsule gives the same digits over any stack") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a body of micrometres inside a short capsule gives the same digits over any stack") {
   snSetWarmStart(0);
   const Geom capsule(dCreateCapsule(nullptr, dReal(0.036479867631577401), dReal(0.00056562692823155548)));
   place(capsule, {0, 0, 6.6506547922008764e-06});

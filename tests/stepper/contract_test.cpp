@@ -393,8 +393,8 @@ TEST_CASE("steps whose length changes, and a mass ratio of a million, throw noth
   }
 }
 
-TEST_CASE("a stepper that takes what another one has saved goes on as that one, and refuses what is no such thing") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "a stepper that takes what another one has saved goes on as that one, and refuses what is no such thing") {
   // 0: nothing else; 1: another stepper takes what is saved; 2: another one begins anew
   std::array<double, 3> sink{};
   for (const int way : {0, 1, 2}) {
@@ -446,8 +446,7 @@ TEST_CASE("a stepper that takes what another one has saved goes on as that one, 
   CHECK(std::abs(sink[2]) > 1e-6 + std::abs(sink[0]));
 }
 
-TEST_CASE("the C++ object does what the C functions do, and throws what they refuse") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "the C++ object does what the C functions do, and throws what they refuse") {
   const World world;
   Stepper made(world.id());
   Stepper stepper = std::move(made);

@@ -44,52 +44,48 @@ struct BallOnFloor {
 
 }  // namespace
 
-TEST_CASE("friction without Approx1 is a force") {
-  BallOnFloor on;
-  on.contact.surface.mode &= ~dContactApprox1;
-  on.contact.surface.mu = dReal(0.7);  // N
-  set_velocity(on.ball, {5, 0, 0});
-  on.run(0.1);
-  CHECK(velocity_of(on.ball)[0] == relative(5 - 0.1 * 0.7 / mass_of(on.ball)).epsilon(1e-6));
+TEST_CASE_FIXTURE(BallOnFloor, "friction without Approx1 is a force") {
+  contact.surface.mode &= ~dContactApprox1;
+  contact.surface.mu = dReal(0.7);  // N
+  set_velocity(ball, {5, 0, 0});
+  run(0.1);
+  CHECK(velocity_of(ball)[0] == relative(5 - 0.1 * 0.7 / mass_of(ball)).epsilon(1e-6));
 }
 
-TEST_CASE("two coefficients of friction: the force in their ellipse that dissipates most") {
-  BallOnFloor on;
-  on.contact.surface.mode |= dContactMu2;
-  on.contact.surface.mu = dReal(0.2);
-  on.contact.surface.mu2 = dReal(0.6);
-  on.run(0.5);
-  set_velocity(on.ball, {500, 500, 0});  // so fast that its direction hardly changes
-  on.run(0.1);
+TEST_CASE_FIXTURE(BallOnFloor, "two coefficients of friction: the force in their ellipse that dissipates most") {
+  contact.surface.mode |= dContactMu2;
+  contact.surface.mu = dReal(0.2);
+  contact.surface.mu2 = dReal(0.6);
+  run(0.5);
+  set_velocity(ball, {500, 500, 0});  // so fast that its direction hardly changes
+  run(0.1);
   const double length = std::hypot(0.2, 0.6);
-  CHECK(500 - velocity_of(on.ball)[0] == relative(0.1 * kGravity * 0.2 * 0.2 / length).epsilon(2e-3));
-  CHECK(500 - velocity_of(on.ball)[1] == relative(0.1 * kGravity * 0.6 * 0.6 / length).epsilon(2e-3));
+  CHECK(500 - velocity_of(ball)[0] == relative(0.1 * kGravity * 0.2 * 0.2 / length).epsilon(2e-3));
+  CHECK(500 - velocity_of(ball)[1] == relative(0.1 * kGravity * 0.6 * 0.6 / length).epsilon(2e-3));
 }
 
-TEST_CASE("friction without limit lets nothing slip, and leaves the other direction alone") {
-  BallOnFloor on;
-  on.contact.surface.mode |= dContactMu2;
-  on.contact.surface.mu = dInfinity;
-  on.contact.surface.mu2 = 0;
-  set_velocity(on.ball, {1, 1, 0});
-  on.run(0.2, {100, 0, 0});
-  CHECK(std::abs(on.slip()[0]) < 1e-6 * norm(velocity_of(on.ball)));
-  CHECK(on.slip()[1] == relative(1).epsilon(1e-6));
+TEST_CASE_FIXTURE(BallOnFloor, "friction without limit lets nothing slip, and leaves the other direction alone") {
+  contact.surface.mode |= dContactMu2;
+  contact.surface.mu = dInfinity;
+  contact.surface.mu2 = 0;
+  set_velocity(ball, {1, 1, 0});
+  run(0.2, {100, 0, 0});
+  CHECK(std::abs(slip()[0]) < 1e-6 * norm(velocity_of(ball)));
+  CHECK(slip()[1] == relative(1).epsilon(1e-6));
 }
 
-TEST_CASE("surfaces move") {
-  BallOnFloor on;
-  on.contact.surface.mode |= dContactMotion1 | dContactMotion2;
-  on.contact.surface.mu = 1;
-  on.contact.surface.motion1 = dReal(0.3);
-  on.contact.surface.motion2 = dReal(-0.2);
-  on.run(0.5);
-  CHECK(on.slip()[0] == relative(0.3).epsilon(1e-6));
-  CHECK(on.slip()[1] == relative(-0.2).epsilon(1e-6));
-  on.contact.surface.mode |= dContactMotionN;
-  on.contact.surface.motionN = dReal(0.1);
-  on.run(kStep);
-  CHECK(velocity_of(on.ball)[2] > 0.09);
+TEST_CASE_FIXTURE(BallOnFloor, "surfaces move") {
+  contact.surface.mode |= dContactMotion1 | dContactMotion2;
+  contact.surface.mu = 1;
+  contact.surface.motion1 = dReal(0.3);
+  contact.surface.motion2 = dReal(-0.2);
+  run(0.5);
+  CHECK(slip()[0] == relative(0.3).epsilon(1e-6));
+  CHECK(slip()[1] == relative(-0.2).epsilon(1e-6));
+  contact.surface.mode |= dContactMotionN;
+  contact.surface.motionN = dReal(0.1);
+  run(kStep);
+  CHECK(velocity_of(ball)[2] > 0.09);
 }
 
 TEST_CASE("a belt moves bodies as it does in quickstep, in both orders of the bodies, with and without fdir1") {
@@ -118,61 +114,57 @@ TEST_CASE("a belt moves bodies as it does in quickstep, in both orders of the bo
   }
 }
 
-TEST_CASE("slip is proportional to the force") {
-  BallOnFloor on;
-  on.contact.surface.mode |= dContactSlip1 | dContactRolling;
-  on.contact.surface.mu = 1;
-  on.contact.surface.slip1 = dReal(0.04);  // m/(N s)
-  on.contact.surface.rho = dInfinity;      // it slides without rolling
-  on.run(1, {2, 0, 0});
-  CHECK(velocity_of(on.ball)[0] == relative(0.08).epsilon(1e-6));
+TEST_CASE_FIXTURE(BallOnFloor, "slip is proportional to the force") {
+  contact.surface.mode |= dContactSlip1 | dContactRolling;
+  contact.surface.mu = 1;
+  contact.surface.slip1 = dReal(0.04);  // m/(N s)
+  contact.surface.rho = dInfinity;      // it slides without rolling
+  run(1, {2, 0, 0});
+  CHECK(velocity_of(ball)[0] == relative(0.08).epsilon(1e-6));
 }
 
-TEST_CASE("soft ERP and CFM are the spring and the damper that they are to quickstep") {
+TEST_CASE_FIXTURE(BallOnFloor, "soft ERP and CFM are the spring and the damper that they are to quickstep") {
   const double stiffness = 1000;  // N/m
   const double damping = 4;       // N s/m
-  BallOnFloor on;
-  on.contact.surface.mode |= dContactSoftERP | dContactSoftCFM;
-  on.contact.surface.soft_erp = dReal(kStep * stiffness / (kStep * stiffness + damping));
-  on.contact.surface.soft_cfm = dReal(1 / (kStep * stiffness + damping));
-  on.run(2);
-  CHECK(0.05 - place_of(on.ball)[2] == relative(on.weight / stiffness).epsilon(1e-3));
-  on.contact.surface.mode &= ~dContactSoftERP;  // the world's
-  dWorldSetERP(on.scene.world.id(), dReal(0.5));
-  on.run(2);
-  const double of_world = 0.5 / (kStep * double{on.contact.surface.soft_cfm});
-  CHECK(0.05 - place_of(on.ball)[2] == relative(on.weight / of_world).epsilon(1e-3));
+  contact.surface.mode |= dContactSoftERP | dContactSoftCFM;
+  contact.surface.soft_erp = dReal(kStep * stiffness / (kStep * stiffness + damping));
+  contact.surface.soft_cfm = dReal(1 / (kStep * stiffness + damping));
+  run(2);
+  CHECK(0.05 - place_of(ball)[2] == relative(weight / stiffness).epsilon(1e-3));
+  contact.surface.mode &= ~dContactSoftERP;  // the world's
+  dWorldSetERP(scene.world.id(), dReal(0.5));
+  run(2);
+  const double of_world = 0.5 / (kStep * double{contact.surface.soft_cfm});
+  CHECK(0.05 - place_of(ball)[2] == relative(weight / of_world).epsilon(1e-3));
 }
 
-TEST_CASE("soft ERP alone corrects its share of an overlap in a step") {
-  BallOnFloor on;
-  dWorldSetGravity(on.scene.world.id(), 0, 0, 0);
-  on.contact.surface.mode |= dContactSoftERP;
-  on.contact.surface.soft_erp = dReal(0.2);
-  dBodySetPosition(on.ball, 0, 0, dReal(0.049));
-  on.run(kStep);
-  CHECK(0.05 - place_of(on.ball)[2] == relative(0.001 * std::exp(-0.2)).epsilon(0.02));
-  on.contact.surface.soft_erp = 0;
-  const double depth = 0.05 - place_of(on.ball)[2];
-  on.run(0.1);
-  CHECK(0.05 - place_of(on.ball)[2] == relative(depth).epsilon(1e-6));
+TEST_CASE_FIXTURE(BallOnFloor, "soft ERP alone corrects its share of an overlap in a step") {
+  dWorldSetGravity(scene.world.id(), 0, 0, 0);
+  contact.surface.mode |= dContactSoftERP;
+  contact.surface.soft_erp = dReal(0.2);
+  dBodySetPosition(ball, 0, 0, dReal(0.049));
+  run(kStep);
+  CHECK(0.05 - place_of(ball)[2] == relative(0.001 * std::exp(-0.2)).epsilon(0.02));
+  contact.surface.soft_erp = 0;
+  const double depth = 0.05 - place_of(ball)[2];
+  run(0.1);
+  CHECK(0.05 - place_of(ball)[2] == relative(depth).epsilon(1e-6));
 }
 
-TEST_CASE("rolling and spinning resistance brake as their lengths say") {
-  BallOnFloor on;
-  on.contact.surface.mode |= dContactRolling | dContactAxisDep;
-  on.contact.surface.mu = on.contact.surface.mu2 = 1;
-  on.contact.surface.rho = on.contact.surface.rho2 = dReal(1e-3);
-  on.contact.surface.rhoN = dReal(2e-3);
-  on.run(0.2);
-  set_velocity(on.ball, {1, 0, 0});
-  set_spin(on.ball, {0, 20, 30});
-  on.run(0.2);
-  CHECK(velocity_of(on.ball)[0] == relative(1 - 0.2 * 5.0 / 7 * kGravity * 1e-3 / 0.05).epsilon(1e-3));
-  CHECK(spin_of(on.ball)[2] == relative(30 - 0.2 * kGravity * 2e-3 / (0.4 * 0.05 * 0.05)).epsilon(1e-3));
-  on.run(10);
-  CHECK(norm(velocity_of(on.ball)) < within_rounding(1e-12));
-  CHECK(norm(spin_of(on.ball)) < within_rounding(1e-10));
+TEST_CASE_FIXTURE(BallOnFloor, "rolling and spinning resistance brake as their lengths say") {
+  contact.surface.mode |= dContactRolling | dContactAxisDep;
+  contact.surface.mu = contact.surface.mu2 = 1;
+  contact.surface.rho = contact.surface.rho2 = dReal(1e-3);
+  contact.surface.rhoN = dReal(2e-3);
+  run(0.2);
+  set_velocity(ball, {1, 0, 0});
+  set_spin(ball, {0, 20, 30});
+  run(0.2);
+  CHECK(velocity_of(ball)[0] == relative(1 - 0.2 * 5.0 / 7 * kGravity * 1e-3 / 0.05).epsilon(1e-3));
+  CHECK(spin_of(ball)[2] == relative(30 - 0.2 * kGravity * 2e-3 / (0.4 * 0.05 * 0.05)).epsilon(1e-3));
+  run(10);
+  CHECK(norm(velocity_of(ball)) < within_rounding(1e-12));
+  CHECK(norm(spin_of(ball)) < within_rounding(1e-10));
 }
 
 TEST_CASE("slow impacts do not bounce, and negative thresholds let nothing bounce") {

@@ -130,8 +130,8 @@ void check_differences(dGeomID g1, dGeomID g2, const snDerivatives& found) {
 
 }  // namespace
 
-TEST_CASE("derivatives of geoms: with every collider they are the derivatives of snGeomProximity, in either order") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "derivatives of geoms: with every collider they are the derivatives of snGeomProximity, in either order") {
   snSetWarmStart(0);
   Random random(31);
   int compared = 0;
@@ -165,8 +165,7 @@ TEST_CASE("derivatives of geoms: with every collider they are the derivatives of
   CHECK(compared > 140);
 }
 
-TEST_CASE("derivatives of geoms: a ray, and the parameters of both geoms by name") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "derivatives of geoms: a ray, and the parameters of both geoms by name") {
   snSetWarmStart(0);
   const Geom ours(snCreateSuperellipsoid(nullptr, 1, dReal(0.7), dReal(0.5), dReal(2.5), 2));
   snGeomSetSolver(ours, SN_SOLVER_HYBRID, dReal(1e-14), 1000);
@@ -199,8 +198,7 @@ TEST_CASE("derivatives of geoms: a ray, and the parameters of both geoms by name
   CHECK(std::abs((gap_with(1 + h) - gap_with(1 - h)) / (2 * double{h}) - found.parameter2[0].value) < within_rounding(1e-5, 1000));
 }
 
-TEST_CASE("derivatives of geoms: a face on a plane says what is not defined, a mesh has a gradient alone") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "derivatives of geoms: a face on a plane says what is not defined, a mesh has a gradient alone") {
   const Geom brick(snCreateSuperellipsoid(nullptr, 1, 1, 1, 20, 20));
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, -2));
   const snDerivatives found = derivatives_of(brick, plane);
@@ -229,8 +227,8 @@ TEST_CASE("derivatives of geoms: a face on a plane says what is not defined, a m
   CHECK(snGeomIsFartherThan(ball, floor, dReal(0.8), nullptr) == 0);
 }
 
-TEST_CASE("clearance of geoms: with every collider the bound holds, and the distance decides, in either order") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "clearance of geoms: with every collider the bound holds, and the distance decides, in either order") {
   Random random(32);
   int evaluations = 0, questions = 0;
   for (int k = 0; k < 100; ++k) {
@@ -274,8 +272,7 @@ TEST_CASE("clearance of geoms: with every collider the bound holds, and the dist
   CHECK(evaluations < 2 * questions);
 }
 
-TEST_CASE("derivatives and clearance of geoms: bad input is refused with its name") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "derivatives and clearance of geoms: bad input is refused with its name") {
   const Geom ours(snCreateEllipsoid(nullptr, 1, 1, 1)), other(snCreateEllipsoid(nullptr, 1, 2, 1));
   const Geom sphere(dCreateSphere(nullptr, 1)), box(dCreateBox(nullptr, 1, 1, 1));
   place(other, {4, 0, 0});

@@ -48,8 +48,8 @@ void count_release(void* user) { ++*static_cast<int*>(user); }
 
 }  // namespace
 
-TEST_CASE("description: every body of the C interface has a text, and a body of this text makes the same contacts") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "description: every body of the C interface has a text, and a body of this text makes the same contacts") {
   snSetWarmStart(0);
   std::vector<dGeomID> originals;
   for (const dReal rounding : {dReal(0), dReal(0.1)}) {
@@ -77,8 +77,7 @@ TEST_CASE("description: every body of the C interface has a text, and a body of 
   }
 }
 
-TEST_CASE("description: parameters and rounding of a body that was read can be read and set") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "description: parameters and rounding of a body that was read can be read and set") {
   const Geom egg(snCreateFromDescription(
       nullptr, "Rounded(core=Superovoid(half_axes=(1, 2, 3), delta=2.5, epsilon=2, taper_x=0.25, taper_y=0.125), radius=0.5)"));
   std::array<dReal, 7> p{};
@@ -91,8 +90,7 @@ TEST_CASE("description: parameters and rounding of a body that was read can be r
   CHECK(std::array<dReal, 5>{p[0], p[1], p[2], p[3], p[4]} == std::array<dReal, 5>{1, 2, 3, 4, 5});
 }
 
-TEST_CASE("description: a short array gets the beginning of the text, and the length of the whole") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "description: a short array gets the beginning of the text, and the length of the whole") {
   const Geom ball(snCreateEllipsoid(nullptr, 1, 1, 1));
   char text[10] = "*********";
   CHECK(snGeomDescribe(ball, text, 5) == 30);
@@ -102,8 +100,8 @@ TEST_CASE("description: a short array gets the beginning of the text, and the le
   CHECK(snGeomDescribe(ball, nullptr, 0) == 30);
 }
 
-TEST_CASE("description: a geom of every shape of the core has the core's answers beside every convex class of ODE") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "description: a geom of every shape of the core has the core's answers beside every convex class of ODE") {
   Random random(8);
   int overlaps = 0;
   const std::string earlier = snLastError();  // of another test
@@ -139,8 +137,7 @@ TEST_CASE("description: a geom of every shape of the core has the core's answers
   CHECK(overlaps > 300);
 }
 
-TEST_CASE("description: a Box of ours lies on a plane and on a dBox as a dBox does") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "description: a Box of ours lies on a plane and on a dBox as a dBox does") {
   const Geom ours(snCreateFromDescription(nullptr, "Box(half_lengths=(0.5, 0.4, 0.3))")),
       odes(dCreateBox(nullptr, 1, dReal(0.8), dReal(0.6)));
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0)), table(dCreateBox(nullptr, 4, 4, 1));
@@ -158,8 +155,7 @@ TEST_CASE("description: a Box of ours lies on a plane and on a dBox as a dBox do
   }
 }
 
-TEST_CASE("copy: a geom's copy has its shape, its bits and its place, and lives on") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "copy: a geom's copy has its shape, its bits and its place, and lives on") {
   const World world;
   dBodyID body = dBodyCreate(world.id());
   dSpaceID space = dHashSpaceCreate(nullptr);
@@ -191,8 +187,7 @@ TEST_CASE("copy: a geom's copy has its shape, its bits and its place, and lives 
   dBodyDestroy(body);
 }
 
-TEST_CASE("copy: solver settings and look-ahead time are copied") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "copy: solver settings and look-ahead time are copied") {
   snSetWarmStart(0);
   const Geom geom(snCreateSuperellipsoid(nullptr, 1, 2, 3, 4, 5)), other(snCreateEllipsoid(nullptr, 1, 2, 3));
   place(other, {4, 3, 5});
@@ -225,8 +220,7 @@ TEST_CASE("copy: solver settings and look-ahead time are copied") {
   dGeomSetBody(ahead, nullptr);
 }
 
-TEST_CASE("copy: copies of a user-defined body share its callbacks, which are released once, after the last") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "copy: copies of a user-defined body share its callbacks, which are released once, after the last") {
   int released = 0;
   const snShape shape = {balloon_support, balloon_point, nullptr, &released, count_release};
   {
@@ -243,8 +237,7 @@ TEST_CASE("copy: copies of a user-defined body share its callbacks, which are re
   CHECK(released == 1);
 }
 
-TEST_CASE("description and copy: what cannot be is refused") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "description and copy: what cannot be is refused") {
   const snShape shape = {balloon_support, balloon_point, nullptr, nullptr, nullptr};
   const Geom user(snCreateConvex(nullptr, &shape)), sphere(dCreateSphere(nullptr, 1)),
       ellipsoid(snCreateEllipsoid(nullptr, 1, 1, 1));

@@ -61,8 +61,7 @@ double volume(const snMesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("mass: an ellipsoid has the textbook's values") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "mass: an ellipsoid has the textbook's values") {
   const Geom geom(snCreateEllipsoid(nullptr, 3, 2, 1));
   dMass mass;
   REQUIRE(snMassSet(&mass, 1000, geom) == 1);
@@ -78,8 +77,7 @@ TEST_CASE("mass: an ellipsoid has the textbook's values") {
   for (const int i : {0, 5, 10}) CHECK(mass.I[i] == relative(reference.I[i]).epsilon(within_rounding(1e-14)));
 }
 
-TEST_CASE("mass: a total mass scales the inertia") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "mass: a total mass scales the inertia") {
   const Geom geom(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 3, 5));
   dMass by_density, by_total;
   REQUIRE(snMassSet(&by_density, 1, geom) == 1);
@@ -89,8 +87,7 @@ TEST_CASE("mass: a total mass scales the inertia") {
     CHECK(by_total.I[i] / by_total.mass == relative(by_density.I[i] / by_density.mass).epsilon(within_rounding(1e-14)));
 }
 
-TEST_CASE("mass: a sphere off the origin has the inertia of dMassTranslate") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "mass: a sphere off the origin has the inertia of dMassTranslate") {
   const snShape shape = {ball_support, ball_point, nullptr, nullptr, nullptr};
   const Geom geom(snCreateConvex(nullptr, &shape));
   REQUIRE(dGeomID(geom) != nullptr);
@@ -107,8 +104,7 @@ TEST_CASE("mass: a sphere off the origin has the inertia of dMassTranslate") {
   CHECK(dMassCheck(&mass) == 1);
 }
 
-TEST_CASE("mass: a centre of mass within rounding of the origin is at the origin, at any size") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "mass: a centre of mass within rounding of the origin is at the origin, at any size") {
   const World world;
   const snShape shape = {oblique_support, oblique_point, nullptr, nullptr, nullptr};
   const Geom geom(snCreateConvex(nullptr, &shape));
@@ -119,8 +115,7 @@ TEST_CASE("mass: a centre of mass within rounding of the origin is at the origin
   dBodySetMass(dBodyCreate(world.id()), &mass);  // ODE asserts it
 }
 
-TEST_CASE("mass: ODE accepts the mass of every body in its range") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "mass: ODE accepts the mass of every body in its range") {
   const World world;
   Random random(17);
   for (int i = 0; i < 200; ++i) {
@@ -136,8 +131,7 @@ TEST_CASE("mass: ODE accepts the mass of every body in its range") {
   }
 }
 
-TEST_CASE("point depth: a sphere has the radius minus the distance") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "point depth: a sphere has the radius minus the distance") {
   Random random(13);
   const Geom geom(snCreateEllipsoid(nullptr, 2, 2, 2));
   const Geom reference(dCreateSphere(nullptr, 2));
@@ -152,8 +146,7 @@ TEST_CASE("point depth: a sphere has the radius minus the distance") {
   CHECK(depth_of(geom, centre) == relative(2).epsilon(1e-14));
 }
 
-TEST_CASE("point depth: superellipsoids in any pose have the distance along their normals") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "point depth: superellipsoids in any pose have the distance along their normals") {
   Random random(14);
   for (int i = 0; i < 300; ++i) {
     CAPTURE(i);
@@ -166,8 +159,7 @@ TEST_CASE("point depth: superellipsoids in any pose have the distance along thei
   }
 }
 
-TEST_CASE("support: the farthest boundary point is returned for a direction of any length") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "support: the farthest boundary point is returned for a direction of any length") {
   Random random(16);
   for (int i = 0; i < 100; ++i) {
     const Geom geom(random_body(random));
@@ -185,8 +177,7 @@ TEST_CASE("support: the farthest boundary point is returned for a direction of a
   }
 }
 
-TEST_CASE("a mesh has the volume of its geom, and its vertices have the geom's normals") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a mesh has the volume of its geom, and its vertices have the geom's normals") {
   const Geom geom(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 3, 3));
   REQUIRE(snGeomSetRounding(geom, dReal(0.05)) == 1);
   dMass mass;
@@ -208,8 +199,7 @@ TEST_CASE("a mesh has the volume of its geom, and its vertices have the geom's n
   snMeshRelease(nullptr);
 }
 
-TEST_CASE("a mesh with invalid arguments is refused and empty") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a mesh with invalid arguments is refused and empty") {
   const Geom geom(snCreateEllipsoid(nullptr, 3, 2, 1));
   snMesh mesh;
   for (const dReal wrong : {dReal(0), dReal(-1), std::numeric_limits<dReal>::quiet_NaN(), std::numeric_limits<dReal>::infinity()}) {

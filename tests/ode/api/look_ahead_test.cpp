@@ -71,8 +71,7 @@ double rise_after_bounce(World& world, dBodyID body, double step) {
 
 }  // namespace
 
-TEST_CASE("an invalid look-ahead time is refused, with its value and the range, and changes nothing") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "an invalid look-ahead time is refused, with its value and the range, and changes nothing") {
   const Geom geom(snCreateEllipsoid(nullptr, 1, 1, 1));
   const Vec before = size_of_box(geom);
   for (const dReal time : {dReal(-1), kNoTime, kEternity, dReal(2e6)}) {
@@ -150,8 +149,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the bounding box covers the motion within the look-ahead time, and only the body without it") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "the bounding box covers the motion within the look-ahead time, and only the body without it") {
   World world;
   dWorldSetGravity(world.id(), 0, 0, 0);
   const dGeomID geom = snCreateEllipsoid(world.space(), 1, 1, 1);
@@ -177,8 +175,7 @@ TEST_CASE("the bounding box covers the motion within the look-ahead time, and on
   CHECK(size_of_box(geom) == still);
 }
 
-TEST_CASE("without look-ahead no contact has a negative depth, and the contacts have the same bits as before") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "without look-ahead no contact has a negative depth, and the contacts have the same bits as before") {
   Random random(11);
   const Geom floor(dCreatePlane(nullptr, 0, 0, 1, 0));
   const Geom box(dCreateBox(nullptr, 2, 2, 2));
@@ -205,8 +202,8 @@ TEST_CASE("without look-ahead no contact has a negative depth, and the contacts 
   CHECK(with_contacts > 300);
 }
 
-TEST_CASE("a geom that looks ahead with a velocity that is not finite has no contacts, and the error names the velocity") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "a geom that looks ahead with a velocity that is not finite has no contacts, and the error names the velocity") {
   World world;
   const dGeomID ours = snCreateSuperellipsoid(world.space(), 1, 1, 1, 8, 8);
   const dBodyID body = world.add(ours, 1000);
@@ -225,8 +222,9 @@ TEST_CASE("a geom that looks ahead with a velocity that is not finite has no con
   }
 }
 
-TEST_CASE("a body that looks ahead rises to the square of its restitution times its height, at any step and place of the impact") {
-  OdeSession session;
+TEST_CASE_FIXTURE(
+    OdeSession,
+    "a body that looks ahead rises to the square of its restitution times its height, at any step and place of the impact") {
   for (const bool is_brick : {false, true}) {
     for (const double step : {0.001, 0.005, 0.02}) {
       for (const double restitution : {0.5, 0.8, 1.0}) {
@@ -248,8 +246,7 @@ TEST_CASE("a body that looks ahead rises to the square of its restitution times 
   }
 }
 
-TEST_CASE("where no velocity is right, a body that looks ahead rises less than it should, and never more") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "where no velocity is right, a body that looks ahead rises less than it should, and never more") {
   const double step = 0.02;
   for (const double restitution : {0.2, 0.5}) {
     for (int phase = 0; phase < 40; ++phase) {
@@ -265,8 +262,8 @@ TEST_CASE("where no velocity is right, a body that looks ahead rises less than i
   }
 }
 
-TEST_CASE("two bodies that look ahead leave each other and moving walls with the restitution times their approach velocity") {
-  OdeSession session;
+TEST_CASE_FIXTURE(
+    OdeSession, "two bodies that look ahead leave each other and moving walls with the restitution times their approach velocity") {
   const double step = 0.01;
   for (const bool is_brick : {false, true}) {
     for (const double restitution : {0.5, 1.0}) {
@@ -289,8 +286,7 @@ TEST_CASE("two bodies that look ahead leave each other and moving walls with the
   }
 }
 
-TEST_CASE("bodies that look ahead come to rest after their bounces, at their height") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "bodies that look ahead come to rest after their bounces, at their height") {
   for (const bool is_brick : {false, true}) {
     for (const double step : {0.005, 0.02}) {
       World world;
@@ -316,8 +312,7 @@ TEST_CASE("bodies that look ahead come to rest after their bounces, at their hei
   }
 }
 
-TEST_CASE("a stack of bricks that look ahead rests with a restitution of 1 as with one of 0.5") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a stack of bricks that look ahead rests with a restitution of 1 as with one of 0.5") {
   const auto heights = [](double restitution) {
     dRandSetSeed(1);
     World world;
@@ -335,8 +330,7 @@ TEST_CASE("a stack of bricks that look ahead rests with a restitution of 1 as wi
   CHECK(heights(1) == heights(0.5));
 }
 
-TEST_CASE("bricks that fall on each other within steps of 20 ms gain no energy") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "bricks that fall on each other within steps of 20 ms gain no energy") {
   const double step = 0.02;
   World world;
   dWorldSetQuickStepNumIterations(world.id(), 40);
@@ -355,8 +349,7 @@ TEST_CASE("bricks that fall on each other within steps of 20 ms gain no energy")
   }
 }
 
-TEST_CASE("a body that looks ahead bounces although a joint guides it") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a body that looks ahead bounces although a joint guides it") {
   const double step = 0.01;
   World world;
   world.add_plane();
@@ -368,8 +361,7 @@ TEST_CASE("a body that looks ahead bounces although a joint guides it") {
   CHECK(rise_after_bounce(world, body, step) == relative(0.64 * start_of_fall(0.5, step)).epsilon(1e-4));
 }
 
-TEST_CASE("a body that looks ahead and approaches no faster than bounce_vel is stopped where it touches") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a body that looks ahead and approaches no faster than bounce_vel is stopped where it touches") {
   const double step = 0.01;
   for (const double threshold : {0.5, 1.5, -1.0}) {
     World world;

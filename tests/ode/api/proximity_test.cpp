@@ -91,8 +91,9 @@ void check_answer(dGeomID body, dGeomID collider, const snProximity& answer) {
 
 }  // namespace
 
-TEST_CASE("certified: the depth is proved the minimum translation distance, and never larger than the depth of the plain query") {
-  OdeSession session;
+TEST_CASE_FIXTURE(
+    OdeSession,
+    "certified: the depth is proved the minimum translation distance, and never larger than the depth of the plain query") {
   Random random(61);
   int unproved = 0;
   for (int i = 0; i < 60; ++i) {
@@ -120,8 +121,8 @@ TEST_CASE("certified: the depth is proved the minimum translation distance, and 
   CHECK(unproved > 30);
 }
 
-TEST_CASE("a pair uses the tighter tolerance and the larger limit, and a query that reaches the limit reports it") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "a pair uses the tighter tolerance and the larger limit, and a query that reaches the limit reports it") {
   snSetWarmStart(0);
   const Geom g1(snCreateSuperellipsoid(nullptr, 1, dReal(0.7), dReal(0.4), 5, 3));
   const Geom g2(snCreateSuperellipsoid(nullptr, 1, dReal(0.6), dReal(0.5), 3, 5));
@@ -151,8 +152,7 @@ TEST_CASE("a pair uses the tighter tolerance and the larger limit, and a query t
   CHECK(proximity_of(g1, g2).evaluations < fine.evaluations);
 }
 
-TEST_CASE("a pair uses the solver of both geoms, or the hybrid if they differ") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a pair uses the solver of both geoms, or the hybrid if they differ") {
   snSetWarmStart(0);
   const auto make = [](snSolver solver) {
     REQUIRE(snSetDefaultSolver(solver, dReal(1e-9), 1000) == 1);
@@ -173,8 +173,7 @@ TEST_CASE("a pair uses the solver of both geoms, or the hybrid if they differ") 
   CHECK(evaluations(SN_SOLVER_HYBRID, SN_SOLVER_FIXED_POINT) == hybrid);
 }
 
-TEST_CASE("an overlap without convergence gives a contact that separates the geoms") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "an overlap without convergence gives a contact that separates the geoms") {
   snSetWarmStart(0);
   Random random(22);
   int contacts_seen = 0;
@@ -194,8 +193,7 @@ TEST_CASE("an overlap without convergence gives a contact that separates the geo
   CHECK(contacts_seen > 50);
 }
 
-TEST_CASE("statistics count the queries of this thread") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "statistics count the queries of this thread") {
   const Geom g1(snCreateEllipsoid(nullptr, 1, dReal(0.8), dReal(0.6)));
   const Geom g2(snCreateEllipsoid(nullptr, 1, dReal(0.8), dReal(0.6)));
   const Geom sphere(dCreateSphere(nullptr, 1));
@@ -220,8 +218,7 @@ TEST_CASE("statistics count the queries of this thread") {
   CHECK(statistics().contacts == 0);
 }
 
-TEST_CASE("proximity: the points are on both surfaces, and a displacement by the gap makes the geoms touch") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "proximity: the points are on both surfaces, and a displacement by the gap makes the geoms touch") {
   snSetWarmStart(0);
   for (const ColliderKind kind : kColliderKinds) {
     CAPTURE(name_of(kind));
@@ -256,8 +253,7 @@ TEST_CASE("proximity: the points are on both surfaces, and a displacement by the
   }
 }
 
-TEST_CASE("proximity: geoms without size are points, segments and plates") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "proximity: geoms without size are points, segments and plates") {
   snSetWarmStart(0);
   Random random(51);
   const Geom point_box(dCreateBox(nullptr, 0, 0, 0));
@@ -290,8 +286,7 @@ TEST_CASE("proximity: geoms without size are points, segments and plates") {
   }
 }
 
-TEST_CASE("proximity: geoms with invalid lengths are refused, and collide with nothing") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "proximity: geoms with invalid lengths are refused, and collide with nothing") {
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
   snProximity answer;
   const dReal infinite = dInfinity;  // a NaN does not get past ODE's assertions

@@ -57,8 +57,7 @@ void check_refused(dGeomID g1, dGeomID g2, const std::string& who) {
 
 }  // namespace
 
-TEST_CASE("refusals: half-axes and exponents at creation") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "refusals: half-axes and exponents at creation") {
   struct Case {
     dReal a, b, c, delta, epsilon;
     const char *value, *range;
@@ -79,8 +78,7 @@ TEST_CASE("refusals: half-axes and exponents at creation") {
   CHECK(snGeomClass() == -1);  // no refused geom is alive
 }
 
-TEST_CASE("refusals: a geom in place of a space") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "refusals: a geom in place of a space") {
   const Geom sphere(dCreateSphere(nullptr, 1)), body(snCreateEllipsoid(nullptr, 1, 2, 3));
   const auto space_of = [](dGeomID geom) { return reinterpret_cast<dSpaceID>(geom); };
   check_refused(snCreateEllipsoid(space_of(sphere), 1, 2, 3), "snCreateEllipsoid", "space is a dSphere", "must be a space");
@@ -91,8 +89,7 @@ TEST_CASE("refusals: a geom in place of a space") {
   snBatchDestroy(batch);
 }
 
-TEST_CASE("refusals: a refused change leaves the geom unchanged") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "refusals: a refused change leaves the geom unchanged") {
   const Geom geom(snCreateSuperellipsoid(nullptr, 1, 2, 3, 4, 5));
   REQUIRE(snGeomSetRounding(geom, dReal(0.25)) == 1);
   const Parameters before(geom);
@@ -112,8 +109,7 @@ TEST_CASE("refusals: a refused change leaves the geom unchanged") {
   for (int i = 0; i < 6; ++i) CHECK(box_before[i] == box_after[i]);
 }
 
-TEST_CASE("refusals: geoms of another class or of another kind of body") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "refusals: geoms of another class or of another kind of body") {
   const Geom sphere(dCreateSphere(nullptr, 1));
   dMass mass;
   dReal value = 7;
@@ -132,8 +128,7 @@ TEST_CASE("refusals: geoms of another class or of another kind of body") {
   CHECK(value == 7);
 }
 
-TEST_CASE("refusals: solver settings") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "refusals: solver settings") {
   const Geom geom(snCreateEllipsoid(nullptr, 1, 1, 1));
   const auto check_both = [&](snSolver solver, dReal tolerance, int limit, const char* value, const char* range) {
     check_refused(snGeomSetSolver(geom, solver, tolerance, limit), "snGeomSetSolver", value, range);
@@ -151,8 +146,7 @@ TEST_CASE("refusals: solver settings") {
   }
 }
 
-TEST_CASE("refusals: mass, support, point and proximity") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "refusals: mass, support, point and proximity") {
   const Geom geom(snCreateEllipsoid(nullptr, 1, 1, 1));
   const Geom other(snCreateEllipsoid(nullptr, 1, 1, 1));
   dMass mass;
@@ -206,8 +200,7 @@ TEST_CASE("refusals: mass, support, point and proximity") {
   CHECK(answer.gap == 7);
 }
 
-TEST_CASE("refusals: each thread has its own text of the last error") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "refusals: each thread has its own text of the last error") {
   CHECK(snCreateEllipsoid(nullptr, -1, 1, 1) == nullptr);
   std::string before, after;
   std::thread([&] {
@@ -220,8 +213,7 @@ TEST_CASE("refusals: each thread has its own text of the last error") {
   CHECK(std::string(snLastError()).find("half-axis a") != std::string::npos);
 }
 
-TEST_CASE("a matrix that is not near a rotation is refused by name, and gives no contact and no NaN") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a matrix that is not near a rotation is refused by name, and gives no contact and no NaN") {
   Matrix3 shear = Matrix3::Identity(), mirror = Matrix3::Identity();
   shear(0, 1) = 0.05;
   mirror(2, 2) = -1;
@@ -252,8 +244,7 @@ TEST_CASE("a matrix that is not near a rotation is refused by name, and gives no
   check_refused(box, body, "a dBox");
 }
 
-TEST_CASE("a rotation with three decimals is accepted") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a rotation with three decimals is accepted") {
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
   Matrix3 typed;
   typed << 0.866, -0.5, 0, 0.5, 0.866, 0, 0, 0, 1;

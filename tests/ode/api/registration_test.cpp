@@ -45,8 +45,7 @@ TEST_CASE("registration: the first creation registers the class, and snClose rem
   snClose();  // twice does no harm
 }
 
-TEST_CASE("registration: repeated snInit registers once") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "registration: repeated snInit registers once") {
   REQUIRE(snInit() == 1);
   const int number = snGeomClass();
   for (int i = 0; i < 20; ++i) CHECK(snInit() == 1);
@@ -102,8 +101,7 @@ TEST_CASE("registration: the class can be registered again after snClose") {
   }
 }
 
-TEST_CASE("registration: snClose refuses while geoms are alive") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "registration: snClose refuses while geoms are alive") {
   const dGeomID geom = snCreateEllipsoid(nullptr, 1, 1, 1);
   snClose();
   CHECK(std::string(snLastError()).find("snClose: live geoms = 1") == 0);
@@ -130,8 +128,7 @@ TEST_CASE("registration: without a free class the call is refused and does not a
   snClose();
 }
 
-TEST_CASE("registration: a geom of our class without a body does no harm") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "registration: a geom of our class without a body does no harm") {
   REQUIRE(snInit() == 1);
   const Geom empty(dCreateGeom(snGeomClass()));
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
@@ -145,8 +142,7 @@ TEST_CASE("registration: a geom of our class without a body does no harm") {
   CHECK(snGeomSetRounding(empty, 1) == 0);
 }
 
-TEST_CASE("registration: many threads at once register once") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "registration: many threads at once register once") {
   std::array<int, 8> numbers{};
   std::vector<std::thread> threads;
   threads.reserve(numbers.size());
@@ -161,8 +157,7 @@ TEST_CASE("registration: many threads at once register once") {
   CHECK(register_foreign_class() == snGeomClass() + 1);
 }
 
-TEST_CASE("registration: a geom's data are destroyed with the geom, also by its space") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "registration: a geom's data are destroyed with the geom, also by its space") {
   const dSpaceID space = dHashSpaceCreate(nullptr);
   for (int i = 0; i < 10; ++i) snCreateSuperellipsoid(space, 1, 1, 1, 3, 3);
   snClose();

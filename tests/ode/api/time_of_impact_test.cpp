@@ -61,8 +61,8 @@ class Mover {
 
 }  // namespace
 
-TEST_CASE("time of impact: with every collider the gap is positive before and closes at the impact, in either order") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "time of impact: with every collider the gap is positive before and closes at the impact, in either order") {
   Random random(1);
   const double rounding = within_rounding(1e-8, 50);
   for (const ColliderKind kind : kColliderKinds) {
@@ -112,8 +112,8 @@ TEST_CASE("time of impact: with every collider the gap is positive before and cl
   }
 }
 
-TEST_CASE("time of impact: a body hits a sheet of triangles, at rest, moving or rotating, and misses it beyond its border") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(
+    OdeSession, "time of impact: a body hits a sheet of triangles, at rest, moving or rotating, and misses it beyond its border") {
   const World world;
   const MeshGeom floor(sheet_mesh(20, 20, 0.5));  // 10 m x 10 m from the origin
   const Geom ball(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.4), dReal(0.3)));
@@ -153,8 +153,7 @@ TEST_CASE("time of impact: a body hits a sheet of triangles, at rest, moving or 
   CHECK(gap_of(ball, floor) > 0);
 }
 
-TEST_CASE("time of impact: touching geoms that separate, fly-bys and overlaps have the right status") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "time of impact: touching geoms that separate, fly-bys and overlaps have the right status") {
   const World world;
   const Geom ball(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.5), dReal(0.5)));
   const Geom wall(dCreateBox(nullptr, 2, 2, 2));
@@ -173,8 +172,7 @@ TEST_CASE("time of impact: touching geoms that separate, fly-bys and overlaps ha
   }
 }
 
-TEST_CASE("time of impact: invalid arguments are refused") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "time of impact: invalid arguments are refused") {
   const World world;
   const Geom ball(snCreateEllipsoid(nullptr, 1, 1, 1));
   const Geom box(dCreateBox(nullptr, 1, 1, 1)), other(dCreateBox(nullptr, 1, 1, 1));
@@ -202,8 +200,7 @@ TEST_CASE("time of impact: invalid arguments are refused") {
   CHECK(refused(snGeomTimeOfImpact(box, ball, 10, &impact), "angular velocity of g2 = 5e+74 rad/s"));
 }
 
-TEST_CASE("time of impact: a heightfield without a pose is not asked for its pose") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "time of impact: a heightfield without a pose is not asked for its pose") {
   const World world;
   const Terrain terrain(Terrain::Layout{}, [](int /*i*/, int /*j*/) { return 0.0; });
   const Geom field(dCreateHeightfield(nullptr, terrain.data(), 0));
@@ -220,13 +217,10 @@ TEST_CASE("time of impact: a heightfield without a pose is not asked for its pos
   }
 }
 
-TEST_CASE("time of impact: a heightfield agrees with snGeomProximity") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "time of impact: a heightfield agrees with snGeomProximity") {
   const World world;
-  Terrain::Layout layout;
-  layout.columns = layout.rows = 33;
-  layout.width = layout.depth = 16;
-  const Terrain terrain(layout, [](int i, int j) { return 0.5 * std::sin(0.7 * i) * std::cos(0.5 * j); });
+  const Terrain terrain({.columns = 33, .rows = 33, .width = 16, .depth = 16},
+                        [](int i, int j) { return 0.5 * std::sin(0.7 * i) * std::cos(0.5 * j); });
   const Geom field(dCreateHeightfield(nullptr, terrain.data(), 1));
   const Geom ball(snCreateSuperellipsoid(nullptr, dReal(0.5), dReal(0.4), dReal(0.3), 3, 4));
   Mover mover(world.id(), ball);

@@ -88,24 +88,20 @@ void append(void* lines, dGeomID g1, dGeomID g2, const dContactGeom* contacts, i
 
 using Bits = std::array<unsigned char, sizeof(dReal)>;  // -0 is not 0
 
-bool same_bits(dReal a, dReal b) { return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b); }
+bool are_same(dReal a, dReal b) { return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b); }
 
-bool same_bits(const dReal* a, const dReal* b) {
-  return std::equal(a, a + 3, b, [](dReal x, dReal y) { return same_bits(x, y); });
+bool are_same(const dReal* a, const dReal* b) {
+  return std::equal(a, a + 3, b, [](dReal x, dReal y) { return are_same(x, y); });
 }
 
-bool same_bits(const Line& a, const Line& b) {
-  return a.number1 == b.number1 && a.number2 == b.number2 && same_bits(a.contact.pos, b.contact.pos) &&
-         same_bits(a.contact.normal, b.contact.normal) && same_bits(a.contact.depth, b.contact.depth) &&
+bool are_same(const Line& a, const Line& b) {
+  return a.number1 == b.number1 && a.number2 == b.number2 && are_same(a.contact.pos, b.contact.pos) &&
+         are_same(a.contact.normal, b.contact.normal) && are_same(a.contact.depth, b.contact.depth) &&
          a.contact.side1 == b.contact.side1 && a.contact.side2 == b.contact.side2;
 }
 
-bool same_bits(const std::vector<Line>& a, const std::vector<Line>& b) {
-  if (a.size() != b.size()) return false;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (!same_bits(a[i], b[i])) return false;
-  }
-  return true;
+bool are_same(const std::vector<Line>& a, const std::vector<Line>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Line& x, const Line& y) { return are_same(x, y); });
 }
 
 constexpr int kRoom = 6;
@@ -159,16 +155,31 @@ void backwards(void* pool, int count, void (*task)(void* context, int i), void* 
   for (int i = count - 1; i >= 0; --i) task(context, i);
 }
 
+void ignore(void* /*data*/, dGeomID, dGeomID, const dContactGeom*, int) {}
+
+/// Twenty bodies on one another.
+struct Heap {
+  const OdeSession session;
+  const dSpaceID space = dHashSpaceCreate(nullptr);
+
+  Heap() {
+    Random random(3);
+    for (int i = 0; i < 20; ++i) place(random_body(random, space), 0.3 * random.direction());
+  }
+  ~Heap() { dSpaceDestroy(space); }
+  Heap(const Heap&) = delete;
+  Heap& operator=(const Heap&) = delete;
+};
+
 void check_same(const Account& account, const Account& expected) {
-  CHECK(same_bits(account.lines, expected.lines));
+  CHECK(are_same(account.lines, expected.lines));
   CHECK(std::memcmp(&account.statistics, &expected.statistics, sizeof(snStatistics)) == 0);
   CHECK(account.error == expected.error);
 }
 
 }  // namespace
 
-TEST_CASE("a batch on any number of threads gives the contacts, statistics and errors of sequential calls") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a batch on any number of threads gives the contacts, statistics and errors of sequential calls") {
   for (const int warm_start : {1, 0}) {
     snSetWarmStart(warm_start);
     const Account expected =
@@ -190,8 +201,7 @@ TEST_CASE("a batch on any number of threads gives the contacts, statistics and e
   }
 }
 
-TEST_CASE("a batch skips pairs that the filter rejects, and pairs of one body") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a batch skips pairs that the filter rejects, and pairs of one body") {
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
   const World world;
   const dBodyID body = dBodyCreate(world.id());
@@ -218,8 +228,7 @@ TEST_CASE("a batch skips pairs that the filter rejects, and pairs of one body") 
   dSpaceDestroy(space);
 }
 
-TEST_CASE("a batch enters nested spaces") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a batch enters nested spaces") {
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
   const dSpaceID inner = dSimpleSpaceCreate(space);
   std::size_t number = 0;
@@ -232,8 +241,7 @@ TEST_CASE("a batch enters nested spaces") {
   dSpaceDestroy(space);
 }
 
-TEST_CASE("a batch refuses invalid arguments with a message") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a batch refuses invalid arguments with a message") {
   const auto refusal = [](const auto& call) {
     CHECK(call());
     return std::string(snLastError());
@@ -256,10 +264,7 @@ TEST_CASE("a batch refuses invalid arguments with a message") {
   snBatchDestroy(batch);
 }
 
-TEST_CASE("a batch that is in use refuses another call, from either callback, and is free again afterwards") {
-  const dSpaceID space = dSimpleSpaceCreate(nullptr);
-  Random random(3);
-  for (int i = 0; i < 20; ++i) place(random_body(random, space), 0.3 * random.direction());
+TEST_CASE_FIXTURE(Heap, "a batch that is in use refuses another call, from either callback, and is free again afterwards") {
   struct Calls {
     snBatchID batch;
     dSpaceID space;
@@ -288,34 +293,22 @@ TEST_CASE("a batch that is in use refuses another call, from either callback, an
   CHECK(snBatchCollide(calls.batch, space, 4, &calls, nullptr, contacts) == count);
   CHECK(calls.refused == calls.pairs / 2);
   snBatchDestroy(calls.batch);
-  dSpaceDestroy(space);
 }
 
-TEST_CASE("an exception in a callback of a batch is its error, and the batch and the space are free afterwards") {
-  const OdeSession session;
-  const dSpaceID space = dHashSpaceCreate(nullptr);
-  Random random(3);
-  for (int i = 0; i < 20; ++i) place(random_body(random, space), 0.3 * random.direction());
+TEST_CASE_FIXTURE(Heap, "an exception in a callback of a batch is its error, and the batch and the space are free afterwards") {
   const snBatchID batch = snBatchCreate(2);
   snPairFilter* const broken_filter = [](void*, dGeomID, dGeomID) -> int { throw std::runtime_error("the filter broke"); };
   snContactsCallback* const broken_contacts = [](void*, dGeomID, dGeomID, const dContactGeom*, int) { throw 7; };
-  snContactsCallback* const ignore = [](void*, dGeomID, dGeomID, const dContactGeom*, int) {};
   CHECK(snBatchCollide(batch, space, 4, nullptr, broken_filter, ignore) == -1);
   CHECK(std::string(snLastError()) == "snBatchCollide: the filter broke");
-  place(random_body(random, space), {0, 0, 0});  // ODE would end the program if the space were locked
+  snCreateEllipsoid(space, 1, 1, 1);  // ODE would end the program if the space were locked
   CHECK(snBatchCollide(batch, space, 4, nullptr, nullptr, broken_contacts) == -1);
   CHECK(std::string(snLastError()).find("snBatchCollide: an exception of unknown type") == 0);
   CHECK(snBatchCollide(batch, space, 4, nullptr, nullptr, ignore) > 0);
   snBatchDestroy(batch);
-  dSpaceDestroy(space);
 }
 
-TEST_CASE("a pool that leaves out a task, or repeats one, is refused") {
-  const OdeSession session;
-  const dSpaceID space = dHashSpaceCreate(nullptr);
-  Random random(3);
-  for (int i = 0; i < 20; ++i) place(random_body(random, space), 0.3 * random.direction());
-  snContactsCallback* const ignore = [](void*, dGeomID, dGeomID, const dContactGeom*, int) {};
+TEST_CASE_FIXTURE(Heap, "a pool that leaves out a task, or repeats one, is refused") {
   int change = 0;
   const snBatchID batch = snBatchCreateOn(
       [](void* pool, int count, void (*task)(void*, int), void* context) {
@@ -330,5 +323,4 @@ TEST_CASE("a pool that leaves out a task, or repeats one, is refused") {
   change = 0;
   CHECK(snBatchCollide(batch, space, 4, nullptr, nullptr, ignore) > 0);
   snBatchDestroy(batch);
-  dSpaceDestroy(space);
 }

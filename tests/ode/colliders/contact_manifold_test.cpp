@@ -145,8 +145,8 @@ void lay(dGeomID body, dGeomID under, double angle, double direction, double dep
 
 }  // namespace
 
-TEST_CASE("no load on a flat body jumps while it tilts or comes in deeper, on a plane and a box, at any max_contacts") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "no load on a flat body jumps while it tilts or comes in deeper, on a plane and a box, at any max_contacts") {
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
   const Geom box(dCreateBox(nullptr, dReal(0.5), dReal(0.5), dReal(0.2)));
   dGeomSetPosition(box, dReal(0.02), dReal(0.01), dReal(-0.1));
@@ -181,8 +181,8 @@ TEST_CASE("no load on a flat body jumps while it tilts or comes in deeper, on a 
   }
 }
 
-TEST_CASE("a face has four contacts at any depth up to 30 % of its half-height, and with a smaller max_contacts as many") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "a face has four contacts at any depth up to 30 % of its half-height, and with a smaller max_contacts as many") {
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
   const Geom box(dCreateBox(nullptr, 1, 1, dReal(0.4)));
   const Geom table(snCreateSuperellipsoid(nullptr, dReal(0.5), dReal(0.5), dReal(0.2), 60, 60));

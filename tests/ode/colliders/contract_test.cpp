@@ -81,8 +81,7 @@ bool check_separation(dGeomID body, dGeomID collider, bool body_first) {
 }  // namespace
 
 // The check of ODE's demo_collision.cpp for its own classes.
-TEST_CASE("moved out by 0.96 of a contact's depth geoms still touch, and by another 0.08 they are apart") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "moved out by 0.96 of a contact's depth geoms still touch, and by another 0.08 they are apart") {
   const int repetitions = draws(4000);
   for (const ColliderKind kind : kColliderKinds) {
     CAPTURE(name_of(kind));
@@ -116,8 +115,7 @@ TEST_CASE("moved out by 0.96 of a contact's depth geoms still touch, and by anot
   }
 }
 
-TEST_CASE("both call orders give the same contact with the reversed normal") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "both call orders give the same contact with the reversed normal") {
   Random random(2);
   for (const bool warm_start : {true, false}) {
     snSetWarmStart(warm_start ? 1 : 0);
@@ -146,8 +144,7 @@ TEST_CASE("both call orders give the same contact with the reversed normal") {
   }
 }
 
-TEST_CASE("skip and flags: nothing is written outside of the requested contacts") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "skip and flags: nothing is written outside of the requested contacts") {
   const Geom body(snCreateSuperellipsoid(nullptr, 1, 1, 1, 4, 4));
   const auto colliders = make_colliders_at({0.7, 0.3, 0});
 
@@ -167,8 +164,7 @@ TEST_CASE("skip and flags: nothing is written outside of the requested contacts"
   }
 }
 
-TEST_CASE("the contact array is unchanged when the geoms are apart") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "the contact array is unchanged when the geoms are apart") {
   const Geom body(snCreateEllipsoid(nullptr, 1, 2, 3));
   place(body, {10, 0, 0});
   for (const ColliderGeom& collider : make_colliders_at({12, 3, 0})) {
@@ -180,8 +176,7 @@ TEST_CASE("the contact array is unchanged when the geoms are apart") {
   }
 }
 
-TEST_CASE("geoms of one body do not collide, nor does a geom with itself") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "geoms of one body do not collide, nor does a geom with itself") {
   const World world;
   const dBodyID body = dBodyCreate(world.id());
   {
@@ -195,8 +190,7 @@ TEST_CASE("geoms of one body do not collide, nor does a geom with itself") {
   }
 }
 
-TEST_CASE("a geom whose pose is not finite gives no contact and does not stop a space") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a geom whose pose is not finite gives no contact and does not stop a space") {
   const dReal nan = std::numeric_limits<dReal>::quiet_NaN();
   const dSpaceID space = dHashSpaceCreate(nullptr);
   const dGeomID broken = snCreateEllipsoid(space, 1, 1, 1);
@@ -222,8 +216,7 @@ TEST_CASE("a geom whose pose is not finite gives no contact and does not stop a 
   dSpaceDestroy(space);
 }
 
-TEST_CASE("the depth of points is right at the centre, on the surface and in between") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "the depth of points is right at the centre, on the surface and in between") {
   Random random(41);
   const Geom probe(dCreateSphere(nullptr, 1));
   int outside = 0;
@@ -273,8 +266,8 @@ TEST_CASE("the depth of points is right at the centre, on the surface and in bet
   CHECK(inside > kRepetitions / 10);
 }
 
-TEST_CASE("a block of triangles: moved out by 0.96 of the depth a body still touches, and by another 0.08 it is apart") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "a block of triangles: moved out by 0.96 of the depth a body still touches, and by another 0.08 it is apart") {
   Random random(43);
   int touching = 0;
   for (int i = 0; i < kRepetitions; ++i) {
@@ -288,8 +281,8 @@ TEST_CASE("a block of triangles: moved out by 0.96 of the depth a body still tou
   CHECK(touching > 0.98 * kRepetitions);
 }
 
-TEST_CASE("a domed heightfield: moved out by 0.96 of the depth a body still touches, and by another 0.08 it is apart") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "a domed heightfield: moved out by 0.96 of the depth a body still touches, and by another 0.08 it is apart") {
   Random random(44);
   const Terrain dome({17, 17, 16, 16}, [](int i, int j) { return -0.06 * ((i - 8) * (i - 8) + (j - 8) * (j - 8)); });
   const Geom heightfield(dome.create(true));

@@ -48,8 +48,7 @@ std::vector<Vec> sphere_points(int count) {
 
 }  // namespace
 
-TEST_CASE("dConvex: all vertices are found in any pose") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "dConvex: all vertices are found in any pose") {
   Random random(30);
   const Vector3 axes(0.7, 0.5, 0.9);
   const Geom body(snCreateEllipsoid(nullptr, dReal(axes.x()), dReal(axes.y()), dReal(axes.z())));
@@ -75,8 +74,9 @@ TEST_CASE("dConvex: all vertices are found in any pose") {
   }
 }
 
-TEST_CASE("dConvex: inside a moving dGeomTransform the vertices are found, although ODE's bounding box is of an earlier pose") {
-  OdeSession session;
+TEST_CASE_FIXTURE(
+    OdeSession,
+    "dConvex: inside a moving dGeomTransform the vertices are found, although ODE's bounding box is of an earlier pose") {
   snSetWarmStart(0);
   Random random(32);
   const auto points = random_hull(random);
@@ -104,8 +104,8 @@ TEST_CASE("dConvex: inside a moving dGeomTransform the vertices are found, altho
   CHECK(touching > 100);
 }
 
-TEST_CASE("dConvex: the next query after dGeomSetConvex sees the new vertices, also with an outdated bounding box") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "dConvex: the next query after dGeomSetConvex sees the new vertices, also with an outdated bounding box") {
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
   const ConvexArrays small(box_corners(0.1, 0.1, 0.1));
   const ConvexArrays large(box_corners(1, 1, 1));
@@ -133,8 +133,7 @@ TEST_CASE("dConvex: the next query after dGeomSetConvex sees the new vertices, a
   dSpaceDestroy(space);
 }
 
-TEST_CASE("dConvex: coplanar, repeated, collinear, few and many points are valid") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "dConvex: coplanar, repeated, collinear, few and many points are valid") {
   Random random(33);
   std::vector<Vec> grid;
   for (int x = -3; x <= 3; ++x) {
@@ -187,8 +186,7 @@ TEST_CASE("dConvex: coplanar, repeated, collinear, few and many points are valid
   }
 }
 
-TEST_CASE("dConvex: more vertices than dCollide can list, and vertices that are not finite, are refused") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "dConvex: more vertices than dCollide can list, and vertices that are not finite, are refused") {
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
   snProximity answer;
   const ConvexGeom most(std::vector<Vec>(65534, Vec{0.5, 0, 0}));

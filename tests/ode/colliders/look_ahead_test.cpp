@@ -133,8 +133,7 @@ const Lying kLying[] = {
 
 }  // namespace
 
-TEST_CASE("bullets at 1 to 1000 m/s and steps of 1 to 50 ms: none passes through a wall of any kind") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "bullets at 1 to 1000 m/s and steps of 1 to 50 ms: none passes through a wall of any kind") {
   struct Case {
     std::string name;
     unsigned seed;
@@ -165,8 +164,7 @@ TEST_CASE("bullets at 1 to 1000 m/s and steps of 1 to 50 ms: none passes through
   CHECK(through > 20);
 }
 
-TEST_CASE("bodies that fly into the corner of a mesh in one step stay in front of its floor and both walls") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "bodies that fly into the corner of a mesh in one step stay in front of its floor and both walls") {
   constexpr double kRoom = 40;  // m, half
   constexpr double kSize = 0.1;
   constexpr double kMost = 3;  // sizes a step
@@ -195,8 +193,7 @@ TEST_CASE("bodies that fly into the corner of a mesh in one step stay in front o
   CHECK(behind == 0);
 }
 
-TEST_CASE("two free bodies that meet off centre do not go through each other") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "two free bodies that meet off centre do not go through each other") {
   Random random(12);
   for (const double sizes_a_step : {1.0, 3.0, 8.0, 50.0}) {
     int through = 0;
@@ -235,8 +232,7 @@ TEST_CASE("two free bodies that meet off centre do not go through each other") {
   }
 }
 
-TEST_CASE("a body that meets a wall face on stops at the wall, to a millionth of its size") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a body that meets a wall face on stops at the wall, to a millionth of its size") {
   for (const double speed : {1.0, 10.0, 99.0}) {
     for (const double step : {1e-3, 10e-3, 50e-3}) {
       for (const Wall wall : kWalls) {
@@ -265,8 +261,7 @@ TEST_CASE("a body that meets a wall face on stops at the wall, to a millionth of
   }
 }
 
-TEST_CASE("a blade that turns beside a wall it does not reach keeps its speed, on a hinge and free") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a blade that turns beside a wall it does not reach keeps its speed, on a hinge and free") {
   constexpr double kLength = 0.2;  // m
   for (const Wall wall : kWalls) {
     CAPTURE(static_cast<int>(wall));
@@ -299,8 +294,8 @@ TEST_CASE("a blade that turns beside a wall it does not reach keeps its speed, o
   }
 }
 
-TEST_CASE("a blade that spins on a floor beside a wall it does not reach keeps its spin, also if both are one mesh") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "a blade that spins on a floor beside a wall it does not reach keeps its spin, also if both are one mesh") {
   enum class Room { OneMesh, TwoMeshes, Box };
   for (const Room room : {Room::OneMesh, Room::TwoMeshes, Room::Box}) {
     // At 30 ms a body falls by nine times its half-height within a step.
@@ -340,8 +335,7 @@ TEST_CASE("a blade that spins on a floor beside a wall it does not reach keeps i
   }
 }
 
-TEST_CASE("a body that changes its axis of rotation beside a plane that it does not reach is free") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a body that changes its axis of rotation beside a plane that it does not reach is free") {
   Random random(5);
   for (int draw = 0; draw < 300; ++draw) {
     CAPTURE(draw);
@@ -382,8 +376,9 @@ TEST_CASE("a body that changes its axis of rotation beside a plane that it does 
   }
 }
 
-TEST_CASE("the contacts of a body that turns far in a step are on it, now or with its orientation after the step, in both modes") {
-  OdeSession session;
+TEST_CASE_FIXTURE(
+    OdeSession,
+    "the contacts of a body that turns far in a step are on it, now or with its orientation after the step, in both modes") {
   Random random(8);
   int places = 0;
   for (int draw = 0; draw < 400; ++draw) {
@@ -417,8 +412,7 @@ TEST_CASE("the contacts of a body that turns far in a step are on it, now or wit
   CHECK(places > 200);
 }
 
-TEST_CASE("bodies dropped on a plane, a box and a sheet rest at their height at steps of 2 to 100 ms") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "bodies dropped on a plane, a box and a sheet rest at their height at steps of 2 to 100 ms") {
   for (const Wall wall : {Wall::Plane, Wall::Box, Wall::Mesh}) {
     for (const Lying& lying : kLying) {
       for (const double step : {0.002, 0.02, 0.1}) {
@@ -474,8 +468,7 @@ TEST_CASE("a ball that looks ahead slides and rolls straight on over tiles, at s
   }
 }
 
-TEST_CASE("on slopes below the angle of friction no body creeps") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "on slopes below the angle of friction no body creeps") {
   for (const Lying& lying : kLying) {
     if (lying.is_on_side) continue;
     const bool is_can = lying.half_axes[0] == lying.half_axes[1] && lying.half_axes[2] >= lying.half_axes[0];
@@ -506,8 +499,8 @@ TEST_CASE("on slopes below the angle of friction no body creeps") {
   }
 }
 
-TEST_CASE("there are at most max_contacts contacts ahead, the nearest first, and bullets stop at any max_contacts") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "there are at most max_contacts contacts ahead, the nearest first, and bullets stop at any max_contacts") {
   World world;
   const Front front(world.space(), Wall::Box, 0.01);
   const dGeomID box = dSpaceGetGeom(world.space(), 0);
@@ -543,8 +536,7 @@ TEST_CASE("there are at most max_contacts contacts ahead, the nearest first, and
   }
 }
 
-TEST_CASE("a pair looks ahead by the larger time of both geoms, and two bullets stop each other") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a pair looks ahead by the larger time of both geoms, and two bullets stop each other") {
   for (const double speed : {10.0, 300.0}) {
     World world;
     dWorldSetGravity(world.id(), 0, 0, 0);
@@ -567,8 +559,7 @@ TEST_CASE("a pair looks ahead by the larger time of both geoms, and two bullets 
   }
 }
 
-TEST_CASE("a batch has the same contacts ahead as dCollide") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a batch has the same contacts ahead as dCollide") {
   World world;
   Random random(4);
   REQUIRE(snSetDefaultLookAhead(dReal(0.01)) == 1);

@@ -41,8 +41,7 @@ std::vector<dContactGeom> hit(dGeomID ray, dGeomID body) {
 
 }  // namespace
 
-TEST_CASE("rays hit a spherical body as they hit a dSphere, from outside and inside") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "rays hit a spherical body as they hit a dSphere, from outside and inside") {
   Random random(31);
   const Geom ray(dCreateRay(nullptr, 1));
   int outside = 0, inside = 0, none = 0;
@@ -86,8 +85,7 @@ TEST_CASE("rays hit a spherical body as they hit a dSphere, from outside and ins
   CHECK(none > draws(1000));
 }
 
-TEST_CASE("rays of any valid length hit, and rays of invalid length do not") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "rays of any valid length hit, and rays of invalid length do not") {
   const Geom body(snCreateSuperellipsoid(nullptr, 1, dReal(0.7), dReal(0.5), 4, 3));
   const Geom ray(dCreateRay(nullptr, 0));
   for (const double length : {6.0, 1e10, 1e300, std::numeric_limits<double>::infinity()}) {
@@ -111,8 +109,7 @@ TEST_CASE("rays of any valid length hit, and rays of invalid length do not") {
   CHECK(norm(to_vec(contacts[0].normal) - Vec{-1, 0, 0}) < 1e-9);
 }
 
-TEST_CASE("a ray hits the same when set by dGeomRaySet, by its pose or by a body with an offset") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a ray hits the same when set by dGeomRaySet, by its pose or by a body with an offset") {
   Random random(33);
   const World world;
   for (int k = 0; k < 300; ++k) {
@@ -146,8 +143,7 @@ TEST_CASE("a ray hits the same when set by dGeomRaySet, by its pose or by a body
   }
 }
 
-TEST_CASE("a ray with any max_contacts is counted in the statistics") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a ray with any max_contacts is counted in the statistics") {
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
   const Geom ray(dCreateRay(nullptr, 10));
   aim(ray, {-3, 0.5, 0}, {1, 0, 0}, 10);
@@ -164,8 +160,7 @@ TEST_CASE("a ray with any max_contacts is counted in the statistics") {
   CHECK(statistics.not_converged == 0);
 }
 
-TEST_CASE("snGeomProximity of a body and a ray returns the distance of the segment") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "snGeomProximity of a body and a ray returns the distance of the segment") {
   Random random(35);
   const Geom ray(dCreateRay(nullptr, 1));
   for (int k = 0; k < 500; ++k) {

@@ -18,9 +18,9 @@ namespace {
 
 /// A floor and its frame: `up` is its normal.
 struct SeamedFloor {
-  std::vector<std::unique_ptr<MeshGeom>> tiles;
-  std::vector<std::unique_ptr<Terrain>> terrains;
-  std::vector<Geom> fields;
+  std::vector<std::unique_ptr<MeshGeom>> tiles = {};
+  std::vector<std::unique_ptr<Terrain>> terrains = {};
+  std::vector<Geom> fields = {};
   Vec origin{0, 0, 0};
   Vec along{1, 0, 0};
   Vec across{0, 1, 0};
@@ -90,11 +90,7 @@ SeamedFloor lay(Laying laying, bool is_tilted, double apart = 0, double far = 0)
 
 /// Four level heightfields side by side, with the y axis up.
 SeamedFloor lay_heightfields() {
-  SeamedFloor floor;
-  floor.along = {0, 0, 1};
-  floor.across = {1, 0, 0};
-  floor.up = {0, 1, 0};
-  floor.rounding = 1e-11;
+  SeamedFloor floor{.along = {0, 0, 1}, .across = {1, 0, 0}, .up = {0, 1, 0}, .rounding = 1e-11};
   for (const double x : {-0.5, 0.5}) {
     for (const double z : {-0.5, 0.5}) {
       floor.terrains.push_back(std::make_unique<Terrain>(Terrain::Layout{3, 3, 1, 1}, [](int, int) { return 0.0; }));
@@ -152,8 +148,8 @@ void stand_on(const SeamedFloor& floor, dGeomID geom) {
 
 }  // namespace
 
-TEST_CASE("a body anywhere on a floor with seams has the normal and the depth of the plane" * doctest::skip(kIsSinglePrecision)) {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a body anywhere on a floor with seams has the normal and the depth of the plane" *
+                                  doctest::skip(kIsSinglePrecision)) {
   for (const Row& row : rows()) {
     CAPTURE(row.name);
     const SeamedFloor floor = row.lay();
@@ -191,8 +187,7 @@ TEST_CASE("a body anywhere on a floor with seams has the normal and the depth of
   }
 }
 
-TEST_CASE("a body slides over seams as it slides over a plane" * doctest::skip(kIsSinglePrecision)) {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a body slides over seams as it slides over a plane" * doctest::skip(kIsSinglePrecision)) {
   for (const Row& row : rows()) {
     CAPTURE(row.name);
     const SeamedFloor floor = row.lay();
@@ -221,8 +216,8 @@ TEST_CASE("a body slides over seams as it slides over a plane" * doctest::skip(k
   }
 }
 
-TEST_CASE("an overhanging body stays on the border of a sheet, and falls when its middle is beyond the border") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "an overhanging body stays on the border of a sheet, and falls when its middle is beyond the border") {
   for (const double beyond : {-0.02, 0.02}) {
     for (const Faller kind : {Faller::Ball, Faller::Brick, Faller::Can}) {
       CAPTURE(beyond);

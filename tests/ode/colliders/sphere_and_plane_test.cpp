@@ -67,8 +67,7 @@ struct EggParameters {
 
 }  // namespace
 
-TEST_CASE("spherical bodies collide as dSphere does with dSphere, dPlane and one another") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "spherical bodies collide as dSphere does with dSphere, dPlane and one another") {
   Random random(10);
   for (int i = 0; i < 500; ++i) {
     CAPTURE(i);
@@ -101,8 +100,7 @@ TEST_CASE("spherical bodies collide as dSphere does with dSphere, dPlane and one
   }
 }
 
-TEST_CASE("capsule: size, mass and depth are equal to ODE's") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "capsule: size, mass and depth are equal to ODE's") {
   const Geom ours(snCreateCapsule(nullptr, kRadius, kLength));
   REQUIRE(ours != nullptr);
   const Geom odes(dCreateCapsule(nullptr, kRadius, kLength));
@@ -130,8 +128,9 @@ TEST_CASE("capsule: size, mass and depth are equal to ODE's") {
   }
 }
 
-TEST_CASE("capsule: a capsule that falls on its side, slightly tilted, stays still at any step and max_contacts, on any geom") {
-  OdeSession session;
+TEST_CASE_FIXTURE(
+    OdeSession,
+    "capsule: a capsule that falls on its side, slightly tilted, stays still at any step and max_contacts, on any geom") {
   for (const bool is_on_box : {false, true}) {
     for (const double step : {0.005, 0.02, 0.05}) {
       for (const int room : {2, 3, 4, 8}) {
@@ -162,16 +161,14 @@ TEST_CASE("capsule: a capsule that falls on its side, slightly tilted, stays sti
   }
 }
 
-TEST_CASE("capsule: invalid parameters are refused") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "capsule: invalid parameters are refused") {
   CHECK(refused(snCreateCapsule(nullptr, 0, 1), "snCreateCapsule: radius = 0"));
   CHECK(refused(snCreateCapsule(nullptr, 1, -1), "snCreateCapsule: length = -1"));
   const Geom ball(snCreateCapsule(nullptr, 1, 0));
   CHECK(ball != nullptr);
 }
 
-TEST_CASE("superovoid: parameters are kept, changed and refused") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "superovoid: parameters are kept, changed and refused") {
   const Geom egg(snCreateSuperovoid(nullptr, 3, 2, 1, 2.5, 4, 0.5, 0.5));
   REQUIRE(egg != nullptr);
   const EggParameters first(egg);
@@ -196,8 +193,7 @@ TEST_CASE("superovoid: parameters are kept, changed and refused") {
   CHECK(refused(snCreateSuperovoid(nullptr, 1, -1, 1, 2, 3, 0, 0), "half-axis b = -1 m"));
 }
 
-TEST_CASE("superovoid: the functions of one kind of body refuse other kinds") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "superovoid: the functions of one kind of body refuse other kinds") {
   const Geom egg(snCreateSuperovoid(nullptr, 3, 2, 1, 2, 2, 0, 0));
   const Geom ellipsoid(snCreateEllipsoid(nullptr, 3, 2, 1));
   CHECK(refused(snGeomSuperovoidSetParams(ellipsoid, 1, 1, 1, 2, 2, 0, 0), "geom is a superellipsoid, but must be a superovoid"));
@@ -205,8 +201,7 @@ TEST_CASE("superovoid: the functions of one kind of body refuse other kinds") {
                 "geom is a superovoid, but must be an ellipsoid or a superellipsoid"));
 }
 
-TEST_CASE("superovoid: an egg has the mass and the centre of mass of the closed form") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "superovoid: an egg has the mass and the centre of mass of the closed form") {
   const double a = 0.3, c = 0.4, taper = 0.3, density = 1000;
   const Geom egg(snCreateSuperovoid(nullptr, dReal(a), dReal(a), dReal(c), 2, 2, dReal(taper), dReal(taper)));
   dMass mass;

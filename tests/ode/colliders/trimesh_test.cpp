@@ -155,8 +155,7 @@ void check_is_plane(dGeomID floor, dGeomID plane, const Vec& middle, double cell
 
 }  // namespace
 
-TEST_CASE("a floor of triangles gives the contacts of a dPlane, in both orders") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a floor of triangles gives the contacts of a dPlane, in both orders") {
   Random random(31);
   const MeshGeom floor(sheet_mesh(60, 60, 0.125));
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
@@ -189,8 +188,7 @@ TEST_CASE("a floor of triangles gives the contacts of a dPlane, in both orders")
   CHECK(contacts > 1500);
 }
 
-TEST_CASE("the distance of a mesh is the distance of its nearest triangle, at any distance") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "the distance of a mesh is the distance of its nearest triangle, at any distance") {
   Random random(34);
   const MeshGeom block(box_mesh({1, 0.75, 0.5}));
   for (int i = 0; i < 300; ++i) {
@@ -230,8 +228,9 @@ TEST_CASE("the distance of a mesh is the distance of its nearest triangle, at an
   }
 }
 
-TEST_CASE("a body in a corner of a mesh room has one contact for each wall, and with a smaller max_contacts the deepest ones") {
-  OdeSession session;
+TEST_CASE_FIXTURE(
+    OdeSession,
+    "a body in a corner of a mesh room has one contact for each wall, and with a smaller max_contacts the deepest ones") {
   const MeshGeom room(box_mesh({3, 4, 5}, true));
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
   place(body, {2.0625, -3.125, 4.25});
@@ -258,8 +257,8 @@ TEST_CASE("a body in a corner of a mesh room has one contact for each wall, and 
   for (const Spaced& s : spaced) CHECK(std::all_of(s.between.begin(), s.between.end(), [](char c) { return c == 'x'; }));
 }
 
-TEST_CASE("a flat body in a corner of a mesh room has a contact with each wall, and equal shares of the others") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "a flat body in a corner of a mesh room has a contact with each wall, and equal shares of the others") {
   const MeshGeom room(box_mesh({3, 4, 5}, true));
   const Geom body(snCreateSuperellipsoid(nullptr, dReal(0.3), dReal(0.2), dReal(0.25), 40, 40));
   place(body, {3 - 0.295, 4 - 0.195, 5 - 0.245});
@@ -278,8 +277,7 @@ TEST_CASE("a flat body in a corner of a mesh room has a contact with each wall, 
   }
 }
 
-TEST_CASE("a query of a body that looks ahead at a mesh is counted") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a query of a body that looks ahead at a mesh is counted") {
   const MeshGeom floor(sheet_mesh(2, 2, 1));
   const dWorldID world = dWorldCreate();
   {
@@ -300,8 +298,7 @@ TEST_CASE("a query of a body that looks ahead at a mesh is counted") {
   dWorldDestroy(world);
 }
 
-TEST_CASE("the callbacks of a mesh are called and stay set") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "the callbacks of a mesh are called and stay set") {
   const MeshGeom floor(sheet_mesh(8, 8, 0.5));
   const Geom body(snCreateEllipsoid(nullptr, dReal(0.4), dReal(0.4), dReal(0.4)));
   dGeomTriMeshSetCallback(floor, wants_even);
@@ -344,10 +341,10 @@ TEST_CASE("meshes collide after ODE was closed and opened again, and ignore bodi
   }
 }
 
-TEST_CASE(
+TEST_CASE_FIXTURE(
+    OdeSession,
     "the gap of a body and a mesh with hollows is minus the depth of the deepest contact, and a gap that is not positive has a "
     "contact") {
-  OdeSession session;
   Random random(82);
   std::size_t contact_count = 0;
   for (const TriangleMesh& arrays : hollow_meshes()) {
@@ -375,8 +372,7 @@ TEST_CASE(
   CHECK(contact_count > draws(750));
 }
 
-TEST_CASE("a slope of rounded vertices has the contacts of a plane" * doctest::skip(kIsSinglePrecision)) {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a slope of rounded vertices has the contacts of a plane" * doctest::skip(kIsSinglePrecision)) {
   for (const double slope : {0.05, 1.0}) {
     for (const double away : {0.0, 1000.0}) {
       for (const double cell : {0.02, 1.0}) {
@@ -404,8 +400,7 @@ TEST_CASE("a slope of rounded vertices has the contacts of a plane" * doctest::s
   }
 }
 
-TEST_CASE("two slopes of rounded vertices that meet at 1e-3 rad are no plane") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "two slopes of rounded vertices that meet at 1e-3 rad are no plane") {
   const Vec up = (1 / std::sqrt(1.09)) * Vec{0, -0.3, 1}, middle = {10, 10, 3};
   const MeshGeom valley(sheet(middle, 0.1, [](double x, double y) { return 0.3 * y + 5e-4 * std::abs(x - 10); }));
   const Geom ball(snCreateEllipsoid(nullptr, 10, 10, 10));

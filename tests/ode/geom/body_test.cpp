@@ -54,8 +54,7 @@ TEST_CASE("body: a copy has the sizes of the rounded body, and a serial number o
   CHECK(copy->serial() > body->serial());
 }
 
-TEST_CASE("rotations that ODE computes in double precision are used unchanged") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "rotations that ODE computes in double precision are used unchanged") {
   if (std::numeric_limits<dReal>::epsilon() > 1e-10)
     return;  // rotations in single precision are not orthonormal to double precision
   RotationDraw draw;
@@ -73,8 +72,7 @@ TEST_CASE("rotations that ODE computes in double precision are used unchanged") 
   }
 }
 
-TEST_CASE("the nearest rotation is orthonormal to rounding, and no farther away than the error") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "the nearest rotation is orthonormal to rounding, and no farther away than the error") {
   RotationDraw draw;
   const Geom geom(dCreateSphere(nullptr, 1));
   for (const double size : {1e-13, 1e-10, 1e-7, 1e-5, 1e-3}) {
@@ -91,8 +89,7 @@ TEST_CASE("the nearest rotation is orthonormal to rounding, and no farther away 
   }
 }
 
-TEST_CASE("rotations with entries that are not finite are passed to the core") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "rotations with entries that are not finite are passed to the core") {
   const Geom geom(dCreateSphere(nullptr, 1));
   for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Matrix3 R = Matrix3::Identity();

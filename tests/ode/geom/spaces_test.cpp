@@ -121,8 +121,7 @@ struct Box {
 
 }  // namespace
 
-TEST_CASE("every space finds exactly the touching pairs") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "every space finds exactly the touching pairs") {
   for (const SpaceKind& kind : space_kinds()) {
     CAPTURE(kind.name);
     const dSpaceID space = kind.create();
@@ -138,8 +137,7 @@ TEST_CASE("every space finds exactly the touching pairs") {
   }
 }
 
-TEST_CASE("a plane that no body touches causes no near callback") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a plane that no body touches causes no near callback") {
   const std::vector<std::array<dReal, 4>> planes = {
       {0, 0, 1, -8}, {1, 0, 0, -8}, {0, -1, 0, -8}, {dReal(0.6), dReal(0.48), dReal(0.64), -12}};
   for (const SpaceKind& kind : space_kinds()) {
@@ -161,8 +159,8 @@ TEST_CASE("a plane that no body touches causes no near callback") {
   }
 }
 
-TEST_CASE("a box whose corner is in a body's bounding box but not near the body is culled, and a near one is not") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "a box whose corner is in a body's bounding box but not near the body is culled, and a near one is not") {
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
   snCreateEllipsoid(space, 1, 1, 1);
   const dGeomID box = dCreateBox(space, 1, 1, 1);
@@ -180,8 +178,7 @@ TEST_CASE("a box whose corner is in a body's bounding box but not near the body 
   dSpaceDestroy(space);
 }
 
-TEST_CASE("a body inside a dGeomTransform has the contacts of the body itself") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a body inside a dGeomTransform has the contacts of the body itself") {
   snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is accurate to the root of the tolerance
   Random random(5);
   const Geom transform(dCreateGeomTransform(nullptr));
@@ -205,8 +202,7 @@ TEST_CASE("a body inside a dGeomTransform has the contacts of the body itself") 
   CHECK(touching > 200);
 }
 
-TEST_CASE("a collider inside a dGeomTransform has the contacts of the collider itself") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a collider inside a dGeomTransform has the contacts of the collider itself") {
   snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is accurate to the root of the tolerance
   Random random(8);
   const Geom transform(dCreateGeomTransform(nullptr));
@@ -226,8 +222,7 @@ TEST_CASE("a collider inside a dGeomTransform has the contacts of the collider i
   }
 }
 
-TEST_CASE("a geom offset moves the geom, not the body") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a geom offset moves the geom, not the body") {
   const World world;
   snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is accurate to the root of the tolerance
   Random random(6);
@@ -265,8 +260,7 @@ TEST_CASE("a geom offset moves the geom, not the body") {
   }
 }
 
-TEST_CASE("the bounding box contains the support points, also far from the origin") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "the bounding box contains the support points, also far from the origin") {
   Random random(9);
   for (int i = 0; i < 2000; ++i) {
     const Geom geom(random_body(random));
@@ -287,8 +281,7 @@ TEST_CASE("the bounding box contains the support points, also far from the origi
   }
 }
 
-TEST_CASE("the bounding box follows the parameters, the rounding and the pose") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "the bounding box follows the parameters, the rounding and the pose") {
   const Geom geom(snCreateEllipsoid(nullptr, 1, 2, 3));
   const auto check_half = [&](double x, double y, double z) {
     const Box box(geom);

@@ -76,8 +76,7 @@ class OwnShape final : public Shape {
 
 }  // namespace
 
-TEST_CASE("user shape: the contacts are those of the built-in body of the same form") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "user shape: the contacts are those of the built-in body of the same form") {
   // The functions of a user shape return dReals. In single precision the query converges only to this rounding.
   snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(within_rounding(1e-9, 100)), 1000);
   Random random(12);
@@ -105,8 +104,7 @@ TEST_CASE("user shape: the contacts are those of the built-in body of the same f
   }
 }
 
-TEST_CASE("user shape: release is called once, when the geom is destroyed, and never after a refusal") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "user shape: release is called once, when the geom is destroyed, and never after a refusal") {
   Egg egg;
   const snShape good = describe(egg, true);
   const dGeomID geom = snCreateConvex(nullptr, &good);
@@ -128,8 +126,7 @@ TEST_CASE("user shape: release is called once, when the geom is destroyed, and n
   CHECK(egg.released == 1);
 }
 
-TEST_CASE("user shape: the parameters of a superellipsoid are refused") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "user shape: the parameters of a superellipsoid are refused") {
   Egg egg;
   const snShape shape = describe(egg, false);
   const Geom geom(snCreateConvex(nullptr, &shape));
@@ -139,8 +136,7 @@ TEST_CASE("user shape: the parameters of a superellipsoid are refused") {
   CHECK(a == 7);
 }
 
-TEST_CASE("user shape: an exception in a callback becomes the error of the call and does not reach ODE") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "user shape: an exception in a callback becomes the error of the call and does not reach ODE") {
   Egg egg;
   const snShape shape = describe(egg, true);
   const dSpaceID space = dHashSpaceCreate(nullptr);
@@ -164,8 +160,8 @@ TEST_CASE("user shape: an exception in a callback becomes the error of the call 
   CHECK(egg.released == 1);
 }
 
-TEST_CASE("user shape: callbacks that later return no number, no width or a reversed body are refused, and nothing hangs") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "user shape: callbacks that later return no number, no width or a reversed body are refused, and nothing hangs") {
   Egg egg;
   const snShape shape = describe(egg, false);
   const Geom geom(snCreateConvex(nullptr, &shape));
@@ -197,8 +193,7 @@ TEST_CASE("user shape: callbacks that later return no number, no width or a reve
   }
 }
 
-TEST_CASE("user shape: an exception in release becomes the last error and does not end the program") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "user shape: an exception in release becomes the last error and does not end the program") {
   Egg egg;
   snShape shape = describe(egg, false);
   shape.release = [](void*) { throw std::runtime_error("the egg sticks"); };
@@ -206,8 +201,7 @@ TEST_CASE("user shape: an exception in release becomes the last error and does n
   CHECK(std::string(snLastError()) == "release: the egg sticks");
 }
 
-TEST_CASE("a class of one's own collides in ODE as the ellipsoid that it is, and lives as long as its geom") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a class of one's own collides in ODE as the ellipsoid that it is, and lives as long as its geom") {
   auto shape = std::make_shared<const OwnShape>();
   const std::weak_ptr<const OwnShape> alive = shape;
   {
@@ -233,8 +227,7 @@ TEST_CASE("a class of one's own collides in ODE as the ellipsoid that it is, and
   CHECK(alive.expired());
 }
 
-TEST_CASE("a geom of a known C++ shape is the geom that the C interface makes") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a geom of a known C++ shape is the geom that the C interface makes") {
   const Geom geom(ode::create_geom(
       nullptr, std::make_shared<const Rounded>(std::make_shared<const Superellipsoid>(Vector3(0.3, 0.2, 0.1), 4, 6), 0.05)));
   dReal a = 0, b = 0, c = 0, delta = 0, epsilon = 0;
@@ -245,8 +238,7 @@ TEST_CASE("a geom of a known C++ shape is the geom that the C interface makes") 
   CHECK(std::string(text.data()).find("radius=0.05)") != std::string::npos);
 }
 
-TEST_CASE("mistakes in a C++ shape are refused with what is wrong") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "mistakes in a C++ shape are refused with what is wrong") {
   const auto says = [](const std::shared_ptr<const Shape>& shape, const char* text) {
     CHECK_THROWS_WITH_AS(ode::create_geom(nullptr, shape), doctest::Contains(text), std::invalid_argument);
   };

@@ -1,4 +1,5 @@
-// Tests that colliders do not allocate. counted_allocations.cpp replaces operator new for everything in this executable.
+// Tests that neither colliders nor the stepper allocate. counted_allocations.cpp replaces operator new for everything in this
+// executable.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -8,14 +9,14 @@
 #include "ode/collider_fixture.hpp"
 #include "ode/mesh_fixture.hpp"
 #include "ode/terrain.hpp"
+#include "stepper/stepper_world.hpp"
 #include "supernormal/effects.hpp"
 #include "support/counted_allocations.hpp"
 #include "support/ode_world.hpp"
 
 using namespace supernormal::test;
 
-TEST_CASE("after the first call no collider, bounding box or query allocates") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "after the first call no collider, bounding box or query allocates") {
   {
     const long before = allocations();
     const Geom counted(snCreateEllipsoid(nullptr, 1, 1, 1));
@@ -72,8 +73,7 @@ TEST_CASE("after the first call no collider, bounding box or query allocates") {
   CHECK(contacts_seen > 1000);
 }
 
-TEST_CASE("after the first batch no batch allocates") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "after the first batch no batch allocates") {
   Random random(27);
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
   std::vector<dGeomID> bodies;
@@ -123,4 +123,26 @@ TEST_CASE("effects set up contacts and add forces without allocation") {
     effects.apply_forces();
   }
   CHECK(allocations() == before);
+}
+
+TEST_CASE("once warm, no step allocates") {
+  StepperWorld scene(0.01, dSimpleSpaceCreate);  // ODE's hash space allocates
+  scene.surface.mode |= dContactRolling | dContactBounce;
+  scene.surface.mu = dReal(0.5);
+  scene.surface.rho = dReal(1e-4);
+  scene.surface.bounce = dReal(0.3);
+  scene.world.add_plane();
+  for (int i = 0; i < 6; ++i) {
+    const dBodyID below = scene.add_brick(i % 2 == 0 ? 8 : 2, 1000, {0.3 * i, 0, 0.06});
+    const dBodyID above = scene.add_brick(i % 2 == 0 ? 8 : 2, 1000, {0.3 * i, 0, 0.18});
+    if (i < 3) continue;
+    const dJointID hinge = dJointCreateHinge(scene.world.id(), nullptr);
+    dJointAttach(hinge, above, below);
+    dJointSetHingeAnchor(hinge, dReal(0.3 * i), 0, dReal(0.12));
+  }
+  scene.run(0.3);
+  const long before = allocations();
+  scene.run(0.3);
+  CHECK(allocations() == before);
+  CHECK(scene.contacts > 12);
 }

@@ -73,8 +73,8 @@ class Walk {
 
 }  // namespace
 
-TEST_CASE("pairs that cannot have met: the contacts of a query, bit for bit, for every size, motion and solver") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "pairs that cannot have met: the contacts of a query, bit for bit, for every size, motion and solver") {
   Random random(91);
   unsigned long long skipped = 0, asked = 0, touched = 0;
   for (const snSolver solver : {SN_SOLVER_HYBRID, SN_SOLVER_NEWTON, SN_SOLVER_FIXED_POINT}) {
@@ -126,8 +126,7 @@ TEST_CASE("pairs that cannot have met: the bound holds for every motion, and is 
   }
 }
 
-TEST_CASE("pairs that cannot have met: a user's shape may grow without notice, and is asked every time") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "pairs that cannot have met: a user's shape may grow without notice, and is asked every time") {
   dReal axes[3] = {1, 1, 1};
   const snShape shape = {ellipsoid_support, ellipsoid_point, nullptr, axes, nullptr};
   const Geom one(snCreateConvex(nullptr, &shape)), other(snCreateEllipsoid(nullptr, 1, 1, 1));
@@ -138,8 +137,7 @@ TEST_CASE("pairs that cannot have met: a user's shape may grow without notice, a
   CHECK(collide(one, other).size() == 1);
 }
 
-TEST_CASE("pairs that cannot have met: a jump into contact is found") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "pairs that cannot have met: a jump into contact is found") {
   const Geom one(snCreateEllipsoid(nullptr, 1, 1, 1)), other(snCreateSuperellipsoid(nullptr, 1, 1, 1, 4, 4));
   const Vec apart = {3, 0, 0};
   for (const Vec& near : {Vec{1.9, 0, 0}, Vec{-1.9, 0, 0}, Vec{0, 0, 1.9}, Vec{0, 0, 0}}) {
@@ -151,8 +149,7 @@ TEST_CASE("pairs that cannot have met: a jump into contact is found") {
 }
 
 // The gap of balls is known at the line of their centres only, and so is what may be remembered of it.
-TEST_CASE("balls that pass one another and then meet: no contact is missed") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "balls that pass one another and then meet: no contact is missed") {
   const Geom one(snCreateEllipsoid(nullptr, 1, 1, 1)), other(snCreateEllipsoid(nullptr, 1, 1, 1));
   for (const double angle : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
     place(other, {2.3 * std::cos(angle), 2.3 * std::sin(angle), 0});

@@ -96,8 +96,7 @@ struct Scene {
 
 }  // namespace
 
-TEST_CASE("warm start: a touching pair that hardly moved costs two evaluations") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "warm start: a touching pair that hardly moved costs two evaluations") {
   Random random(25);
   std::vector<unsigned long long> counts;
   for (int i = 0; i < 100; ++i) {
@@ -115,8 +114,7 @@ TEST_CASE("warm start: a touching pair that hardly moved costs two evaluations")
   CHECK(counts[counts.size() / 2] <= 2);
 }
 
-TEST_CASE("warm start: the contacts are the same as from a cold start, within the tolerance") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "warm start: the contacts are the same as from a cold start, within the tolerance") {
   auto pile = make_pile(6);
   const auto warm = two_steps(pile);
   CHECK(statistics().queries_warm > 0);
@@ -138,8 +136,7 @@ TEST_CASE("warm start: the contacts are the same as from a cold start, within th
   CHECK(shallow > 50);
 }
 
-TEST_CASE("warm start: the same scene built again gives the same bits, at any addresses and cache contents") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "warm start: the same scene built again gives the same bits, at any addresses and cache contents") {
   constexpr int kPerSide = 8;  // 130 816 pairs, as many as the table holds: some are evicted, the same ones in every run
   std::vector<dContactGeom> first;
   {
@@ -153,8 +150,7 @@ TEST_CASE("warm start: the same scene built again gives the same bits, at any ad
   CHECK(same_bits(two_steps(pile), first));
 }
 
-TEST_CASE("warm start: a pair that the program has moved far starts cold, with the answer of a cold start") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "warm start: a pair that the program has moved far starts cold, with the answer of a cold start") {
   Random random(27);
   for (int i = 0; i < 400; ++i) {
     CAPTURE(i);
@@ -191,8 +187,7 @@ TEST_CASE("warm start: a pair that the program has moved far starts cold, with t
   }
 }
 
-TEST_CASE("warm start: a pair that has rotated far starts cold") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "warm start: a pair that has rotated far starts cold") {
   const Geom g1(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 8, 8));
   const Geom g2(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 8, 8));
   place(g2, {1.2, 0.4, 0.3});
@@ -211,8 +206,7 @@ TEST_CASE("warm start: a pair that has rotated far starts cold") {
   CHECK_FALSE(is_warm_after_turn(0.7));
 }
 
-TEST_CASE("warm start: a pair with a changed shape starts cold, with the answer of a cold start") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "warm start: a pair with a changed shape starts cold, with the answer of a cold start") {
   Random random(28);
   const auto half = [&] { return dReal(random.uniform(0.4, 1)); };
   const auto exponent = [&] { return dReal(random.uniform(0, 1) < 0.5 ? random.uniform(1.1, 2) : random.uniform(10, 100)); };
@@ -269,8 +263,7 @@ TEST_CASE("warm start: a pair with a changed shape starts cold, with the answer 
   }
 }
 
-TEST_CASE("warm start: a geom at the address of a destroyed one starts cold") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "warm start: a geom at the address of a destroyed one starts cold") {
   const Geom g1(snCreateEllipsoid(nullptr, 1, dReal(0.8), dReal(0.6)));
   for (int i = 0; i < 20; ++i) {
     const Geom g2(snCreateEllipsoid(nullptr, 1, 1, dReal(0.7)));
@@ -281,8 +274,7 @@ TEST_CASE("warm start: a geom at the address of a destroyed one starts cold") {
   }
 }
 
-TEST_CASE("warm start: two threads at a time find the contacts of one") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "warm start: two threads at a time find the contacts of one") {
   for (const bool warm_start : {false, true}) {
     CAPTURE(warm_start);
     snSetWarmStart(warm_start ? 1 : 0);
@@ -301,10 +293,10 @@ TEST_CASE("warm start: two threads at a time find the contacts of one") {
   }
 }
 
-TEST_CASE(
+TEST_CASE_FIXTURE(
+    OdeSession,
     "warm start with every collider: from the second time on a separated pair costs one evaluation, and none if it cannot have "
     "met") {
-  OdeSession session;
   Random random(62);
   for (const ColliderKind kind : kSolidKinds) {
     CAPTURE(name_of(kind));
@@ -327,8 +319,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a body that rolls across a wide dBox keeps its warm start, at three evaluations") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a body that rolls across a wide dBox keeps its warm start, at three evaluations") {
   const Geom floor(dCreateBox(nullptr, 100, 100, 1));
   const Geom ball(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.45), dReal(0.4)));
   constexpr int kSteps = 1000;
@@ -344,8 +335,7 @@ TEST_CASE("a body that rolls across a wide dBox keeps its warm start, at three e
   CHECK(s.evaluations_warm < 3 * s.queries_warm);
 }
 
-TEST_CASE("warm start with every collider: in a new place the answer is the answer of a cold start") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "warm start with every collider: in a new place the answer is the answer of a cold start") {
   Random random(63);
   for (const ColliderKind kind : kSolidKinds) {
     CAPTURE(name_of(kind));
@@ -372,8 +362,9 @@ TEST_CASE("warm start with every collider: in a new place the answer is the answ
   }
 }
 
-TEST_CASE("warm start with every collider: the same scene built again gives the same bits, at any addresses and cache contents") {
-  OdeSession session;
+TEST_CASE_FIXTURE(
+    OdeSession,
+    "warm start with every collider: the same scene built again gives the same bits, at any addresses and cache contents") {
   std::vector<dContactGeom> first;
   {
     Scene scene;

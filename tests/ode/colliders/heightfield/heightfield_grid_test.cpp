@@ -93,8 +93,7 @@ void check_triangles(std::span<const MeshTriangle> triangles, const Terrain& ter
 
 }  // namespace
 
-TEST_CASE("the grid of every landscape is found at any place, finite or infinite") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "the grid of every landscape is found at any place, finite or infinite") {
   Random random(31);
   for (const Landscape& landscape : landscapes()) {
     CAPTURE(landscape.name);
@@ -124,8 +123,7 @@ TEST_CASE("the grid of every landscape is found at any place, finite or infinite
   }
 }
 
-TEST_CASE("small grids and long cells are found") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "small grids and long cells are found") {
   for (const std::pair<int, int>& size : {std::pair(2, 2), std::pair(2, 3), std::pair(3, 2), std::pair(3, 3), std::pair(2, 40)}) {
     const int columns = size.first;
     const int rows = size.second;
@@ -147,8 +145,7 @@ TEST_CASE("small grids and long cells are found") {
   check_triangles(patch.read(HeightfieldProbe::looking_at(geom), region), terrain, region);
 }
 
-TEST_CASE("the vertices of the triangles are the samples, from every source") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "the vertices of the triangles are the samples, from every source") {
   Random random(32);
   for (const Source source : {Source::Callback, Source::Byte, Source::Short, Source::Single, Source::Double}) {
     CAPTURE(static_cast<int>(source));
@@ -171,8 +168,7 @@ TEST_CASE("the vertices of the triangles are the samples, from every source") {
   }
 }
 
-TEST_CASE("a query sees the changes of the program") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a query sees the changes of the program") {
   Terrain terrain({9, 9, 8, 8}, rough(6, 1));
   const Geom geom(terrain.create());
   HeightfieldPatch patch;
@@ -190,8 +186,7 @@ TEST_CASE("a query sees the changes of the program") {
   check_triangles(patch.read(HeightfieldProbe::looking_at(geom), region), terrain, region);
 }
 
-TEST_CASE("a heightfield built anew, or another one at its address, is read again") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a heightfield built anew, or another one at its address, is read again") {
   Random random(33);
   const std::vector<Landscape> all = landscapes();
   constexpr std::array<int, 10> kCounts = {3, 4, 5, 6, 7, 9, 11, 13, 17, 33};  // some are finer than others by a whole factor
@@ -221,8 +216,7 @@ TEST_CASE("a heightfield built anew, or another one at its address, is read agai
   CHECK(wrong <= (kIsSinglePrecision ? 3000 / 240 : 0));
 }
 
-TEST_CASE("the grid of an infinite heightfield is valid far from the origin") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "the grid of an infinite heightfield is valid far from the origin") {
   const Terrain terrain({7, 9, 2.3, 3.1, true}, rough(11, 0.3));
   const Geom geom(terrain.create());
   for (const double far : {-1e3, 1e4, -1e5}) {
@@ -248,8 +242,7 @@ TEST_CASE("the grid of an infinite heightfield is valid far from the origin") {
   CHECK_THROWS_AS(patch.read(HeightfieldProbe::looking_at(geom), {1e12, 1e12 + 1, 0, 1}), std::domain_error);
 }
 
-TEST_CASE("a plane heightfield shows no grid and is read as a plane") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a plane heightfield shows no grid and is read as a plane") {
   const auto slope = [](int i, int j) { return 0.5 * i - 0.25 * j; };
   for (const Terrain::Height& height : {Terrain::Height([](int, int) { return 0.3; }), Terrain::Height(slope)}) {
     const Terrain terrain({17, 17, 16, 16}, height);
@@ -263,8 +256,7 @@ TEST_CASE("a plane heightfield shows no grid and is read as a plane") {
   }
 }
 
-TEST_CASE("samples that are NaN are holes") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "samples that are NaN are holes") {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   Terrain terrain({9, 9, 8, 8}, rough(12, 1));
   terrain.set(4, 4, kNan);
@@ -281,8 +273,7 @@ TEST_CASE("samples that are NaN are holes") {
   CHECK(patch.read(HeightfieldProbe::looking_at(geom), all).empty());
 }
 
-TEST_CASE("a region with too many cells is read at points of the surface") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a region with too many cells is read at points of the surface") {
   const Terrain terrain({1201, 1201, 12, 12}, hills(0.1, 0.02));
   const Geom geom(terrain.create());
   HeightfieldPatch patch;

@@ -92,8 +92,7 @@ dGeomID create_egg(dSpaceID space) { return snCreateEllipsoid(space, dReal(0.08)
 
 }  // namespace
 
-TEST_CASE("a level heightfield gives the contacts of a plane") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a level heightfield gives the contacts of a plane") {
   Random random(41);
   for (const bool repeats : {false, true}) {
     const Terrain terrain({33, 33, 32, 32, repeats}, [](int, int) { return 0.25; });
@@ -121,8 +120,7 @@ TEST_CASE("a level heightfield gives the contacts of a plane") {
   }
 }
 
-TEST_CASE("a sloped heightfield gives the contacts of a plane, before and after its grid is known") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a sloped heightfield gives the contacts of a plane, before and after its grid is known") {
   Random random(42);
   for (const bool is_bumpy : {false, true}) {
     CAPTURE(is_bumpy);
@@ -146,8 +144,8 @@ TEST_CASE("a sloped heightfield gives the contacts of a plane, before and after 
   }
 }
 
-TEST_CASE("any body on rough ground has the contacts with all triangles, from every source, repeated, rotated and moved") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "any body on rough ground has the contacts with all triangles, from every source, repeated, rotated and moved") {
   Random random(45);
   MeshContacts reference;
   int count = 0;
@@ -192,8 +190,7 @@ TEST_CASE("any body on rough ground has the contacts with all triangles, from ev
   CHECK(count > 300);
 }
 
-TEST_CASE("a sunk body comes up") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a sunk body comes up") {
   Random random(48);
   const Terrain terrain({11, 11, 10, 10}, rough(49, 0.5));
   const Geom heightfield(terrain.create(true));
@@ -213,8 +210,7 @@ TEST_CASE("a sunk body comes up") {
   }
 }
 
-TEST_CASE("a heightfield in both orders, with any max_contacts and skip") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a heightfield in both orders, with any max_contacts and skip") {
   Random random(50);
   const Terrain terrain({21, 21, 4, 4}, rough(51, 0.2));
   const Geom heightfield(terrain.create());
@@ -246,8 +242,7 @@ TEST_CASE("a heightfield in both orders, with any max_contacts and skip") {
   CHECK(norm(to_vec(forward.normal) + to_vec(backward.normal)) == 0);
 }
 
-TEST_CASE("a heightfield has the right gap from high above and from beside") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a heightfield has the right gap from high above and from beside") {
   Random random(52);
   const Terrain terrain({9, 9, 8, 8}, rough(53, 1));
   const Geom heightfield(terrain.create());
@@ -265,8 +260,7 @@ TEST_CASE("a heightfield has the right gap from high above and from beside") {
   }
 }
 
-TEST_CASE("a heightfield with values that are not finite gives no such contact and no abort") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a heightfield with values that are not finite gives no such contact and no abort") {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const Geom body(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.4), dReal(0.3)));
   for (const Source source : {Source::Double, Source::Callback}) {
@@ -307,8 +301,7 @@ TEST_CASE("a heightfield with values that are not finite gives no such contact a
   CHECK(std::string(snLastError()).find("infinite dHeightfield") != std::string::npos);
 }
 
-TEST_CASE("a body far smaller than the digits of its place is answered above a heightfield") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "a body far smaller than the digits of its place is answered above a heightfield") {
   const Terrain terrain(Terrain::Layout{}, [](int i, int j) { return 0.1 * (i % 2) + 0.05 * (j % 3); });
   const Geom field(dCreateHeightfield(nullptr, terrain.data(), 0));
   for (const double size : {1e-30, 1e-20, 1e-9, 1e-3}) {
@@ -329,8 +322,7 @@ TEST_CASE("a body far smaller than the digits of its place is answered above a h
   }
 }
 
-TEST_CASE("small bodies dropped on ridges and peaks stay above, where dSphere does not") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "small bodies dropped on ridges and peaks stay above, where dSphere does not") {
   const Terrain ridge({9, 9, 8, 8}, [](int i, int /*j*/) { return 2.0 - 0.8 * std::abs(i - 4); });
   const Terrain peak({9, 9, 8, 8}, [](int i, int j) { return i == 4 && j == 4 ? 1.5 : 0.0; });
   const Terrain diagonal({9, 9, 8, 8}, [](int i, int j) { return -0.7 * std::abs(i + j - 8); });
@@ -352,8 +344,7 @@ TEST_CASE("small bodies dropped on ridges and peaks stay above, where dSphere do
   }
 }
 
-TEST_CASE("50 bodies on a terrain for 20 s do not fall through") {
-  const OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "50 bodies on a terrain for 20 s do not fall through") {
   Random random(61);
   World world;
   set_up(world);
