@@ -96,8 +96,7 @@ TEST_CASE("without rolling resistance no contact requests rolling rows, and the 
   CHECK(rows_of(smooth) == 1 + 3);
 }
 
-TEST_CASE("contacts for a stepper keep their gaps and the whole circle of friction") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession, "contacts for a stepper keep their gaps and the whole circle of friction") {
   Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
   Geom ball(snCreateEllipsoid(nullptr, 1, 1, 1));
   std::array<dContact, 1> contact{};

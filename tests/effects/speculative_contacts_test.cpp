@@ -332,8 +332,8 @@ TEST_CASE("speculative contacts: without the effect contacts ahead are ignored, 
   }
 }
 
-TEST_CASE("speculative contacts: added bodies lose four fifths of an overlap in a step, and no other pair does") {
-  OdeSession session;
+TEST_CASE_FIXTURE(OdeSession,
+                  "speculative contacts: added bodies lose four fifths of an overlap in a step, and no other pair does") {
   for (const bool is_added : {true, false}) {
     fx::Effects effects({fx::SpeculativeContacts{}}, 0.01);
     World world;
