@@ -5,13 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <random>
 #include <stdexcept>
 #include <vector>
 
 #include "proximity/collider_reference.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/draw.hpp"
 
 namespace supernormal::samples {
 namespace {
@@ -350,9 +350,8 @@ Violations check_maximum(const HardCase& one, const Settings& settings, const Pr
   Probe probe(one, settings, answer);
   probe.look_at_neighbourhood(out);
   probe.look_at_features(one, out);
-  std::mt19937_64 engine(seed);
-  std::normal_distribution<double> gauss;
-  for (int k = 0; k < kRandomDirections; ++k) probe.look_at(Vector3{gauss(engine), gauss(engine), gauss(engine)}, out);
+  test::Draw draw(seed);
+  for (int k = 0; k < kRandomDirections; ++k) probe.look_at(Vector3{draw.gauss(), draw.gauss(), draw.gauss()}, out);
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include "proximity/collider_reference.hpp"
 #include "proximity/local/local_model.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/draw.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -160,7 +160,7 @@ TEST_CASE("next to nothing beside a plane of symmetry: no overflow") {
   const CallbackShape body2 = without_hessian(std::make_shared<Superellipsoid>(
       Vector3(0.94171784691969096, 0.5574478084197092, 1.2885276416047349), 1.175895557386629, 1.1777243209332211));
   const Settings settings{.tolerance = 1e-15};
-  const Traps traps("a body without a Hessian");
+  const test::Traps traps("a body without a Hessian");
   const Proximity answer =
       find_proximity(body1, {}, body2, {Vector3(-1.0730493914807038, 2.0703247356784026e-162, 0), Matrix3::Identity()}, settings);
   CHECK(answer.gap < 0);

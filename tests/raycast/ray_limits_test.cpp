@@ -6,7 +6,6 @@
 #include <limits>
 #include <memory>
 #include <numbers>
-#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -19,6 +18,7 @@
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "support/draw.hpp"
 #include "support/relative.hpp"
 
 using namespace supernormal;
@@ -264,18 +264,17 @@ TEST_CASE("portal: a point on the line is a portal") {
 // The line passes through a vertex of the triangle or through its middle. The bound includes the rounding of the points.
 TEST_CASE("portal: the bound holds for steep portals of rounded points") {
   constexpr double kCoarse = 1e-9;
-  std::mt19937_64 engine(6);
-  std::uniform_real_distribution<double> uniform(0, 1);
+  Draw draw(6);
   int pierced = 0;
   for (int k = 0; k < 3000; ++k) {
     CAPTURE(k);
-    const double steepness = std::pow(10, 3 * uniform(engine));
-    const double turn = 2 * std::numbers::pi * uniform(engine);
+    const double steepness = draw.log_uniform(1, 1000);
+    const double turn = draw.uniform(0, 2 * std::numbers::pi);
     const Vector3 shift = k % 2 == 0 ? beside(turn, 1) : Vector3(Vector3::Zero());
     Portal portal(kDown, kCoarse);
     for (int i = 0; i < 3; ++i) {
       const Vector3 p = beside(turn + std::numbers::pi + 2.1 * i, 1) + shift;
-      const Vector3 off{uniform(engine) - 0.5, uniform(engine) - 0.5, uniform(engine) - 0.5};
+      const Vector3 off = draw.within(-0.5, 0.5);
       portal.add(Vector3(p.x(), p.y(), steepness * p.x()) + kCoarse * off.normalized());
     }
     if (!portal.is_pierced()) continue;
@@ -287,13 +286,12 @@ TEST_CASE("portal: the bound holds for steep portals of rounded points") {
 }
 
 TEST_CASE("portal: each point in front of the portal raises it, and the bound holds") {
-  std::mt19937_64 engine(5);
-  std::normal_distribution<double> gauss;
+  Draw draw(5);
   for (int k = 0; k < 200; ++k) {
     Portal portal(kDown, kPortalRounding);
     double highest = -std::numeric_limits<double>::infinity();  // height of the portal so far
     for (int i = 0; i < 60; ++i) {
-      const Vector3 r = Vector3{gauss(engine), gauss(engine), gauss(engine)}.normalized();  // on the unit sphere
+      const Vector3 r = draw.direction();  // on the unit sphere
       portal.add(-r);
       if (!portal.is_pierced()) continue;
       const double height = -portal.upper_bound();

@@ -25,6 +25,7 @@
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superovoid.hpp"
+#include "support/draw.hpp"
 #include "support/refusal.hpp"
 #include "support/shape_samples.hpp"
 
@@ -236,12 +237,9 @@ TEST_CASE("equality: shapes differ if the class, a parameter or a part differs")
 }
 
 TEST_CASE("pose: the text reads back as the same pose, to the bit") {
-  std::mt19937_64 engine(2);
-  std::normal_distribution<double> gauss;
+  Draw draw(2);
   for (int round = 0; round < 1000; ++round) {
-    Pose pose;
-    pose.rotation = Eigen::Quaterniond(gauss(engine), gauss(engine), gauss(engine), gauss(engine)).normalized().toRotationMatrix();
-    pose.position = 1e3 * Vector3(gauss(engine), gauss(engine), -0.0);
+    const Pose pose{1e3 * Vector3(draw.gauss(), draw.gauss(), -0.0), draw.rotation()};
     const Pose read = read_pose(describe(pose));
     CHECK(read == pose);
     CHECK(same_bits(read.position, pose.position));

@@ -9,7 +9,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <random>
 #include <stdexcept>
 #include <supernormal/shapes/box.hpp>
 #include <supernormal/shapes/capsule.hpp>
@@ -49,11 +48,10 @@ double volume(const Tessellation& mesh) {
 
 /// m; how far the boundary is beyond the mesh: along any normal, no vertex reaches as far as the body by more than this.
 double farthest_beyond(const Shape& shape, const Tessellation& mesh) {
-  std::mt19937_64 engine(5);
-  std::normal_distribution<double> gauss;
+  test::Draw draw(5);
   double farthest = 0;
   for (int k = 0; k < test::draws(3000); ++k) {
-    const Vector3 n = Vector3(gauss(engine), gauss(engine), gauss(engine)).normalized();
+    const Vector3 n = draw.direction();
     double reach = -1e300;
     for (const Vector3& point : mesh.points) reach = std::max(reach, n.dot(point));
     farthest = std::max(farthest, shape.support(n) - reach);

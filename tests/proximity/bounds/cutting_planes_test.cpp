@@ -16,6 +16,7 @@
 #include "proximity/bounds/minimum_norm_point.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/draw.hpp"
 #include "support/random_bodies.hpp"
 #include "support/relative.hpp"
 #include "support/shape_samples.hpp"
@@ -137,12 +138,11 @@ TEST_CASE("the oldest cut gives way to the newest") {
 }
 
 TEST_CASE("the cuts that are lowest at the kept normal stay, however many are added") {
-  std::mt19937_64 engine(53);
-  std::normal_distribution<double> gauss;
+  Draw draw(53);
   CuttingPlanes cuts;
   std::vector<Vector3> all;
   const auto add = [&] {
-    all.emplace_back(Vector3{gauss(engine), gauss(engine), gauss(engine)});
+    all.emplace_back(Vector3{draw.gauss(), draw.gauss(), draw.gauss()});
     cuts.add(all.back());
   };
   for (int k = 0; k < CuttingPlanes::kCapacity; ++k) add();
@@ -200,14 +200,13 @@ TEST_CASE("maximize goes on where a cut is a hundred times as steep as the other
 }
 
 TEST_CASE("maximize finds the top of random cuts") {
-  std::mt19937_64 engine(52);
-  std::normal_distribution<double> gauss;
+  Draw draw(52);
   int interior = 0, rim = 0;
   for (int trial = 0; trial < 300; ++trial) {
     CuttingPlanes cuts;
     const int count = 1 + trial % 12;
-    for (int k = 0; k < count; ++k) cuts.add({gauss(engine), gauss(engine), gauss(engine)});
-    const TangentPlane plane(Vector3{gauss(engine), gauss(engine), gauss(engine)}.normalized(), Vector3(1, 2, -1));
+    for (int k = 0; k < count; ++k) cuts.add({draw.gauss(), draw.gauss(), draw.gauss()});
+    const TangentPlane plane(draw.direction(), Vector3(1, 2, -1));
     const CuttingPlanes::Maximum top = cuts.maximize(plane, kRadius);
     CHECK(top.u.norm() <= kRadius * (1 + 1e-12));
     CHECK(std::abs(top.value - model(cuts, plane, top.u)) <= 1e-10);

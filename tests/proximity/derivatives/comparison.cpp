@@ -224,11 +224,10 @@ class Comparison {
   }
 
   void compare_second(const LongNormal& reference) {
-    std::mt19937_64 engine(7);
-    std::normal_distribution<double> gauss;
+    Draw draw(7);
     for (int k = 0; k < 3; ++k) {
       TwistVector direction;
-      for (int i = 0; i < 12; ++i) direction[i] = gauss(engine) * static_cast<double>(scale(i));
+      for (int i = 0; i < 12; ++i) direction[i] = draw.gauss() * static_cast<double>(scale(i));
       direction /= std::sqrt(12);
       bool is_exact = true;
       const auto difference = [&](Real step) -> Real {

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -230,18 +229,16 @@ TEST_CASE("derivatives: the status says what is not defined, and nothing is NaN"
 // side is flat at one point only, it has none.
 // All normals of the vertex or edge have the same gap, up to rounding.
 TEST_CASE("derivatives: a capsule whose end is centred on a vertex or an edge of a box has no derivatives, on a face it has") {
-  std::mt19937 engine(1);
-  const auto uniform = [&engine](double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); };
-  const auto direction = [&uniform] { return Vector3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized(); };
+  Draw draw(1);
   for (int k = 0; k < 600; ++k) {
     const int free = k % 3;  // coordinates of the point on the box
-    const double size = std::pow(10, uniform(-3, 1));
-    const Vector3 half = size * Vector3(uniform(0.05, 1), uniform(0.05, 1), uniform(0.05, 1));
-    const Pose pose1{size * direction(), Eigen::AngleAxisd(uniform(0, 3), direction()).toRotationMatrix()};
-    Vector3 point = half, axis = direction();
-    for (int i = 0; i < free; ++i) point[i] *= uniform(-0.9, 0.9);
+    const double size = draw.log_uniform(1e-3, 10);
+    const Vector3 half = size * draw.within(0.05, 1);
+    const Pose pose1{size * draw.direction(), draw.rotation()};
+    Vector3 point = half, axis = draw.direction();
+    for (int i = 0; i < free; ++i) point[i] *= draw.uniform(-0.9, 0.9);
     axis.tail(3 - free) = axis.tail(3 - free).cwiseAbs();  // the capsule leaves the box
-    const double radius = size * uniform(0.01, 0.3), half_length = size * uniform(0.1, 1);
+    const double radius = size * draw.uniform(0.01, 0.3), half_length = size * draw.uniform(0.1, 1);
     const Pose pose2{pose1.position + pose1.rotation * (point + half_length * axis),
                      test::rotation_between(Vector3::UnitZ(), pose1.rotation * axis).toRotationMatrix()};
     const ProximityDerivatives found = derivatives(Box(half), pose1, Capsule(radius, half_length), pose2);
@@ -306,12 +303,9 @@ TEST_CASE("derivatives: a flat side that lies on a face, to within 1e-6 rad, has
 
 // The answer's normal is within its error of the side's, 1e-15 to 1e-9 rad beside it. There a cap has the curvature of its edge.
 TEST_CASE("derivatives: a vertex, an edge of a cylinder or a ball above a cap, a flank or a face has derivatives at any answer") {
-  std::mt19937_64 engine(3);
-  std::normal_distribution<double> gauss;
-  std::uniform_real_distribution<double> uniform(0, 1);
-  const auto direction = [&] { return Vector3(gauss(engine), gauss(engine), gauss(engine)).normalized(); };
+  Draw draw(3);
   std::vector<Vector3> points(12);
-  for (Vector3& point : points) point = direction();
+  for (Vector3& point : points) point = draw.direction();
   const auto can = std::make_shared<Cylinder>(1, 0.7);
   const auto brick = std::make_shared<Box>(Vector3(1, 1, 0.7));
   const Rounded rounded_can(can, 0.1), rounded_brick(brick, 0.1);
@@ -338,10 +332,10 @@ TEST_CASE("derivatives: a vertex, an edge of a cylinder or a ball above a cap, a
         for (int k = 0; k < 50; ++k) {
           CAPTURE(k);
           const bool is_flank = n.z() == 0 && base == can.get();  // straight along the axis
-          const Vector3 aside = is_flank ? Vector3::UnitZ() : Vector3(n.cross(direction()).normalized());
-          const Vector3 point1 = base->support(n) * n + 0.6 * uniform(engine) * aside;
-          const Matrix3 rotation = Eigen::AngleAxisd(3 * uniform(engine), direction()).toRotationMatrix();
-          const double gap = (0.01 + 0.3 * uniform(engine)) * std::min(1.0, size);
+          const Vector3 aside = is_flank ? Vector3::UnitZ() : Vector3(n.cross(draw.direction()).normalized());
+          const Vector3 point1 = base->support(n) * n + 0.6 * draw.uniform(0, 1) * aside;
+          const Matrix3 rotation = draw.rotation();
+          const double gap = (0.01 + 0.3 * draw.uniform(0, 1)) * std::min(1.0, size);
           const Vector3 lever2 = rotation * bodies[body]->point(-(rotation.transpose() * n));
           const ProximityDerivatives d = derivatives(*base, {}, *bodies[body], {point1 + gap * n - lever2, rotation});
           CHECK(d.status == DerivativeStatus::ActiveSet);
@@ -359,31 +353,29 @@ TEST_CASE("derivatives: a vertex, an edge of a cylinder or a ball above a cap, a
 // Between two nearly flat sides the radii of curvature change by a part in 1e5 within a step of the normal that counts as rounding
 // for round bodies.
 TEST_CASE("derivatives: nearly flat sides have the same Jacobians in turned frames, from any answer, or are refused") {
-  std::mt19937_64 engine(1);
-  const auto uniform = [&engine](double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); };
-  const auto direction = [&uniform] { return Vector3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized(); };
-  const auto rotation = [&] { return Eigen::AngleAxisd(uniform(0, 3), direction()).toRotationMatrix(); };
-  const auto body = [&uniform] {
-    const Vector3 half(uniform(0.3, 1), uniform(0.3, 1), uniform(0.3, 1));
-    const double delta = uniform(1.5, 20);
-    return Superellipsoid(half, delta, uniform(1.5, 20));
+  Draw draw(1);
+  const auto body = [&] {
+    const Vector3 half = draw.within(0.3, 1);
+    const double delta = draw.uniform(1.5, 20);
+    return Superellipsoid(half, delta, draw.uniform(1.5, 20));
   };
   const auto beside_axis = [&](int axis) {
-    return Vector3(Vector3::Unit(axis) + std::pow(10, uniform(-8, -2)) * direction()).normalized();
+    return Vector3(Vector3::Unit(axis) + std::pow(10, draw.uniform(-8, -2)) * draw.direction()).normalized();
   };
   int compared = 0, different = 0;
   for (int k = 0; k < 600; ++k) {
     const Superellipsoid body1 = body(), body2 = body();
     const Vector3 n1 = beside_axis(k % 3), n2 = beside_axis(k / 3 % 3);
-    const Pose pose1{Vector3::Zero(), rotation()};
+    const Pose pose1{Vector3::Zero(), draw.rotation()};
     const Vector3 n = pose1.rotation * n1;
     Pose pose2;
-    pose2.rotation = Eigen::AngleAxisd(uniform(0, 6), n).toRotationMatrix() * test::rotation_between(n2, -n).toRotationMatrix();
-    pose2.position = pose1.rotation * body1.point(n1) + uniform(0, 0.3) * n - pose2.rotation * body2.point(n2);
+    pose2.rotation =
+        Eigen::AngleAxisd(draw.uniform(0, 6), n).toRotationMatrix() * test::rotation_between(n2, -n).toRotationMatrix();
+    pose2.position = pose1.rotation * body1.point(n1) + draw.uniform(0, 0.3) * n - pose2.rotation * body2.point(n2);
     Proximity answer = find_proximity(body1, pose1, body2, pose2);
     const ProximityDerivatives here = find_proximity_derivatives(body1, pose1, body2, pose2, answer);
-    const Matrix3 turn = rotation();
-    answer.normal = (turn * answer.normal + 1e-9 * direction()).normalized();
+    const Matrix3 turn = draw.rotation();
+    answer.normal = (turn * answer.normal + 1e-9 * draw.direction()).normalized();
     const ProximityDerivatives there = find_proximity_derivatives(body1, {Vector3::Zero(), turn * pose1.rotation}, body2,
                                                                   {turn * pose2.position, turn * pose2.rotation}, answer);
     if (!here.has_normal || !there.has_normal) continue;

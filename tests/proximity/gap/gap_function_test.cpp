@@ -7,13 +7,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "proximity/local/local_model.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "support/draw.hpp"
 #include "support/reference_pairs.hpp"
 #include "support/shape_samples.hpp"
 
@@ -123,9 +123,8 @@ TEST_CASE("the stated rounding of s is one") {
 TEST_CASE("the stated rounding of s counts how far bodies are from the origins of their frames, and so does what is claimed") {
   using Real = long double;
   using Real3 = Eigen::Matrix<Real, 3, 1>;
-  std::mt19937_64 engine(44);
-  std::normal_distribution<double> gauss;
-  const auto draw = [&] { return Vector3{gauss(engine), gauss(engine), gauss(engine)}; };
+  Draw random(44);
+  const auto draw = [&] { return Vector3{random.gauss(), random.gauss(), random.gauss()}; };
   for (int k = 0; k < 1000; ++k) {
     const Vector3 centre1 = 1e6 * draw(), centre2 = centre1 + 4 * draw().normalized();
     std::array<Vector3, 8> points1, points2;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include "proximity/local/piecewise_model.hpp"
@@ -21,7 +20,7 @@ namespace {
 
 /// The largest gain in the disc: at the stationary point if that is a maximum inside, or on the circle.
 double largest_sampled(const QuadraticModel& model, double radius) {
-  const int spokes = draws(20000);
+  const int spokes = test::draws(20000);
   double largest = 0;
   for (int spoke = 0; spoke < spokes; ++spoke) {
     const double angle = 2 * std::numbers::pi * spoke / spokes;
@@ -92,10 +91,9 @@ struct ModelDraw : test::Draw {
 }  // namespace
 
 TEST_CASE("random models: definite, indefinite and negative") {
-  std::mt19937_64 engine(61);
-  std::normal_distribution<double> gauss;
-  for (int trial = 0; trial < draws(300); ++trial) {
-    const QuadraticModel model{{gauss(engine), gauss(engine)}, {2 * gauss(engine), gauss(engine), 2 * gauss(engine)}};
+  test::Draw draw(61);
+  for (int trial = 0; trial < test::draws(300); ++trial) {
+    const QuadraticModel model{{draw.gauss(), draw.gauss()}, {2 * draw.gauss(), draw.gauss(), 2 * draw.gauss()}};
     for (const double radius : {1e-3, 0.3, 1.0, 4.0}) check(model, radius);
   }
 }
@@ -186,17 +184,16 @@ TEST_CASE("level one way, and next to no slope the other way: the step is the on
 }
 
 TEST_CASE("eigenvalues and vectors") {
-  std::mt19937_64 engine(62);
-  std::normal_distribution<double> gauss;
+  test::Draw draw(62);
   for (int trial = 0; trial < 1000; ++trial) {
-    const Symmetric2 A{gauss(engine), gauss(engine), gauss(engine)};
+    const Symmetric2 A{draw.gauss(), draw.gauss(), draw.gauss()};
     const Eigen2 e(A);
     CHECK(e.low <= e.high);
     CHECK((A * e.low_vector - e.low * e.low_vector).norm() <= 4e-15);
     CHECK((A * e.high_vector - e.high * e.high_vector).norm() <= 4e-15);
     CHECK(std::abs(e.low_vector.dot(e.high_vector)) <= 1e-15);
     CHECK(std::abs(e.high_vector.norm() - 1) <= 1e-15);
-    const Vector2 b(gauss(engine), gauss(engine));
+    const Vector2 b{draw.gauss(), draw.gauss()};
     CHECK((A * A.solve(b) - b).norm() <= 1e-11 * (1 + A.solve(b).norm()));
   }
   const Eigen2 zero(Symmetric2{});
