@@ -6,7 +6,7 @@
 #include "doubts.hpp"
 #include "forecast.hpp"
 #include "model/container.hpp"
-#include "model/material.hpp"
+#include "model/wall.hpp"
 #include "step.hpp"
 
 namespace falling_particles {

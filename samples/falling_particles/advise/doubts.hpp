@@ -11,7 +11,7 @@ namespace falling_particles {
 /// A sentence for each doubt about a valid scene, with a remedy.
 std::vector<std::string> doubts_about(const Scene& scene);
 
-// By what may go wrong, each in a file of this name:
+// By what may go wrong, each in a file of this name, but for units and bonds:
 
 void add_doubts_about_step(const Scene& scene, std::vector<std::string>& doubts);
 /// Of contacts that last fewer than ten steps. A run counts these as coarse.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <ctime>
 
-#include "model/memory.hpp"
+#include "model/scene.hpp"
 #include "observe/measurement.hpp"
 #include "observe/simulation.hpp"
 

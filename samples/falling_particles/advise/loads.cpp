@@ -10,8 +10,8 @@
 #include "common/interval.hpp"
 #include "doubts.hpp"
 #include "model/grain_shape.hpp"
-#include "model/wall_doubts.hpp"
-#include "observe/facing_walls.hpp"
+#include "model/wall.hpp"
+#include "observe/region.hpp"
 #include "observe/wall_mesh.hpp"
 #include "step.hpp"
 

@@ -1,7 +1,12 @@
 #include "refusals.hpp"
 
+#include <ode/ode.h>
 #include <supernormal/supernormal.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -9,6 +14,8 @@
 
 #include "common/input_error.hpp"
 #include "common/interval.hpp"
+#include "doubts.hpp"
+#include "observe/energy.hpp"
 #include "world/placement.hpp"
 
 namespace falling_particles {
@@ -36,7 +43,145 @@ void refuse_start_in_parts(const World& world) {
   }
 }
 
+/// The largest relative stiffness of bonds for each iteration of the solver (Bonds::stiffness). bonds.md has the measurement.
+constexpr double kStiffnessPerIteration = 10;
+
+[[noreturn]] void refuse_bond(const Scene& scene, const std::string& text) { throw InputError(scene.called + ": " + text); }
+
+/// What the radius of a bond follows from.
+struct Radius {
+  std::string key;
+  double value;
+  const char* unit;
+  unsigned line = 0;  // of BondRule::file, if the radius is there
+};
+
+Radius radius_of(const Bond& bond, const BondRule& rule) {
+  const auto pair = std::ranges::find_if(rule.pairs, [&](const BondedPair& named) {
+    return named.second == bond.second && (rule.wall || named.first == bond.first) && named.radius;
+  });
+  if (pair != rule.pairs.end()) return {"radius_m", bond.radius, " m", pair->line};
+  if (rule.radius) return {"bond.radius", *rule.radius, " m"};
+  return {"bond.relative_radius", rule.relative_radius, ""};
+}
+
+/// The largest factor on the radii of the bonds of the worst grain, or on the radius of its stiffest bond, with which the grain has
+/// the allowed stiffness. 0 if there is none above 1e-6.
+double allowed_factor(const Bonds& bonds, double allowed, bool single) {
+  const auto [relative, grain, bond] = bonds.stiffness();
+  const auto is_allowed = [&, grain = grain, bond = bond](double factor) {
+    return bonds.relative_stiffness(grain, factor, single ? std::optional(bond) : std::nullopt) <= allowed;
+  };
+  double least = 1e-6, most = 1;
+  if (!is_allowed(least)) return 0;
+  while (most / least > 1.0001) {
+    const double middle = std::sqrt(least * most);
+    (is_allowed(middle) ? least : most) = middle;
+  }
+  return least;
+}
+
+/// m, the deepest overlap of a free wall with other walls at the start. Beside a state it is the one of grains, or of a thin wall.
+double allowed_depth(const Wall& wall, const Scene& scene) {
+  constexpr double kTouching = 1e-6;  // of the wall's size: the rounding of a mesh, whose vertices are single precision
+  const double touching = kTouching * bounding_radius(wall.shape);
+  if (!scene.start) return touching;
+  return std::max(touching, scene.start->overlap * std::min(scene.smallest_half_axis(), thinnest(wall.shape) / 2));
+}
+
+double deepest_between(dGeomID g1, dGeomID g2) {
+  constexpr int kMost = 64;
+  std::array<dContactGeom, kMost> found;
+  const int count = dCollide(g1, g2, kMost, found.data(), sizeof(dContactGeom));
+  double deepest = 0;
+  for (int i = 0; i < count; ++i) deepest = std::max<double>(deepest, found[static_cast<std::size_t>(i)].depth);
+  return deepest;
+}
+
+/// Refuses a free wall that overlaps another one, beside a state by more than StartState::overlap. Both would be pushed apart.
+void refuse_bad_flights(const World& world) {
+  const Scene& scene = world.scene();
+  const std::vector<dGeomID>& geoms = world.walls().geoms();
+  for (std::size_t i = 0; i < geoms.size(); ++i) {
+    const Wall& wall = scene.walls[i];
+    if (!wall.flight) continue;
+    const double allowed = allowed_depth(wall, scene);
+    for (std::size_t k = 0; k < geoms.size(); ++k) {
+      const double depth = k == i ? 0 : deepest_between(geoms[i], geoms[k]);
+      if (depth <= allowed) continue;
+      throw InputError(scene.called + ": part \"" + wall.name + "\", which is free, is " + rounded(depth) + " m deep in " +
+                       scene.walls[k].called() + " at the start; allowed: " +
+                       (scene.start ? "up to " + rounded(allowed) + " m, from start.overlap of the smallest half-axis"
+                                    : "a start apart from all other walls, or a section [start], whose start.overlap allows more"));
+    }
+  }
+}
+
+/// Refuses grains of a state that overlap one another or walls by more than StartState::overlap, or are outside the container.
+void refuse_bad_state(const World& world) {
+  const Scene& scene = world.scene();
+  const StartState& start = *scene.start;
+  const auto line_of = [&](const Grain& grain) { return start.grains[world.index_of(grain)].line; };
+  const auto name_of = [&](dGeomID geom) {
+    if (const Wall* wall = world.walls().wall_of(geom)) return wall->called();
+    return "the " + grain_of(geom)->kind->name + " of line " + std::to_string(line_of(*grain_of(geom)));
+  };
+  if (world.cell() != nullptr) world.cell()->place_images();
+  const Overlap overlap = measure_overlap(world);
+  if (overlap.relative_to_pair > start.overlap) {
+    const bool is_wall_first = grain_of(overlap.worst[0]) == nullptr;
+    const Grain& grain = *grain_of(overlap.worst[is_wall_first ? 1 : 0]);
+    throw InputError(start.file.string(), line_of(grain),
+                     "the " + grain.kind->name + " is " + rounded(overlap.worst_depth) + " m deep in " +
+                         name_of(overlap.worst[is_wall_first ? 0 : 1]) + ", " + rounded(overlap.relative_to_pair) +
+                         " of the smallest half-axis; allowed: up to " + shortest(start.overlap) + ", start.overlap");
+  }
+  for (const Grain& grain : world.present()) {
+    if (is_inside(scene, grain.position())) continue;
+    const auto [x, y, z] = grain.position();
+    throw InputError(start.file.string(), line_of(grain),
+                     "the " + grain.kind->name + " is at [" + shortest(x) + ", " + shortest(y) + ", " + shortest(z) +
+                         "] m, outside the container, a " + kind_of(scene.container) + "; allowed: inside");
+  }
+}
+
+/// Refuses a section [[bond]] that bonds nothing, or whose bonds are too stiff.
+void refuse_bad_bonds(const World& world) {
+  const Scene& scene = world.scene();
+  const Bonds& bonds = *world.bonds();
+  for (std::size_t rule = 0; rule < scene.bonds.size(); ++rule) {
+    if (std::ranges::any_of(bonds.all(), [rule](const Bond& bond) { return bond.rule == rule; })) continue;
+    const BondRule& unused = scene.bonds[rule];
+    refuse_bond(scene, "bond \"" + unused.name + "\" bonds nothing: no " + (unused.wall ? "grain and part" : "two grains") +
+                           " of the start are closer than bond.touching = " + shortest(*unused.touching) +
+                           " of the smallest half-axis, or other bonds have them; allowed: a start with such pairs");
+  }
+  refuse_stiff_bonds(world, scene.solver.iterations);
+}
+
 }  // namespace
+
+void refuse_stiff_bonds(const World& world, int iterations) {
+  const Scene& scene = world.scene();
+  const auto [relative, grain, index] = world.bonds()->stiffness();
+  const double allowed = kStiffnessPerIteration * iterations;
+  if (relative <= allowed) return;
+  const Bond& bond = world.bonds()->all()[index];
+  const BondRule& rule = scene.bonds[bond.rule];
+  const Radius radius = radius_of(bond, rule);
+  std::string enough = "bond.modulus up to " + rounded(rule.modulus * allowed / relative) + " Pa, ";
+  if (const double factor = allowed_factor(*world.bonds(), allowed, radius.line > 0); factor > 0) {
+    enough += radius.key + " up to " + rounded(factor * radius.value) + radius.unit + ", ";
+  }
+  enough += "or time.step up to " + rounded(scene.time.step * std::sqrt(allowed / relative)) + " s";
+  const double most = std::ceil(relative / kStiffnessPerIteration);
+  if (most <= Solver::kMostIterations) enough += ", or solver.iterations from " + shortest(most) + " on";
+  const std::string text = "bond \"" + rule.name + "\" is too stiff for grain " + std::to_string(grain) + " (" +
+                           world.grains()[grain].kind->name + "): bond.modulus is " + shortest(rule.modulus) + " Pa, and " +
+                           radius.key + " is " + rounded(radius.value) + radius.unit + "; allowed: " + enough;
+  if (radius.line > 0) throw InputError(rule.file.string(), radius.line, text);
+  refuse_bond(scene, text);
+}
 
 void refuse_bad_start(const Scene& scene) {
   refuse_meetings(scene);

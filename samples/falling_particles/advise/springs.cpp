@@ -13,9 +13,8 @@
 
 #include "common/interval.hpp"
 #include "doubts.hpp"
-#include "model/grain_mesh.hpp"
 #include "model/grain_shape.hpp"
-#include "model/material.hpp"
+#include "model/wall.hpp"
 #include "step.hpp"
 
 namespace falling_particles {

@@ -7,8 +7,7 @@
 
 #include "common/interval.hpp"
 #include "doubts.hpp"
-#include "model/material.hpp"
-#include "model/wall_doubts.hpp"
+#include "model/wall.hpp"
 #include "observe/wall_mesh.hpp"
 #include "step.hpp"
 

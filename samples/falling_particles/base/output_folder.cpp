@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "common/input_error.hpp"
-#include "files.hpp"
 #include "write_file.hpp"
 
 namespace falling_particles {

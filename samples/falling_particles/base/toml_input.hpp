@@ -54,6 +54,8 @@ class TomlTable {
 
   /// Throws InputError at the line of `key` (at the line of the table when it has no such key).
   [[noreturn]] void fail(std::string_view key, const std::string& text) const;
+  /// The same, with the name of the key in front of the text.
+  [[noreturn]] void refuse(std::string_view key, const std::string& text) const { fail(key, full_name(key) + text); }
 
   /// The name of the key in messages: "box.width".
   std::string full_name(std::string_view key) const;
@@ -64,8 +66,6 @@ class TomlTable {
   explicit TomlTable(std::shared_ptr<const Node> node);
   TomlTable part(std::string_view key, const std::string& allowed) const;
   std::vector<TomlTable> parts(std::string_view key, const std::string& allowed) const;
-  [[noreturn]] void fail_missing(std::string_view key, const std::string& allowed) const;
-  [[noreturn]] void fail_value(std::string_view key, const std::string& allowed) const;
 
   std::shared_ptr<const Node> node_;
 };

@@ -3,21 +3,24 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "common/input_error.hpp"
-#include "files.hpp"
+#include "common/read_file.hpp"
 
 namespace falling_particles {
 
 using namespace common;
+
 namespace {
 
 [[noreturn]] void fail_to_write(const std::filesystem::path& path, int error) {
@@ -152,5 +155,25 @@ void close_or_throw(std::ofstream& stream, const std::filesystem::path& path) {
   stream.close();
   if (!stream) fail_to_write(path, errno == 0 ? EIO : errno);
 }
+
+Hash hash_of(std::string_view bytes) {
+  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+  return {hash.low64, hash.high64};
+}
+
+RunningHash::RunningHash() : state_(XXH3_createState()) {
+  if (!state_ || XXH3_128bits_reset(state_.get()) == XXH_ERROR) throw std::bad_alloc();
+}
+
+void RunningHash::add(std::string_view bytes) { XXH3_128bits_update(state_.get(), bytes.data(), bytes.size()); }
+
+Hash RunningHash::value() const {
+  const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
+  return {hash.low64, hash.high64};
+}
+
+void RunningHash::Free::operator()(XXH3_state_s* state) const { XXH3_freeState(state); }
+
+Hash hash_of_file(const std::filesystem::path& path) { return hash_of(read_file(path)); }
 
 }  // namespace falling_particles

@@ -10,8 +10,8 @@
 
 #include "common/toml_string.hpp"
 #include "model/scene.hpp"
-#include "observe/heap.hpp"
-#include "observe/overlap.hpp"
+#include "observe/bed.hpp"
+#include "observe/energy.hpp"
 #include "world/placement.hpp"
 #include "world/world.hpp"
 

@@ -6,7 +6,7 @@
 #include <supernormal/shapes/superovoid.hpp>
 
 #include "base/toml_input.hpp"
-#include "model/compound.hpp"
+#include "model/grain_shape.hpp"
 
 namespace falling_particles {
 namespace {
@@ -45,7 +45,7 @@ void read_taper(const TomlTable& table, ConvexBody& body) {
   try {
     const supernormal::Superovoid checked({a, b, c}, body.delta, body.epsilon, taper[0], taper[1]);
   } catch (const std::invalid_argument& refusal) {
-    table.fail("taper", table.full_name("taper") + ": " + refusal.what());
+    table.refuse("taper", std::string(": ") + refusal.what());
   }
 }
 
@@ -75,7 +75,7 @@ std::array<double, 4> read_orientation(const TomlTable& table) {
   if (!table.has("axis") && !table.has("angle")) return {1, 0, 0, 0};
   const std::vector<double> axis = table.numbers("axis", 3, Interval::closed(-1e6, 1e6, "(of any length but 0)"));
   const double length = std::hypot(axis[0], axis[1], axis[2]);
-  if (length == 0) table.fail("axis", table.full_name("axis") + " is [0, 0, 0]; allowed: a direction, of any length but 0");
+  if (length == 0) table.refuse("axis", " is [0, 0, 0]; allowed: a direction, of any length but 0");
   const double half = table.number("angle", Interval::closed(-360, 360, "degrees")) * std::numbers::pi / 360;
   const double s = std::sin(half) / length;
   return {std::cos(half), s * axis[0], s * axis[1], s * axis[2]};
@@ -90,8 +90,7 @@ CatalogueEntry read_compound(const TomlTable& table, const std::string& name) {
   const std::vector<TomlTable> tables = table.tables("parts");
   constexpr std::size_t kMostComponents = 100;
   if (tables.size() > kMostComponents) {
-    table.fail("parts", table.full_name("parts") + " has " + std::to_string(tables.size()) + " parts; allowed: up to " +
-                            std::to_string(kMostComponents));
+    table.refuse("parts", " has " + std::to_string(tables.size()) + " parts; allowed: up to " + std::to_string(kMostComponents));
   }
   std::vector<Component> components;
   components.reserve(tables.size());

@@ -90,8 +90,7 @@ class PairReader {
   }
 
  private:
-  template <typename Fail>
-  std::size_t index_of(std::size_t number, const Fail& fail) const {
+  std::size_t index_of(std::size_t number, const auto& fail) const {
     const auto found = indices_.find(number);
     if (found == indices_.end()) {
       const auto [least, most] = std::ranges::minmax(scene_.start->grains, {}, &StartGrain::number);
@@ -102,8 +101,7 @@ class PairReader {
   }
 
   /// `fail` throws the error.
-  template <typename Fail>
-  BondedPair pair_of(std::size_t first, std::size_t second, const Fail& fail) const {
+  BondedPair pair_of(std::size_t first, std::size_t second, const auto& fail) const {
     if (first == second) fail("grain " + std::to_string(first) + " is bonded to itself; allowed: two grains");
     const BondedPair pair{index_of(first, fail), index_of(second, fail)};
     take("grain " + std::to_string(std::min(first, second)), std::max(first, second), fail);
@@ -116,8 +114,7 @@ class PairReader {
     return pair;
   }
 
-  template <typename Fail>
-  void take(const std::string& first, std::size_t second, const Fail& fail) const {
+  void take(const std::string& first, std::size_t second, const auto& fail) const {
     if (taken_.emplace(first, second).second) return;
     fail(first + " and grain " + std::to_string(second) + " have two bonds; allowed: one");
   }
@@ -163,8 +160,7 @@ class PairReader {
 /// The index of a part that grains can be bonded to.
 std::size_t read_part(const TomlTable& section, const Scene& scene) {
   const std::string name = section.text("part");
-  std::vector<std::string> names;
-  for (const Wall& wall : scene.parts()) names.push_back(wall.name);
+  const std::vector<std::string> names = names_of(scene.parts());
   const auto found = std::ranges::find_if(scene.walls, [&](const Wall& wall) { return wall.is_part() && wall.name == name; });
   if (found == scene.walls.end()) {
     section.fail("part", "bond.part is \"" + name + "\"" + did_you_mean(name, names) + "; allowed: a part of the scene" +

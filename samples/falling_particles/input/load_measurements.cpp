@@ -37,7 +37,7 @@ std::string read_name(const TomlTable& table, const MeasurementKind& kind) {
   std::string name = table.text("name");
   const bool is_plain = name.find_first_not_of(kNameCharacters) == std::string::npos;
   if (!is_plain || name.size() > kLongest) {
-    table.fail("name", table.full_name("name") + " is \"" + name + "\"; allowed: up to 64 letters, digits, - and _");
+    table.refuse("name", " is \"" + name + "\"; allowed: up to 64 letters, digits, - and _");
   }
   return name;
 }
@@ -48,8 +48,7 @@ int read_every(const TomlTable& table, const Time& time) {
   const double steps = std::round(interval / time.step);
   constexpr double kRounding = 1e-6;  // tolerance for typed numbers: a step of 0.000333 and an interval of 0.00999 agree to this
   if (std::abs(interval - steps * time.step) > kRounding * time.step) {
-    table.fail("interval", table.full_name("interval") + " is " + shortest(interval) + "; allowed: a multiple of time.step, " +
-                               shortest(time.step) + " s");
+    table.refuse("interval", " is " + shortest(interval) + "; allowed: a multiple of time.step, " + shortest(time.step) + " s");
   }
   return static_cast<int>(steps);
 }
@@ -58,10 +57,10 @@ int read_every(const TomlTable& table, const Time& time) {
 void refuse_without_sample(const TomlTable& table, const MeasurementRequest& request, double step) {
   const int first = request.needs_contacts ? std::max(request.first, 1) : request.first;
   if ((first + request.every - 1) / request.every * request.every <= request.last) return;
-  table.fail("interval", table.full_name("interval") + " is " + shortest(request.every * step) +
-                             ", and the measurement has no sample: no multiple of it is from " + shortest(first * step) + " to " +
-                             shortest(request.last * step) + " s; allowed: an interval with a multiple from " +
-                             table.full_name("from") + " to " + table.full_name("until"));
+  table.refuse("interval", " is " + shortest(request.every * step) +
+                               ", and the measurement has no sample: no multiple of it is from " + shortest(first * step) + " to " +
+                               shortest(request.last * step) + " s; allowed: an interval with a multiple from " +
+                               table.full_name("from") + " to " + table.full_name("until"));
 }
 
 }  // namespace

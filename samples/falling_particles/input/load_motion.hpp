@@ -1,6 +1,7 @@
-// Reads vectors, regions, and the [[part.motion]] sections of a wall.
+// Motions, drives and flights of walls in scene files.
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -35,5 +36,16 @@ std::pair<double, double> read_times(const TomlTable& table);
 
 /// Reads the motions of a wall. Throws InputError.
 std::vector<WallMotion> read_motions(const TomlTable& part, const Time& time);
+
+/// Reads `free` of a part, if it has one. The part's shape, pose, motions and drive must have been read. Throws InputError.
+std::optional<Flight> read_flight(const TomlTable& part, const Wall& wall, const Time& time);
+
+/// Reads `drive` of a part, if it has one. The part's shape, pose and motions must have been read. A plane pushes along its normal
+/// unless the drive has an axis. A servo without an area is between the walls of `between`, or those that load_servos() reads if
+/// there are none. Throws InputError.
+std::optional<Drive> read_drive(const TomlTable& part, const Wall& wall, const std::vector<FacingWalls>& between);
+
+/// Reads the walls between which servos are. All walls of the scene must have been read. Throws InputError.
+void load_servos(const TomlTable& root, Scene& scene);
 
 }  // namespace falling_particles

@@ -10,11 +10,9 @@
 #include "common/input_error.hpp"
 #include "common/nearest_word.hpp"
 #include "common/read_file.hpp"
-#include "load_drive.hpp"
 #include "load_effects.hpp"
+#include "load_motion.hpp"
 #include "load_sections.hpp"
-#include "model/memory.hpp"
-#include "model/picture_names.hpp"
 #include "model/scene.hpp"
 
 namespace falling_particles {
@@ -110,8 +108,8 @@ std::vector<GrainCount> read_kinds(const TomlTable& root, const std::vector<Toml
     kind.is_fed = root.has("feeder");
     const char* other = by_fraction ? "count" : "fraction";
     if (entry.has(other)) {
-      entry.fail(other, entry.full_name(other) + " is mixed with " + (by_fraction ? "fraction" : "count") +
-                            "; allowed: count for all grains or fraction for all grains");
+      entry.refuse(other, std::string(" is mixed with ") + (by_fraction ? "fraction" : "count") +
+                              "; allowed: count for all grains or fraction for all grains");
     }
   }
   return kinds;

@@ -60,4 +60,17 @@ std::vector<Sink> load_sinks(const TomlTable& root, const Scene& scene);
 /// Reads the sections [[measurement]]. The scene's container, grains and time must have been read. Throws InputError.
 std::vector<MeasurementRequest> load_measurements(const TomlTable& root, const Scene& scene);
 
+extern "C" {
+
+/// The sections besides parts, feeders and sinks. Below each section, or each kind of it, every key has a line with its unit, range
+/// and default. A test compares the keys with those that the loader accepts.
+extern const char kSectionsList[];
+
+/// The shapes, motions and drives of [[part]] with their parameters, units and ranges.
+extern const char kWallsList[];
+
+/// The parameters of [[feeder]] and [[sink]] with units and ranges.
+extern const char kPopulationList[];
+}
+
 }  // namespace falling_particles

@@ -12,6 +12,7 @@
 #include "model/grain_shape.hpp"
 #include "model/wall.hpp"
 #include "state_table.hpp"
+#include "world/grain.hpp"
 
 namespace falling_particles {
 namespace {
@@ -194,9 +195,8 @@ class StateReader {
 
   /// rad/s, of a grain with this angular momentum in LAMMPS.
   Point spin_of(const StartGrain& grain, const Point& momentum) const {
-    const supernormal::Vector3 spin = lammps_inertia(kinds_[grain.kind].kind, grain.scale, grain.quaternion)
-                                          .ldlt()
-                                          .solve(supernormal::Vector3(momentum[0], momentum[1], momentum[2]));
+    const supernormal::Vector3 spin =
+        lammps_inertia(kinds_[grain.kind].kind, grain.scale, grain.quaternion).ldlt().solve(to_vector(momentum));
     return {spin.x(), spin.y(), spin.z()};
   }
 
@@ -209,8 +209,8 @@ std::filesystem::path find_file(const TomlTable& section, const char* key, const
   const std::filesystem::path path = std::filesystem::path(scene_path).parent_path() / section.text(key);
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored)) return path;
-  section.fail(key, section.full_name(key) + ": there is no file \"" + path.string() + "\"; allowed: " + allowed +
-                        ", its path relative to the scene file");
+  section.refuse(key,
+                 ": there is no file \"" + path.string() + "\"; allowed: " + allowed + ", its path relative to the scene file");
 }
 
 std::optional<TomlTable> find_section(const TomlTable& root) { return root.find_table("start", {"file", "overlap", "parts"}); }

@@ -8,13 +8,11 @@
 #include <utility>
 
 #include "common/load_mesh.hpp"
-#include "load_drive.hpp"
-#include "load_flight.hpp"
 #include "load_motion.hpp"
 #include "load_sections.hpp"
-#include "model/container_walls.hpp"
-#include "model/material.hpp"
+#include "model/container.hpp"
 #include "model/two_sided_mesh.hpp"
+#include "model/wall.hpp"
 #include "supernormal/shapes/superovoid.hpp"
 
 namespace falling_particles {
@@ -65,7 +63,7 @@ SmoothShape read_smooth(const TomlTable& table, const std::string& shape) {
   try {
     const supernormal::Superovoid checked(body.half_axes, body.delta, body.epsilon, body.taper_x, body.taper_y);
   } catch (const std::invalid_argument& error) {
-    table.fail("taper", table.full_name("taper") + ": " + error.what());
+    table.refuse("taper", std::string(": ") + error.what());
   }
   return body;
 }
@@ -91,8 +89,7 @@ MeshShape read_mesh(const TomlTable& table, const std::string& scene_path) {
   std::string extension = std::filesystem::path(name).extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension != ".stl" && extension != ".obj") {
-    table.fail("file", table.full_name("file") + " is \"" + name +
-                           "\"; allowed: an .stl or .obj file, its path relative to the scene file");
+    table.refuse("file", " is \"" + name + "\"; allowed: an .stl or .obj file, its path relative to the scene file");
   }
   const auto* const found = std::ranges::find(kUnits, unit, [](const auto& entry) { return std::string(entry.first); });
   MeshShape mesh;
@@ -101,18 +98,17 @@ MeshShape read_mesh(const TomlTable& table, const std::string& scene_path) {
     static_cast<Mesh&>(mesh) = load_mesh((std::filesystem::path(scene_path).parent_path() / name).string(), found->second);
     if (mesh.two_sided) mesh.triangles = sheets_of(mesh).triangles;
   } catch (const std::runtime_error& error) {
-    table.fail("file", table.full_name("file") + ": " + error.what());
+    table.refuse("file", std::string(": ") + error.what());
   }
   if (bounding_radius(mesh) > kLargestLength) {
-    table.fail("unit", table.full_name("unit") + " is \"" + unit + "\", with which the mesh reaches " +
-                           shortest(bounding_radius(mesh)) + " m from its origin; allowed: up to " + shortest(kLargestLength) +
-                           " m");
+    table.refuse("unit", " is \"" + unit + "\", with which the mesh reaches " + shortest(bounding_radius(mesh)) +
+                             " m from its origin; allowed: up to " + shortest(kLargestLength) + " m");
   }
   if (const std::size_t count = count_two_sided(mesh); count > 0) {
-    table.fail("file", table.full_name("file") + ": \"" + name + "\" has " + counted(count, "triangle") +
-                           " with corners in both orders, between which grains would sink; allowed: each triangle "
-                           "once, solid behind, or " +
-                           table.full_name("two_sided") + " = true, which holds grains on both sides");
+    table.refuse("file", ": \"" + name + "\" has " + counted(count, "triangle") +
+                             " with corners in both orders, between which grains would sink; allowed: each triangle "
+                             "once, solid behind, or " +
+                             table.full_name("two_sided") + " = true, which holds grains on both sides");
   }
   return mesh;
 }
@@ -144,11 +140,11 @@ std::string read_name(const TomlTable& table, const std::vector<Wall>& walls) {
   const std::string name = table.text("name");
   const auto is_allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
   if (!std::ranges::all_of(name, is_allowed)) {
-    table.fail("name", table.full_name("name") + " is \"" + name + "\"; allowed: letters, digits, _, - and .");
+    table.refuse("name", " is \"" + name + "\"; allowed: letters, digits, _, - and .");
   }
   if (const auto other = std::ranges::find(walls, name, &Wall::name); other != walls.end()) {
     const char* const owner = other->is_of_container ? "a wall of the container" : "another part";
-    table.fail("name", table.full_name("name") + " is \"" + name + "\", which " + owner + " has; allowed: a name of its own");
+    table.refuse("name", " is \"" + name + "\", which " + owner + " has; allowed: a name of its own");
   }
   return name;
 }

@@ -23,8 +23,7 @@ struct BondRest {
 
   double length() const { return (centre - start).norm(); }  ///< m
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
+  void serialize(auto& archive) {
     for (Vector3* vector : {&start, &centre}) archive((*vector)[0], (*vector)[1], (*vector)[2]);
     archive(rotation.w(), rotation.x(), rotation.y(), rotation.z());
   }

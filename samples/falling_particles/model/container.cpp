@@ -3,8 +3,171 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
+#include <utility>
+#include <variant>
 
 namespace falling_particles {
+namespace {
+
+/// A box between two opposite corners.
+Wall box(std::string name, const Vector3& lower, const Vector3& upper, std::vector<WallMotion> motions = {}) {
+  return {std::move(name), BoxShape{upper - lower}, {(lower + upper) / 2, Eigen::Quaterniond::Identity()}, std::move(motions)};
+}
+
+/// Four walls around a rectangle with its corner at the origin, from z = `bottom` to z = `top`.
+void add_walls(const std::string& prefix, const std::array<double, 2>& width, double thickness, double bottom, double top,
+               const std::vector<WallMotion>& motions, std::vector<Wall>& walls) {
+  const auto [x, y] = width;
+  const double t = thickness;
+  walls.push_back(box(prefix + "_left", {-t, -t, bottom}, {0, y + t, top}, motions));
+  walls.push_back(box(prefix + "_right", {x, -t, bottom}, {x + t, y + t, top}, motions));
+  walls.push_back(box(prefix + "_front", {-t, -t, bottom}, {x + t, 0, top}, motions));
+  walls.push_back(box(prefix + "_back", {-t, y, bottom}, {x + t, y + t, top}, motions));
+}
+
+Wall side(std::string name, WallShape shape, const Vector3& position = Vector3::Zero()) {
+  Wall wall{std::move(name), std::move(shape), {position, Eigen::Quaterniond::Identity()}};
+  wall.role = WallRole::Side;
+  return wall;
+}
+
+Wall plane(std::string name, const Vector3& position, const Vector3& normal) {
+  return side(std::move(name), PlaneShape{0, normal}, position);
+}
+
+Wall floor() { return plane("floor", Vector3::Zero(), Vector3::UnitZ()); }
+
+/// Four walls of infinite height around a rectangle.
+void add_sides(const Rectangle& plan, std::vector<Wall>& walls) {
+  const auto [x, y] = plan.corner;
+  walls.push_back(plane("x_low", {x, 0, 0}, Vector3::UnitX()));
+  walls.push_back(plane("x_high", {x + plan.width[0], 0, 0}, {-1, 0, 0}));
+  walls.push_back(plane("y_low", {0, y, 0}, Vector3::UnitY()));
+  walls.push_back(plane("y_high", {0, y + plan.width[1], 0}, {0, -1, 0}));
+}
+
+std::vector<Wall> walls_of(const Box& box) {
+  std::vector<Wall> walls = {floor()};
+  add_sides(box.plan(), walls);
+  return walls;
+}
+
+std::vector<Wall> walls_of(const Hopper& hopper) {
+  std::vector<Wall> walls = {floor()};
+  add_sides(hopper.tray(), walls);
+  if (hopper.opens_at > 0) {
+    walls.push_back(plane("lid", {0, 0, hopper.clearance}, Vector3::UnitZ()));
+    walls.back().role = WallRole::Lid;
+  }
+  walls.push_back(side("hopper", MeshShape{make_mesh(hopper)}));
+  if (hopper.dish) walls.push_back(side("dish", MeshShape{make_mesh(*hopper.dish, hopper.segments)}));
+  return walls;
+}
+
+std::vector<Wall> walls_of(const Terrain& terrain) {
+  const Rectangle plan = terrain.plan();
+  std::vector<Wall> walls;
+  add_sides(plan, walls);
+  walls.push_back(side("ground", GroundShape{terrain.samples_per_side(), terrain.spacing(), terrain.samples()},
+                       {plan.corner[0] + plan.width[0] / 2, plan.corner[1] + plan.width[1] / 2, 0}));
+  return walls;
+}
+
+/// The inner side of the drum's shell around the y-axis. It extends beyond both ends.
+MeshShape shell_of(const Drum& drum) {
+  MeshShape mesh;
+  const double beyond = 0.1 * drum.radius();
+  const auto count = static_cast<unsigned int>(drum.segments);
+  for (const double y : {-beyond, drum.length + beyond}) {
+    for (unsigned int i = 0; i < count; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + 0.5) / count;
+      mesh.vertices.push_back({static_cast<float>(drum.outer_radius() * std::sin(angle)), static_cast<float>(y),
+                               static_cast<float>(-drum.outer_radius() * std::cos(angle))});
+    }
+  }
+  for (unsigned int i = 0; i < count; ++i) {
+    const unsigned int next = (i + 1) % count;
+    mesh.triangles.push_back({i, next, next + count});
+    mesh.triangles.push_back({i, next + count, i + count});
+  }
+  return mesh;
+}
+
+WallPose facing(const Vector3& position, double angle_about_x) {
+  return {position, Eigen::Quaterniond(Eigen::AngleAxisd(angle_about_x, Vector3::UnitX()))};
+}
+
+std::vector<Wall> walls_of(const Drum& drum) {
+  const Rotation turn{Vector3::UnitY(), {0, 0, drum.radius()}, drum.rpm};
+  std::vector<WallMotion> motions(1);
+  if (drum.is_smooth) {
+    motions[0].kind = Conveyor{Vector3::Zero(), turn};
+  } else {
+    motions[0].kind = turn;
+  }
+  motions[0].from = drum.turns_at;
+  const PlaneShape end{drum.outer_radius()};
+  return {{"drum", shell_of(drum), {{0, 0, drum.radius()}, Eigen::Quaterniond::Identity()}, motions},
+          {"near_end", end, facing({0, 0, drum.radius()}, -std::numbers::pi / 2), motions},
+          {"far_end", end, facing({0, drum.length, drum.radius()}, std::numbers::pi / 2), motions}};
+}
+
+std::vector<Wall> walls_of(const Tray& tray) {
+  const double t = tray.thickness;
+  const Vector3 amplitude = tray.amplitude * Vector3(tray.direction[0], tray.direction[1], tray.direction[2]);
+  const std::vector<WallMotion> motions = {{Vibration{amplitude, tray.frequency, tray.phase}, tray.shakes_at}};
+  std::vector<Wall> walls = {box("tray_floor", {-t, -t, -t}, {tray.width[0] + t, tray.width[1] + t, 0}, motions)};
+  add_walls("tray", tray.width, t, -t, tray.wall_height, motions, walls);
+  return walls;
+}
+
+std::vector<Wall> walls_of(const ShearCell& cell) {
+  const auto [x, y] = cell.width;
+  const double t = cell.thickness;
+  const std::vector<WallMotion> shear = {{Translation{{cell.speed, 0, 0}}, cell.shears_at}};
+  std::vector<Wall> walls = {box("lower_floor", {-t, -t, -t}, {x + t, y + t, 0}, shear)};
+  add_walls("lower", cell.width, t, 0, cell.cut, shear, walls);
+  add_walls("upper", cell.width, t, cell.cut, cell.height, {}, walls);
+  Wall lid = box("lid", {0, 0, cell.lid}, {x, y, cell.lid + t});
+  lid.drive = Drive{-Vector3::UnitZ(), cell.pressure * x * y, cell.lid_mass};
+  lid.drive->from = cell.presses_at;
+  lid.drive->travel = {0, cell.lid - cell.cut};
+  walls.push_back(std::move(lid));
+  return walls;
+}
+
+// The floor of a cell has the name of the lower end along z.
+std::vector<Wall> walls_of(const Cell& cell) {
+  std::vector<Wall> walls;
+  add_sides(cell.plan(), walls);
+  walls.push_back(plane("z_low", {0, 0, cell.lowest()}, Vector3::UnitZ()));
+  if (cell.has_lid()) walls.push_back(plane("z_high", {0, 0, cell.ceiling()}, {0, 0, -1}));
+  for (Wall& wall : walls) wall.role = WallRole::Part;
+  return walls;
+}
+
+std::vector<Wall> walls_of(const ConveyorBelt& belt) {
+  const double t = belt.thickness;
+  const double top = belt.height + belt.wall_height;
+  const double middle = belt.height - t / 2;
+  const WallMotion running{Conveyor{{belt.speed, 0, 0}, {Vector3::UnitY(), Vector3::Zero(), 0}}, belt.starts_at};
+  const auto roller = [&](const char* name, double x) -> Wall {
+    const Vector3 position(x, belt.width / 2, middle);
+    const WallMotion turning{Conveyor{Vector3::Zero(), {Vector3::UnitY(), position, belt.roller_rpm()}}, belt.starts_at};
+    return {name, CylinderShape{t / 2, belt.width}, facing(position, std::numbers::pi / 2), {turning}};
+  };
+  return {box("belt", {0, 0, belt.height - t}, {belt.length, belt.width, belt.height}, {running}),
+          roller("first_roller", 0),
+          roller("last_roller", belt.length),
+          {"ground", PlaneShape{}},
+          box("first_wall", {-t, -t, 0}, {0, belt.width + t, top}),
+          box("last_wall", {belt.end(), -t, 0}, {belt.end() + t, belt.width + t, top}),
+          box("front_wall", {-t, -t, 0}, {belt.end() + t, 0, top}),
+          box("back_wall", {-t, belt.width, 0}, {belt.end() + t, belt.width + t, top})};
+}
+
+}  // namespace
 
 const char* kind_of(const Container& container) {
   constexpr std::array kKinds = {"box", "hopper", "terrain", "periodic", "none", "drum", "tray", "shear_cell", "conveyor", "cell"};
@@ -45,6 +208,16 @@ Region room_of(const Container& container) {
 
 bool contains(const Container& container, const Point& point) {
   return std::visit([&point](const auto& kind) { return kind.contains(point); }, container);
+}
+
+std::vector<Wall> walls_in(const Container& container) {
+  const auto walls = [](const auto& kind) -> std::vector<Wall> {
+    if constexpr (requires { walls_of(kind); }) return walls_of(kind);
+    return {};
+  };
+  std::vector<Wall> found = std::visit(walls, container);
+  for (Wall& wall : found) wall.is_of_container = true;
+  return found;
 }
 
 }  // namespace falling_particles

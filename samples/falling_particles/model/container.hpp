@@ -1,17 +1,149 @@
 // The container of a scene: a box, a cell, a hopper, a terrain, a periodic cell, a moving container, or none.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <variant>
+#include <vector>
 
 #include "geometry.hpp"
 #include "hopper.hpp"
-#include "moving.hpp"
-#include "periodic.hpp"
 #include "terrain.hpp"
+#include "wall.hpp"
 
 namespace falling_particles {
+
+/// The interval of an axis after which a scene repeats.
+struct Period {
+  double lower;   ///< m
+  double length;  ///< m
+
+  double upper() const { return lower + length; }                                           ///< m
+  double middle() const { return lower + length / 2; }                                      ///< m
+  double wrapped(double x) const { return x - length * std::floor((x - lower) / length); }  ///< m, the image of x in the cell
+};
+
+/// The periods along x, y and z; empty where a scene does not repeat.
+using PeriodicAxes = std::array<std::optional<Period>, 3>;
+
+inline bool is_any(const PeriodicAxes& axes) {
+  return std::ranges::any_of(axes, [](const std::optional<Period>& period) { return period.has_value(); });
+}
+
+/// The image of the point in the cell.
+inline Point wrapped(const PeriodicAxes& axes, Point point) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (axes[axis]) point[axis] = axes[axis]->wrapped(point[axis]);
+  }
+  return point;
+}
+
+/// A cube with a corner at the origin that repeats in all directions: a grain that leaves on one side enters on the other.
+struct Periodic {
+  double side;  ///< m, at the start
+
+  Rectangle plan() const { return {{0, 0}, {side, side}}; }
+  double lowest() const { return 0; }
+  Region room() const { return {{0, 0, 0}, {side, side, side}}; }
+  /// Contains every finite point.
+  bool contains(const Point& p) const { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
+};
+
+/// A drum that rotates about the line x = 0, z = diameter / 2, from y = 0 to y = length. Its shell has `segments` flat sides around
+/// a circle of `diameter`. The ends are closed and rotate with it.
+struct Drum {
+  double diameter;  ///< m
+  double length;    ///< m
+  int segments;
+  double rpm;       ///< revolutions per minute; for a positive number the floor of the drum moves towards -x
+  bool is_smooth;   ///< whether only the surface moves while the flat sides stand
+  double turns_at;  ///< s
+
+  double radius() const { return diameter / 2; }                                            ///< m
+  double outer_radius() const { return radius() / std::cos(std::numbers::pi / segments); }  ///< m, of the edges
+
+  Rectangle plan() const { return {{-radius(), 0}, {diameter, length}}; }
+  double lowest() const { return 0; }
+  double ceiling() const { return diameter; }
+  /// Whether the box from `lower` on is within the inscribed cylinder.
+  bool has_room(const Point& lower, const Point& size) const {
+    const double x = std::max(std::abs(lower[0]), std::abs(lower[0] + size[0]));
+    const double z = std::max(std::abs(lower[2] - radius()), std::abs(lower[2] + size[2] - radius()));
+    return std::hypot(x, z) <= radius();
+  }
+  Region room() const {
+    const double outer = outer_radius();
+    return {{-outer, 0, radius() - outer}, {2 * outer, length, 2 * outer}};
+  }
+  bool contains(const Point& p) const { return p[1] > 0 && p[1] < length && std::hypot(p[0], p[2] - radius()) < outer_radius(); }
+};
+
+/// A vibrating tray: a floor at z = 0 and four walls around 0 < x < width[0], 0 < y < width[1].
+struct Tray {
+  std::array<double, 2> width;  ///< m
+  double wall_height;           ///< m
+  double thickness;             ///< m, of floor and walls
+  Point direction;              ///< of the vibration, unit
+  double amplitude;             ///< m
+  double frequency;             ///< Hz
+  double phase;                 ///< rad
+  double shakes_at;             ///< s
+
+  Rectangle plan() const { return {{0, 0}, width}; }
+  double lowest() const { return 0; }
+  /// Within the walls at any phase of the vibration, or above them.
+  Region room() const {
+    const auto way = [this](std::size_t axis) { return 2 * amplitude * std::abs(direction[axis]); };
+    return {{-way(0), -way(1), -way(2)}, {width[0] + 2 * way(0), width[1] + 2 * way(1), INFINITY}};
+  }
+  bool contains(const Point& p) const { return room().contains(p); }
+};
+
+/// A direct shear test: a box cut at half its height. The lower half moves along x below the upper one. A lid that can move up and
+/// down presses on the grains.
+struct ShearCell {
+  std::array<double, 2> width;  ///< m
+  double height;                ///< m
+  double cut;                   ///< m, z of the cut
+  double thickness;             ///< m, of floor, walls and lid
+  double speed;                 ///< m/s, of the lower half along x
+  double pressure;              ///< Pa, of the lid on the plan
+  double lid_mass;              ///< kg
+  double lid;                   ///< m, z of the lid's lower side at the start
+  double presses_at;            ///< s; until then the lid is held
+  double shears_at;             ///< s
+
+  Rectangle plan() const { return {{0, 0}, width}; }
+  double lowest() const { return 0; }
+  double ceiling() const { return lid; }
+  /// Within the upper half or the lower one, which moves by less than the thickness of the walls.
+  Region room() const { return {{-thickness, 0, 0}, {width[0] + 2 * thickness, width[1], height + thickness}}; }
+  bool contains(const Point& p) const { return room().contains(p); }
+};
+
+/// A belt around two rollers, from x = 0 to x = length, between two side walls. At its end grains drop to a floor at z = 0 with a
+/// wall at its end.
+struct ConveyorBelt {
+  double length;       ///< m, between the axes of the rollers
+  double width;        ///< m
+  double height;       ///< m, z of the belt
+  double thickness;    ///< m, of the belt and the walls, and the diameter of the rollers
+  double wall_height;  ///< m, height of the walls above the belt
+  double speed;        ///< m/s, along x
+  double drop_length;  ///< m, from the end of the belt to the last wall
+  double starts_at;    ///< s
+
+  double roller_rpm() const { return 60 / (2 * std::numbers::pi) * speed / (thickness / 2); }
+  double end() const { return length + drop_length; }  ///< m
+
+  Rectangle plan() const { return {{0, 0}, {length / 2, width}}; }
+  double lowest() const { return height; }
+  Region room() const { return {{0, 0, 0}, {end(), width, INFINITY}}; }
+  bool contains(const Point& p) const { return room().contains(p); }
+};
 
 /// A floor at z = 0 and four walls of infinite height at x = 0, x = width[0], y = 0 and y = width[1].
 struct Box {
@@ -67,5 +199,8 @@ Region room_of(const Container& container);
 
 /// Whether a point may be the centre of a grain. False for a NaN.
 bool contains(const Container& container, const Point& point);
+
+/// The walls of which the container is made. A periodic container and the container "none" have no walls.
+std::vector<Wall> walls_in(const Container& container);
 
 }  // namespace falling_particles

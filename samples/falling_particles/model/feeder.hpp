@@ -27,10 +27,7 @@ struct Amount {
     mass += other.mass;
     return *this;
   }
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(grains, mass);
-  }
+  void serialize(auto& archive) { archive(grains, mass); }
 };
 
 /// A number of grains (grains) or a mass (kg); of a rate, in grains/s or kg/s.

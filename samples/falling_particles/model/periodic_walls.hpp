@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "periodic.hpp"
+#include "container.hpp"
 #include "wall.hpp"
 
 namespace falling_particles {

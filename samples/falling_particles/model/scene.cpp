@@ -1,10 +1,20 @@
 #include "scene.hpp"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 namespace falling_particles {
+namespace {
+
+constexpr double kBytesPerGrain = 20 * 1024;
+constexpr double kBytesOfProgram = 32 * 1024 * 1024;  // code, libraries, the table of warm starts
+
+}  // namespace
 
 int Time::steps() const { return static_cast<int>(std::lround(duration / step)); }
 int Time::steps_per_frame() const { return static_cast<int>(std::lround(frame / step)); }
@@ -86,6 +96,31 @@ bool is_inside(const Scene& scene, const Point& point) {
   const Point image = wrapped(scene.periodic, point);
   return contains(scene.container, within) ||
          std::ranges::any_of(scene.sinks, [&](const Sink& sink) { return sink.contains(image); });
+}
+
+double StartState::largest_speed() const {
+  double largest = 0;
+  for (const StartGrain& grain : grains) {
+    largest = std::max(largest, std::hypot(grain.velocity[0], grain.velocity[1], grain.velocity[2]));
+  }
+  return largest;
+}
+
+double memory_needed(int grains) { return kBytesOfProgram + kBytesPerGrain * grains; }
+
+int most_grains(double bytes) {
+  const double grains = (bytes - kBytesOfProgram) / kBytesPerGrain;
+  return static_cast<int>(std::clamp(grains, 0.0, static_cast<double>(std::numeric_limits<int>::max())));
+}
+
+double memory_of_machine() {
+  double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  for (const auto kind : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit limit{};
+    if (getrlimit(kind, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+      bytes = std::min(bytes, static_cast<double>(limit.rlim_cur));
+  }
+  return bytes;
 }
 
 }  // namespace falling_particles

@@ -3,11 +3,16 @@
 
 #include <supernormal/supernormal.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <supernormal/effects.hpp>
 #include <vector>
 
@@ -16,12 +21,53 @@
 #include "feeder.hpp"
 #include "geometry.hpp"
 #include "grain_kind.hpp"
-#include "request.hpp"
 #include "size_distribution.hpp"
-#include "start_state.hpp"
 #include "wall.hpp"
 
 namespace falling_particles {
+
+/// A grain of a state.
+struct StartGrain {
+  std::size_t kind = 0;                             ///< index into Scene::kinds
+  double scale = 1;                                 ///< factor on the lengths of the kind
+  Point position = {};                              ///< m
+  std::array<double, 4> quaternion = {1, 0, 0, 0};  ///< w, x, y, z
+  Point velocity = {};                              ///< m/s
+  Point angular_velocity = {};                      ///< rad/s
+  unsigned line = 0;                                ///< of the file
+  std::size_t number = 0;                           ///< in the file: its column body, or its place from 0
+};
+
+/// The section [start] of a scene file, checked but for overlaps (refuse_bad_state).
+struct StartState {
+  std::filesystem::path file = {};
+  std::optional<double> time = {};  ///< s, of the run that wrote the file
+  bool has_velocities = false;      ///< whether the file has any; without them all grains start at rest
+  double overlap = 0;               ///< the deepest allowed overlap, relative to the smallest half-axis of the smaller grain
+  std::vector<StartGrain> grains = {};
+
+  double largest_speed() const;  ///< m/s
+};
+
+class Measurement;
+class World;
+
+/// Makes a measurement for a world that has made no step.
+using MeasurementMaker = std::function<std::unique_ptr<Measurement>(const World&)>;
+
+/// A section [[measurement]] of a scene file, checked.
+struct MeasurementRequest {
+  std::string name;  ///< of its table, measurements/NAME.csv
+  std::string kind;  ///< in measurement_kinds()
+  int every;         ///< steps between two samples; samples are at multiples of it from `first` to `last`
+  int first;         ///< in steps; at step 0 only kinds that need no contacts have a sample
+  int last;
+  bool needs_contacts;
+  MeasurementMaker make;
+
+  bool is_due(int step) const { return step % every == 0 && step >= first && step <= last; }
+  bool follows(int step) const { return step > first && step <= last; }  ///< if the kind follows the run
+};
 
 struct GrainCount {
   GrainKind kind;
@@ -79,7 +125,7 @@ struct Query {
 
 std::string name_of(snSolver solver);
 
-/// The compression of the grains in a periodic container until they jam (world/compression.hpp).
+/// The compression of the grains in a periodic container until they jam (world/periodic_cell.hpp).
 struct Compression {
   double overlap;        ///< mean, relative to the distance of two touching grains; target at the start
   double final_overlap;  ///< target at the end
@@ -98,9 +144,9 @@ struct Scene {
   Solver solver;
   std::vector<supernormal::effects::Effect> effects;  ///< the effects that the scene names, and no others
   std::optional<Compression> compression = {};        ///< of the grains in a periodic container
-  std::vector<std::string> pictures = {};             ///< formats that a run writes besides its tables (picture_names.hpp)
+  std::vector<std::string> pictures = {};             ///< formats that a run writes besides its tables (kPictureNames)
   bool forces = false;                                ///< whether pictures show the forces of the contacts
-  std::vector<Wall> walls = {};                       ///< of the container (container_walls.hpp), then of [[part]]
+  std::vector<Wall> walls = {};                       ///< of the container (walls_in), then of [[part]]
   std::optional<Query> query = {};                    ///< of two smooth bodies; the library's defaults if empty
   std::optional<Axis> sweep_axis = {};                ///< of the broad phase; if empty, chosen by the positions of the grains
   std::vector<MeasurementRequest> measurements = {};  ///< the measurements that the scene names, and no others
@@ -143,5 +189,23 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
 /// Loads the content of a scene file. `path` is where the file would be: it names the scene, and the paths in the scene are
 /// relative to its folder. Scene::files has no entry for it.
 Scene load_scene_text(const std::string& content, const std::string& path, const std::vector<std::string>& overrides = {});
+
+/// The bytes that a run with this many grains needs in a bed. Measured in a bed of 5000 grains are 12 KiB per grain; the rest is
+/// margin. A grain has 2 KiB of its own: body, geom, mass and start. In a bed of mixed grains, the bounding boxes of seven
+/// neighbours meet its own. So it has 3.5 pairs, each with max_contacts of five (0.8 KiB). It has three contacts with their joints
+/// (0.6 KiB). Quickstep has nine rows for it (0.3 KiB), or eighteen with rolling and spinning resistance.
+double memory_needed(int grains);
+
+/// The most grains for which memory_needed() is at most `bytes`.
+int most_grains(double bytes);
+
+/// Bytes: the machine's memory, or the limit of this process (ulimit -v, -d) if it is lower.
+double memory_of_machine();
+
+/// In the order in which they are listed for users. Each has an entry in picture_formats() (output/picture.hpp).
+inline constexpr std::array<std::string_view, 6> kPictureNames = {"page", "glb", "lammps", "vtk", "povray", "plots"};
+
+/// The formats that a run writes when its scene names none.
+inline std::vector<std::string> default_pictures() { return {"page", "glb", "plots"}; }
 
 }  // namespace falling_particles

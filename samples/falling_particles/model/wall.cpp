@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <supernormal/shapes/box.hpp>
 #include <supernormal/shapes/cylinder.hpp>
 #include <supernormal/shapes/superovoid.hpp>
@@ -74,11 +76,39 @@ std::vector<Face> faces_of(const WallShape& shape, const WallPose& pose) {
   return faces;
 }
 
+namespace fx = supernormal::effects;
+
+bool has_own_material(const Wall& wall) { return wall.friction.has_value() || wall.restitution.has_value(); }
+
+/// The effect that the scene names for grains on walls.
+template <typename E>
+std::optional<E> of_walls(const std::vector<fx::Effect>& effects) {
+  for (const fx::Effect& effect : effects) {
+    const E* found = std::get_if<E>(&effect);
+    if (found != nullptr && found->on == kGrainOnWall) return *found;
+  }
+  return std::nullopt;
+}
+
+/// The threshold of the restitution that the scene names; all contacts share it.
+double threshold_of(const std::vector<fx::Effect>& effects) {
+  for (const fx::Effect& effect : effects) {
+    if (const auto* found = std::get_if<fx::Restitution>(&effect)) return found->threshold;
+  }
+  return 0;
+}
+
 }  // namespace
 
 std::string Wall::called() const { return (is_of_container ? "wall \"" : "part \"") + name + '"'; }
 
 std::string Wall::key() const { return is_of_container ? "container." + name : "part"; }
+
+std::vector<std::string> names_of(std::span<const Wall> walls) {
+  std::vector<std::string> names;
+  std::ranges::transform(walls, std::back_inserter(names), &Wall::name);
+  return names;
+}
 
 double bounding_radius(const WallShape& shape) {
   return std::visit([](const auto& kind) { return radius_of(kind); }, shape);
@@ -117,6 +147,46 @@ std::optional<FacingFaces> facing_faces(const WallShape& first, const WallPose& 
     }
   }
   return found;
+}
+
+fx::Material material_of_wall(const std::vector<Wall>& walls, std::size_t index) {
+  if (!has_own_material(walls[index])) return kWallMaterial;
+  fx::Material material = kWallMaterial;
+  for (std::size_t i = 0; i <= index; ++i) material += has_own_material(walls[i]) ? 1 : 0;
+  return material;
+}
+
+void add_wall_effects(const std::vector<Wall>& walls, std::vector<fx::Effect>& effects) {
+  const std::optional<fx::Friction> friction = of_walls<fx::Friction>(effects);
+  const std::optional<fx::Restitution> restitution = of_walls<fx::Restitution>(effects);
+  const double threshold = threshold_of(effects);
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    if (!has_own_material(walls[i])) continue;
+    const auto on = fx::MaterialSelector::between(kGrainMaterial, material_of_wall(walls, i));
+    if (walls[i].friction || friction)
+      effects.emplace_back(fx::Friction{walls[i].friction.value_or(friction ? friction->coefficient : 0), on});
+    if (walls[i].restitution || restitution) {
+      effects.emplace_back(
+          fx::Restitution{walls[i].restitution.value_or(restitution ? restitution->coefficient : 0), threshold, on});
+    }
+  }
+}
+
+void WallDoubts::add(const std::string& kind, const Wall& wall, double excess, const std::string& text) {
+  const auto found = std::ranges::find(kinds_, kind, [](const auto& doubts) { return doubts.front().kind; });
+  std::vector<Doubt>& doubts = found == kinds_.end() ? kinds_.emplace_back() : *found;
+  doubts.push_back({kind, wall.name, excess, wall.called() + text});
+}
+
+void WallDoubts::tell(std::vector<std::string>& doubts) const {
+  for (const std::vector<Doubt>& kind : kinds_) {
+    const auto worst = std::ranges::max_element(kind, {}, &Doubt::excess);
+    std::string others;
+    for (const Doubt& doubt : kind) {
+      if (&doubt != &*worst) others += (others.empty() ? "; the same holds for \"" : ", \"") + doubt.wall + '"';
+    }
+    doubts.push_back(worst->sentence + others);
+  }
 }
 
 }  // namespace falling_particles

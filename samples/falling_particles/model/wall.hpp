@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
+#include <supernormal/effects.hpp>
 #include <supernormal/shapes/shape.hpp>
 #include <variant>
 #include <vector>
@@ -12,10 +14,20 @@
 #include "common/drive.hpp"
 #include "common/mesh.hpp"
 #include "common/motion.hpp"
-#include "flight.hpp"
 #include "geometry.hpp"
 
 namespace falling_particles {
+
+using namespace common;
+
+/// A wall that is free in all six degrees of freedom. Its weight and the forces of its contacts move it.
+struct Flight {
+  double mass = 0;                                    ///< kg
+  Vector3 centre = Vector3::Zero();                   ///< m, of mass, in the wall's frame
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< kg m^2, about the centre, in the wall's frame
+  WallVelocity velocity = {};                         ///< of the centre of mass, when the flight starts
+  double from = 0;                                    ///< s; until then the wall is held
+};
 
 /// The half-space below a plane through the wall's position.
 struct PlaneShape {
@@ -88,6 +100,8 @@ struct Wall {
   bool moves() const { return !motions.empty() || drive || flight; }
 };
 
+std::vector<std::string> names_of(std::span<const Wall> walls);
+
 /// m, radius of a sphere around the wall's position that contains the wall; infinite for a plane and a ground.
 double bounding_radius(const WallShape& shape);
 
@@ -109,5 +123,42 @@ struct FacingFaces {
 /// parallel ones.
 std::optional<FacingFaces> facing_faces(const WallShape& first, const WallPose& at_first, const WallShape& second,
                                         const WallPose& at_second);
+
+constexpr supernormal::effects::Material kGrainMaterial = 0;
+constexpr supernormal::effects::Material kWallMaterial = 1;
+constexpr auto kGrainOnWall = supernormal::effects::MaterialSelector::between(kGrainMaterial, kWallMaterial);
+
+/// The largest number of walls with coefficients of their own.
+inline constexpr int kMostWallMaterials = 60;
+
+/// Pa; the contact modulus E* of two bodies of this material (Johnson, Contact Mechanics, 4.2).
+inline double contact_modulus(const supernormal::effects::Hertz& hertz) {
+  return hertz.youngs_modulus / (2 * (1 - hertz.poisson_ratio * hertz.poisson_ratio));
+}
+
+/// The common material of walls, or a material of its own for a wall with coefficients of its own.
+supernormal::effects::Material material_of_wall(const std::vector<Wall>& walls, std::size_t index);
+
+/// Adds the effects of walls with coefficients of their own. A coefficient that such a wall does not have is the one of all walls.
+void add_wall_effects(const std::vector<Wall>& walls, std::vector<supernormal::effects::Effect>& effects);
+
+/// Collects doubts about walls. Six servos of a cell would get six near-equal sentences: of each kind, the worst gets its sentence,
+/// which then names the others.
+class WallDoubts {
+ public:
+  /// `kind`: of doubts that one remedy ends; `excess`: how bad this one is; `text`: what follows the name of the wall.
+  void add(const std::string& kind, const Wall& wall, double excess, const std::string& text);
+
+  /// Adds a sentence for each kind, in the order of their first walls.
+  void tell(std::vector<std::string>& doubts) const;
+
+ private:
+  struct Doubt {
+    std::string kind, wall;
+    double excess;
+    std::string sentence;
+  };
+  std::vector<std::vector<Doubt>> kinds_;
+};
 
 }  // namespace falling_particles

@@ -6,6 +6,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
+#include <numbers>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,13 +18,11 @@ namespace {
 
 constexpr std::size_t kPointsPerAxis = 48;  // 110 592 points in a box: standard error below 0.0016
 
-using Aabb = std::array<dReal, 6>;  // x, x, y, y, z, z
-
 /// Finds the grains that may contain a point by vertical columns of the container: a bed is much wider than a grain, and not high.
 class Columns {
  public:
   Columns(const World& world, const Rectangle& plan) : plan_(plan), cells_(kPerAxis * kPerAxis) {
-    world.for_each_grain_geom([this](dGeomID geom) { add(Entry{geom, {}}); });
+    world.for_each_grain_geom([this](dGeomID geom) { add({geom, aabb_of(geom)}); });
   }
 
   /// The grain that contains the point, or null.
@@ -46,8 +47,7 @@ class Columns {
   };
   static constexpr std::size_t kPerAxis = 32;
 
-  void add(Entry entry) {
-    dGeomGetAABB(entry.geom, entry.aabb.data());
+  void add(const Entry& entry) {
     for (std::size_t i = index(entry.aabb[0], 0); i <= index(entry.aabb[1], 0); ++i) {
       for (std::size_t j = index(entry.aabb[2], 1); j <= index(entry.aabb[3], 1); ++j) cells_[i * kPerAxis + j].push_back(entry);
     }
@@ -121,10 +121,88 @@ Bed measure(const World& world, const Vessel& vessel, Random& random) {
   return {height, fraction, std::sqrt(fraction * (1 - fraction) / all), density / all};
 }
 
+constexpr int kSectors = 12;
+constexpr int kArcs = 24;
+constexpr int kRaysPerArc = 12;
+
+struct Line {
+  double slope, at_zero;
+};
+
+Line fit(std::span<const double> x, std::span<const double> y) {
+  const auto n = static_cast<double>(x.size());
+  double sx = 0;
+  double sy = 0;
+  double sxx = 0;
+  double sxy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sx += x[i];
+    sy += y[i];
+    sxx += x[i] * x[i];
+    sxy += x[i] * y[i];
+  }
+  const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  return {slope, (sy - slope * sx) / n};
+}
+
 }  // namespace
 
 Bed measure_bed(const World& world, const Box& box, Random& random) { return measure(world, box, random); }
 
 Bed measure_bed(const World& world, const Hopper& hopper, Random& random) { return measure(world, hopper, random); }
+
+std::optional<double> Tops::height_at(double x, double y, double least) const {
+  std::optional<double> height;
+  for (const auto& [geom, a] : tops_) {
+    if (x < a[0] || x > a[1] || y < a[2] || y > a[3] || a[5] <= height.value_or(least)) continue;
+    const double start = a[5] + (a[5] - a[4]);
+    dGeomRaySetLength(ray_.get(), start - a[4]);
+    dGeomRaySet(ray_.get(), x, y, start, 0, 0, -1);
+    dContactGeom hit;
+    if (dCollide(ray_.get(), geom, 1, &hit, sizeof hit) > 0 && hit.pos[2] > height.value_or(least)) height = hit.pos[2];
+  }
+  return height;
+}
+
+Heap measure_heap(const World& world, const Point& centre, double radius) {
+  Tops tops;
+  std::size_t grains = 0;
+  for (const Grain& grain : world.present()) {
+    const Point p = grain.position();
+    if (p[2] < centre[2] || std::hypot(p[0] - centre[0], p[1] - centre[1]) > radius) continue;
+    for (const dGeomID geom : grain.geoms()) tops.add(geom);
+    ++grains;
+  }
+  double sum = 0;
+  double squares = 0;
+  double height = 0;
+  bool has_flank = false;
+  for (int sector = 0; sector < kSectors; ++sector) {
+    std::vector<double> distances;
+    std::vector<double> heights;
+    for (int arc = 0; arc < kArcs; ++arc) {
+      const double distance = radius * std::lerp(kFlankFrom, kFlankTo, (arc + 0.5) / kArcs);
+      double mean = 0;
+      for (int i = 0; i < kRaysPerArc; ++i) {
+        const double around = 2 * std::numbers::pi * (sector + (i + 0.5) / kRaysPerArc) / kSectors;
+        const double x = centre[0] + distance * std::cos(around);
+        const double y = centre[1] + distance * std::sin(around);
+        const double above = tops.height_at(x, y, centre[2]).value_or(centre[2]) - centre[2];
+        has_flank = has_flank || above > 0;
+        mean += above / kRaysPerArc;
+      }
+      distances.push_back(distance);
+      heights.push_back(mean);
+    }
+    const Line line = fit(distances, heights);
+    const double angle = std::atan(-line.slope) * 180 / std::numbers::pi;
+    sum += angle;
+    squares += angle * angle;
+    height += line.at_zero / kSectors;
+  }
+  const double mean = sum / kSectors;
+  const double variance = std::max(0.0, squares / kSectors - mean * mean) / (kSectors - 1);
+  return {mean, std::sqrt(variance), height, grains, has_flank};
+}
 
 }  // namespace falling_particles

@@ -2,15 +2,13 @@
 
 #include "measurement.hpp"
 #include "region.hpp"
-#include "surfaces.hpp"
 
 namespace falling_particles {
 namespace {
 
 class ContactForces final : public Measurement {
  public:
-  ContactForces(const SamplingRegion& region, std::vector<NamedSurface> surfaces)
-      : region_(region), surfaces_(std::move(surfaces)) {}
+  explicit ContactForces(const SamplingRegion& region) : region_(region) {}
 
   std::string columns() const override {
     return "time_s,grain1,kind1,grain2,kind2,x_m,y_m,z_m,normal_x,normal_y,normal_z,overlap_m,normal_force_N,"
@@ -26,7 +24,8 @@ class ContactForces final : public Measurement {
       if (contact.grain2 != nullptr) {
         table.add(static_cast<std::size_t>(contact.grain2 - grains)).add(contact.grain2->kind->name);
       } else {
-        table.blank().add(surface_name(surfaces_, contact.geom2));
+        const Wall* const wall = sample.world.walls().wall_of(contact.geom2);
+        table.blank().add(wall == nullptr ? "wall" : wall->name);
       }
       const double normal_force = contact.normal_force();
       const Vector3 tangential = contact.force - normal_force * contact.normal;
@@ -37,7 +36,6 @@ class ContactForces final : public Measurement {
 
  private:
   SamplingRegion region_;
-  std::vector<NamedSurface> surfaces_;
 };
 
 }  // namespace
@@ -52,8 +50,8 @@ MeasurementKind contact_forces_kind() {
           .source = "feedback of ODE's contact joints",
           .needs_contacts = true,
           .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
-            return [region = SamplingRegion(table, scene, SamplingRegion::Without::Everywhere)](const World& world) {
-              return std::make_unique<ContactForces>(region, surfaces_of(world));
+            return [region = SamplingRegion(table, scene, SamplingRegion::Without::Everywhere)](const World&) {
+              return std::make_unique<ContactForces>(region);
             };
           }};
 }

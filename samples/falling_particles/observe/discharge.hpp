@@ -23,10 +23,7 @@ struct Charge {
   double grain_diameter;  ///< m, diameter of a sphere with the grains' mean volume
   Bed bed;
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(time, mass, grain_diameter, bed);
-  }
+  void serialize(auto& archive) { archive(time, mass, grain_diameter, bed); }
 };
 
 /// Constants of Beverloo's law: the discharge coefficient, and the width of the empty annulus at the rim relative to the grain
@@ -54,19 +51,13 @@ class Discharge {
   /// kg/s, the mean over the steady section; empty if less was discharged.
   std::optional<double> mass_flow() const;
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(charge_, has_passed_, passages_);
-  }
+  void serialize(auto& archive) { archive(charge_, has_passed_, passages_); }
 
  private:
   struct Passage {
     double time;
     double total_mass;  // kg, up to and including this grain
-    template <typename Archive>
-    void serialize(Archive& archive) {
-      archive(time, total_mass);
-    }
+    void serialize(auto& archive) { archive(time, total_mass); }
   };
   void open(double time);
   const Passage* find_passage(double share) const;

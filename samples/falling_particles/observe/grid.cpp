@@ -5,6 +5,7 @@
 
 #include "measurement.hpp"
 #include "region.hpp"
+#include "world/grain.hpp"
 
 namespace falling_particles {
 namespace {
@@ -88,12 +89,10 @@ class Grid final : public Measurement {
   }
 
  private:
-  template <typename Visit>
-  void for_each(const Bounds& bounds, const World& world, Visit visit, std::vector<CellSums>& all) const {
+  void for_each(const Bounds& bounds, const World& world, auto visit, std::vector<CellSums>& all) const {
     for (const Grain& grain : world.present()) {
       const Vector3 place = place_of(grain, world);
-      const dReal* v = dBodyGetLinearVel(grain.body);
-      if (const auto cell = cell_of(place, bounds, cells_)) visit(all[*cell], grain, place, Vector3(v[0], v[1], v[2]));
+      if (const auto cell = cell_of(place, bounds, cells_)) visit(all[*cell], grain, place, to_vector(grain.velocity()));
     }
   }
 

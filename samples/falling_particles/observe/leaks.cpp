@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "common/interval.hpp"
-#include "world/to_vector.hpp"
+#include "world/grain.hpp"
 
 namespace falling_particles {
 namespace {
@@ -19,8 +19,7 @@ std::string in_brackets(std::span<const double> numbers) {
 }
 
 Leak leak_of(const Grain& grain, std::size_t index, double time) {
-  const dReal* v = dBodyGetLinearVel(grain.body);
-  return {time, index, grain.kind->name, grain.position(), grain.quaternion(), {v[0], v[1], v[2]}};
+  return {time, index, grain.kind->name, grain.position(), grain.quaternion(), grain.velocity()};
 }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -52,18 +51,16 @@ Extent extent_of(dGeomID wall, const Vector3& down) {
     dGeomPlaneGetParams(wall, plane);
     return extent_of_half_space(to_vector(plane), down);
   }
-  dReal box[6];
-  dGeomGetAABB(wall, box);
+  const Aabb box = aabb_of(wall);
   return extent_of_box({box[0], box[2], box[4]}, {box[1], box[3], box[5]}, down);
 }
 
 Extent extent_of(const Sink& sink, const Vector3& down) {
   if (const auto* const below = std::get_if<HalfSpace>(&sink.region)) {
-    return extent_of_half_space({below->normal[0], below->normal[1], below->normal[2]}, down);
+    return extent_of_half_space(to_vector(below->normal), down);
   }
   const auto& [corner, size] = std::get<Region>(sink.region);
-  const Vector3 lower(corner[0], corner[1], corner[2]);
-  return extent_of_box(lower, lower + Vector3(size[0], size[1], size[2]), down);
+  return extent_of_box(to_vector(corner), to_vector(corner) + to_vector(size), down);
 }
 
 }  // namespace
@@ -108,7 +105,7 @@ bool Inside::contains(const Point& position, double reach) const {
   };
   const auto takes = [&](const Sink& sink) { return sink.contains(position); };
   if (std::ranges::any_of(planes_, is_behind) && std::ranges::none_of(scene_.sinks, takes)) return false;
-  return down_.dot(Vector3(position[0], position[1], position[2])) - reach <= bottom_;
+  return down_.dot(to_vector(position)) - reach <= bottom_;
 }
 
 double Inside::reach_of(dGeomID wall) const {
@@ -128,8 +125,7 @@ std::vector<std::string> free_walls_outside(const World& world) {
   for (const dGeomID geom : world.walls().geoms()) {
     const Wall& wall = *world.walls().wall_of(geom);
     if (!wall.flight) continue;
-    dReal box[6];
-    dGeomGetAABB(geom, box);
+    const Aabb box = aabb_of(geom);
     const Point middle = {(box[0] + box[1]) / 2, (box[2] + box[3]) / 2, (box[4] + box[5]) / 2};
     if (inside.contains(middle, inside.reach_of(geom))) continue;
     sentences.push_back(wall.called() + " has left the container: its middle is at " + in_brackets(middle) + " m");

@@ -43,10 +43,7 @@ struct Leak {
   std::array<double, 4> quaternion;  ///< w, x, y, z
   Point velocity;                    ///< m/s
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(time, grain, kind, position, quaternion, velocity);
-  }
+  void serialize(auto& archive) { archive(time, grain, kind, position, quaternion, velocity); }
 };
 
 /// "grain 17 (soybean) left the container at t = 0.51 s: position …"
@@ -65,10 +62,7 @@ class LeakWatch {
   std::size_t count() const { return count_; }  ///< number of grains that have been outside at any time
   const std::optional<Leak>& first() const { return first_; }
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(has_leaked_, count_, first_);
-  }
+  void serialize(auto& archive) { archive(has_leaked_, count_, first_); }
 
  private:
   const World& world_;

@@ -27,10 +27,6 @@ std::string toml_line(const std::string& table, const std::string& columns) {
 
 }  // namespace
 
-TableFile::TableFile(const std::filesystem::path& path, const std::string& columns, const FileState& kept) : file_(path, kept) {
-  if (kept.bytes == 0) file_.write(columns + '\n');
-}
-
 std::string Measuring::Entry::path() const { return request == nullptr ? default_file(*kind) : path_of(*request); }
 
 Measuring::Measuring(const Scene& scene, const Simulation& simulation, const OutputFolder& folder, const MeasuringState& saved)
@@ -46,7 +42,8 @@ Measuring::Measuring(const Scene& scene, const Simulation& simulation, const Out
     Entry& entry = entries_[i];
     const MeasuringState::OfTable table = saved.tables.empty() ? MeasuringState::OfTable() : saved.tables[i];
     entry.measurement = entry.maker()(simulation.world);
-    entry.file = std::make_unique<TableFile>(folder.file(entry.path()), entry.measurement->columns(), table.file);
+    entry.file = std::make_unique<OutputFile>(folder.file(entry.path()), table.file);
+    if (table.file.bytes == 0) entry.file->write(entry.measurement->columns() + '\n');
     entry.state = table.state;
     entry.watch = table.watch;
     if (!saved.tables.empty()) entry.measurement->restore(table.memory);

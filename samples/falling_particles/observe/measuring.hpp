@@ -11,7 +11,7 @@
 #include "base/write_file.hpp"
 #include "common/stopwatch.hpp"
 #include "measurement.hpp"
-#include "model/request.hpp"
+#include "model/scene.hpp"
 
 namespace falling_particles {
 
@@ -23,10 +23,7 @@ struct MeasurementState {
   unsigned long long samples = 0;
   unsigned long long lines = 0;  ///< of the table, without its head
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(samples, lines);
-  }
+  void serialize(auto& archive) { archive(samples, lines); }
 };
 
 /// The state of all measurements of a run.
@@ -37,18 +34,12 @@ struct MeasuringState {
     Stopwatch watch;
     std::string memory = {};  ///< Measurement::save()
 
-    template <typename Archive>
-    void serialize(Archive& archive) {
-      archive(file, state, watch, memory);
-    }
+    void serialize(auto& archive) { archive(file, state, watch, memory); }
   };
   std::vector<OfTable> tables;  ///< of the kinds that are on by default, then in the order of the scene; empty at the start
   Stopwatch gathering;          ///< time to gather contacts
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(tables, gathering);
-  }
+  void serialize(auto& archive) { archive(tables, gathering); }
 };
 
 /// The cost of a measurement.
@@ -56,21 +47,6 @@ struct MeasurementCost {
   std::string name;
   MeasurementState state;
   double seconds;  ///< wall-clock time of its samples
-};
-
-/// A table that grows. Each call of write() goes to the operating system at once, so that a killed run leaves whole samples. A
-/// write error ends the run (write_file.hpp).
-class TableFile {
- public:
-  /// Writes the columns, or continues after the bytes of `kept`, with which an existing table begins.
-  TableFile(const std::filesystem::path& path, const std::string& columns, const FileState& kept = {});
-  void write(std::string_view lines) { file_.write(lines); }
-  void close() { file_.close(); }
-  FileState state() const { return file_.state(); }
-  void sync() { file_.sync(); }
-
- private:
-  OutputFile file_;
 };
 
 /// Takes the samples of a run's measurements and writes their tables.
@@ -105,7 +81,7 @@ class Measuring {
     const MeasurementKind* kind = nullptr;
     const MeasurementRequest* request = nullptr;  // null for a kind that is on by default
     std::unique_ptr<Measurement> measurement = {};
-    std::unique_ptr<TableFile> file = {};
+    std::unique_ptr<OutputFile> file = {};
     MeasurementState state = {};
     Stopwatch watch = {};
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "base/archive.hpp"
-#include "lacey.hpp"
 #include "measurement.hpp"
 #include "region.hpp"
 

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "world/to_vector.hpp"
+#include "world/grain.hpp"
 
 namespace falling_particles {
 namespace {
@@ -47,7 +47,6 @@ ContactPoint point_of(const MeasuredContact& contact, const World& world, WallNu
   const double sign = is_swapped ? -1 : 1;
   const Grain* grain1 = grain_of(geom1);
   const Grain* grain2 = grain_of(geom2);
-  const Point force = contact.force();
   const Vector3 position = to_vector(contact.geom.pos);
   return {{index_of(grain1), grain2 != nullptr ? index_of(grain2) : world.grains().size() + walls.number_of(geom2)},
           grain1,
@@ -57,7 +56,7 @@ ContactPoint point_of(const MeasuredContact& contact, const World& world, WallNu
           grain2 != nullptr ? centre_before(geom2, step) : position,
           position,
           sign * to_vector(contact.geom.normal),
-          sign * Vector3(force[0], force[1], force[2]),
+          sign * to_vector(contact.force()),
           contact.geom.depth};
 }
 

@@ -7,7 +7,7 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
-#include "world/contact_joints.hpp"
+#include "world/stepper.hpp"
 #include "world/world.hpp"
 
 namespace falling_particles {

@@ -4,14 +4,14 @@
 #include <algorithm>
 
 #include "measurement.hpp"
-#include "surfaces.hpp"
+#include "region.hpp"
 
 namespace falling_particles {
 namespace {
 
 class PartForce final : public Measurement {
  public:
-  PartForce(std::vector<dGeomID> geoms, const Vector3& about) : geoms_(std::move(geoms)), about_(about) {}
+  PartForce(std::vector<std::string> walls, const Vector3& about) : walls_(std::move(walls)), about_(about) {}
 
   std::string columns() const override {
     return "time_s,contacts,force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm";
@@ -22,7 +22,8 @@ class PartForce final : public Measurement {
     Vector3 moment = Vector3::Zero();
     std::size_t contacts = 0;
     for (const PairContact& contact : sample.contacts) {
-      if (contact.grain2 != nullptr || std::ranges::find(geoms_, contact.geom2) == geoms_.end()) continue;
+      const Wall* const wall = sample.world.walls().wall_of(contact.geom2);
+      if (wall == nullptr || std::ranges::find(walls_, wall->name) == walls_.end()) continue;
       force -= contact.force;
       moment -= contact.moment;
       if (contact.bears_force()) ++contacts;
@@ -31,7 +32,7 @@ class PartForce final : public Measurement {
   }
 
  private:
-  std::vector<dGeomID> geoms_;
+  std::vector<std::string> walls_;
   Vector3 about_;
 };
 
@@ -55,16 +56,9 @@ MeasurementKind part_force_kind() {
         const std::vector<std::string> chosen = read_surfaces(table, scene);
         Vector3 about = Vector3::Zero();
         if (table.has("about")) {
-          const std::vector<double> v = table.numbers("about", 3, Interval::closed(-kFarthest, kFarthest, "m"));
-          about = Vector3(v[0], v[1], v[2]);
+          about = Vector3(table.numbers("about", 3, Interval::closed(-kFarthest, kFarthest, "m")).data());
         }
-        return [chosen, about](const World& world) {
-          std::vector<dGeomID> geoms;
-          for (const NamedSurface& surface : surfaces_of(world)) {
-            if (std::ranges::find(chosen, surface.name) != chosen.end()) geoms.push_back(surface.geom);
-          }
-          return std::make_unique<PartForce>(std::move(geoms), about);
-        };
+        return [chosen, about](const World&) { return std::make_unique<PartForce>(chosen, about); };
       },
       .plotted = {"force_x_N", "force_y_N", "force_z_N"},
       .plot_label = "force, N"};

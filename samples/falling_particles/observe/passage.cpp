@@ -8,7 +8,7 @@
 #include "base/archive.hpp"
 #include "measurement.hpp"
 #include "region.hpp"
-#include "world/to_vector.hpp"
+#include "world/grain.hpp"
 
 namespace falling_particles {
 namespace {
@@ -17,10 +17,7 @@ struct PassedAmount {
   std::size_t grains = 0;
   double mass = 0;  // kg
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(grains, mass);
-  }
+  void serialize(auto& archive) { archive(grains, mass); }
 };
 
 /// The grains of a kind that have passed along the axis and against it.
@@ -28,10 +25,7 @@ struct PassedOfKind {
   PassedAmount forward, backward;
   PassedAmount forward_before, backward_before;  // at the last sample
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(forward, backward, forward_before, backward_before);
-  }
+  void serialize(auto& archive) { archive(forward, backward, forward_before, backward_before); }
 };
 
 struct PassedGrain {
@@ -41,10 +35,7 @@ struct PassedGrain {
   Point position = {};      // m
   Point velocity = {};      // m/s
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(time, grain, is_forward, position, velocity);
-  }
+  void serialize(auto& archive) { archive(time, grain, is_forward, position, velocity); }
 };
 
 constexpr double kLineOfPassage = 170;  // bytes, in feeder.toml
@@ -114,8 +105,7 @@ class Passage final : public Measurement {
   void remember(const Grain& grain, const World& world) {
     const std::size_t index = world.index_of(grain);
     if (index >= places_.size()) places_.resize(index + 1);
-    const Vector3 place = place_of(grain, world);
-    places_[index] = Point{place[0], place[1], place[2]};
+    places_[index] = to_point(place_of(grain, world));
   }
 
   /// Whether the grain passed in the last step. Its side before is that of the place after the step before, to the bit: rounding
@@ -141,8 +131,7 @@ class Passage final : public Measurement {
     for (Eigen::Index i = 0; i < 3; ++i) place[i] -= part * nearest(now[i] - old[i], i);
     place = image_in_cell(place, world);
     if (!plane_.has_in_window(place, world)) return std::nullopt;
-    return PassedGrain{
-        sample.time - part * world.scene().time.step, index, way > 0, {place[0], place[1], place[2]}, grain.velocity()};
+    return PassedGrain{sample.time - part * world.scene().time.step, index, way > 0, to_point(place), grain.velocity()};
   }
 
   void count(const Grain& grain, const PassedGrain& passed, const World& world) {

@@ -6,7 +6,8 @@
 #include <stdexcept>
 #include <variant>
 
-#include "world/to_vector.hpp"
+#include "common/nearest_word.hpp"
+#include "world/grain.hpp"
 
 namespace falling_particles {
 namespace {
@@ -15,8 +16,6 @@ constexpr double kFarthest = 1e6;  // m
 constexpr double kMostCells = 1000;
 
 constexpr double kAlong = 1e-9;  // of a unit vector: rounding of orientations
-
-Vector3 to_vector(const std::vector<double>& v) { return Vector3(v[0], v[1], v[2]); }
 
 /// The axis along which two walls are apart.
 std::size_t axis_of(const FacingFaces& faces) {
@@ -56,6 +55,16 @@ Bounds bounds_between(const std::vector<FacingWalls>& pairs, const World& world)
   return bounds;
 }
 
+const Wall& wall_named(const std::string& name, const std::vector<Wall>& walls) {
+  return *std::ranges::find(walls, name, &Wall::name);
+}
+
+std::optional<FacingFaces> find_faces(const FacingWalls& pair, const std::vector<Wall>& walls) {
+  const Wall& first = wall_named(pair[0], walls);
+  const Wall& second = wall_named(pair[1], walls);
+  return facing_faces(first.shape, first.start, second.shape, second.start);
+}
+
 }  // namespace
 
 Stay Bounds::stay_of(const Vector3& a, const Vector3& b) const {
@@ -85,12 +94,11 @@ SamplingRegion::SamplingRegion(const TomlTable& table, const Scene& scene, Witho
     if (is_cell_ || without == Without::Everywhere) return;
   }
   const Interval anywhere = Interval::closed(-kFarthest, kFarthest, "m");
-  given_ = Bounds{to_vector(table.numbers("lower", 3, anywhere)), to_vector(table.numbers("upper", 3, anywhere))};
+  given_ = Bounds{Vector3(table.numbers("lower", 3, anywhere).data()), Vector3(table.numbers("upper", 3, anywhere).data())};
   for (int axis = 0; axis < 3; ++axis) {
     if (given_->lower[axis] < given_->upper[axis]) continue;
-    table.fail("upper", table.full_name("upper") + "[" + std::to_string(axis) + "] is " + shortest(given_->upper[axis]) +
-                            "; allowed: a number above " + table.full_name("lower") + "[" + std::to_string(axis) + "], " +
-                            shortest(given_->lower[axis]) + " m");
+    table.refuse("upper", "[" + std::to_string(axis) + "] is " + shortest(given_->upper[axis]) + "; allowed: a number above " +
+                              table.full_name("lower") + "[" + std::to_string(axis) + "], " + shortest(given_->lower[axis]) + " m");
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
@@ -98,16 +106,16 @@ SamplingRegion::SamplingRegion(const TomlTable& table, const Scene& scene, Witho
     if (!period || (given_->lower[i] >= period->lower && given_->upper[i] <= period->upper())) continue;
     const bool is_below = given_->lower[i] < period->lower;
     const char* const key = is_below ? "lower" : "upper";
-    table.fail(key, table.full_name(key) + "[" + std::to_string(axis) + "] is " +
-                        shortest(is_below ? given_->lower[i] : given_->upper[i]) + "; allowed: from " + shortest(period->lower) +
-                        " to " + shortest(period->upper()) + " m, within the periodic cell");
+    table.refuse(key, "[" + std::to_string(axis) + "] is " + shortest(is_below ? given_->lower[i] : given_->upper[i]) +
+                          "; allowed: from " + shortest(period->lower) + " to " + shortest(period->upper()) +
+                          " m, within the periodic cell");
   }
 }
 
 // Contacts have shares in a box with sides along the axes.
 void SamplingRegion::read_between(const TomlTable& table, const Scene& scene) {
   for (const char* key : {"lower", "upper"}) {
-    if (table.has(key)) table.fail(key, table.full_name(key) + " is given besides between; allowed: one of both");
+    if (table.has(key)) table.refuse(key, " is given besides between; allowed: one of both");
   }
   between_.resize(3);
   start_lengths_.emplace();
@@ -115,13 +123,12 @@ void SamplingRegion::read_between(const TomlTable& table, const Scene& scene) {
     const FacingFaces faces = faces_at_start(pair, scene.walls);
     const std::size_t axis = axis_of(faces);
     if (std::abs(faces.normal[static_cast<Eigen::Index>(axis)]) < 1 - kAlong) {
-      table.fail("between", table.full_name("between") + " has \"" + pair[0] + "\" and \"" + pair[1] +
-                                "\", which are not across x, y or z; allowed: walls that are");
+      table.refuse("between",
+                   " has \"" + pair[0] + "\" and \"" + pair[1] + "\", which are not across x, y or z; allowed: walls that are");
     }
     for (const std::string& name : pair) {
       if (keeps(*std::ranges::find(scene.walls, name, &Wall::name), faces.normal)) continue;
-      table.fail("between",
-                 table.full_name("between") + " has \"" + name + "\", which rotates; allowed: walls that stay across x, y or z");
+      table.refuse("between", " has \"" + name + "\", which rotates; allowed: walls that stay across x, y or z");
     }
     between_[axis] = pair;
     (*start_lengths_)[static_cast<Eigen::Index>(axis)] = faces.distance();
@@ -156,10 +163,10 @@ Vector3 periods_of(const World& world) {
 
 Vector3 image_in_cell(const Vector3& place, const World& world) {
   if (world.cell() == nullptr) return place;
-  return to_vector(world.cell()->wrapped({place[0], place[1], place[2]}).data());
+  return to_vector(world.cell()->wrapped(to_point(place)));
 }
 
-Vector3 place_of(const Grain& grain, const World& world) { return to_vector(world.place_of(grain).data()); }
+Vector3 place_of(const Grain& grain, const World& world) { return to_vector(world.place_of(grain)); }
 
 Vector3 place_before(const Grain& grain, const World& world) {
   return image_in_cell(position_before(grain.body, world.scene().time.step), world);
@@ -196,15 +203,14 @@ CellCounts read_cells(const TomlTable& table) {
   CellCounts cells{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (numbers[axis] != std::floor(numbers[axis])) {
-      table.fail("cells", table.full_name("cells") + "[" + std::to_string(axis) + "] is " + shortest(numbers[axis]) +
-                              "; allowed: an array of 3 whole numbers from 1 to " + shortest(kMostCells));
+      table.refuse("cells", "[" + std::to_string(axis) + "] is " + shortest(numbers[axis]) +
+                                "; allowed: an array of 3 whole numbers from 1 to " + shortest(kMostCells));
     }
     cells[axis] = static_cast<std::size_t>(numbers[axis]);
   }
   constexpr std::size_t kMostOfAll = 1'000'000;
   if (number_of(cells) > kMostOfAll) {
-    table.fail("cells", table.full_name("cells") + " makes " + std::to_string(number_of(cells)) + " cells; allowed: up to " +
-                            std::to_string(kMostOfAll));
+    table.refuse("cells", " makes " + std::to_string(number_of(cells)) + " cells; allowed: up to " + std::to_string(kMostOfAll));
   }
   return cells;
 }
@@ -229,6 +235,71 @@ std::vector<std::string> names_of_grains(const Scene& scene) {
 
 std::string read_grain(const TomlTable& table, const char* key, const Scene& scene) {
   return table.choice(key, names_of_grains(scene));
+}
+
+std::vector<std::string> read_surfaces(const TomlTable& table, const Scene& scene) {
+  const std::vector<std::string> names = names_of(scene.walls);
+  if (names.empty()) {
+    table.fail("surfaces", table.text("kind") + " in a " + kind_of(scene.container) + "; allowed: where there is a wall");
+  }
+  std::vector<std::string> chosen = table.has("surfaces") ? table.choices("surfaces", names) : names;
+  if (chosen.empty()) table.refuse("surfaces", " is empty; allowed: words of " + join(names));
+  return chosen;
+}
+
+FacingFaces faces_at_start(const FacingWalls& pair, const std::vector<Wall>& walls) { return find_faces(pair, walls).value(); }
+
+std::vector<FacingWalls> read_facing_walls(const TomlTable& table, const char* key, std::size_t count,
+                                           const std::vector<Wall>& walls, const Vector3& across) {
+  constexpr double kAcross = 1e-9;  // of a product of unit normals: rounding of orientations
+  const std::vector<std::string> names = table.choices(key, names_of(walls));
+  const std::string allowed = "; allowed: " + std::to_string(count) +
+                              " pairs of planes or boxes that face each other at right angles to the other pairs" +
+                              (across.isZero() ? "" : " and to the axis of the drive");
+  if (names.size() != 2 * count) {
+    table.refuse(key, " has " + counted(names.size(), "wall") + allowed);
+  }
+  std::vector<FacingWalls> pairs;
+  std::vector<Vector3> directions = {across};
+  for (std::size_t i = 0; i < count; ++i) {
+    const FacingWalls pair = {names[2 * i], names[2 * i + 1]};
+    const std::optional<FacingFaces> faces = find_faces(pair, walls);
+    const auto is_along = [&](const Vector3& other) { return std::abs(other.dot(faces->normal)) > kAcross; };
+    if (!faces || faces->distance() <= 0 || std::ranges::any_of(directions, is_along)) {
+      table.refuse(key, " has \"" + pair[0] + "\" and \"" + pair[1] + "\", which are no such pair" + allowed);
+    }
+    directions.push_back(faces->normal);
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+void LaceyGrid::add(std::size_t cell, bool is_first) {
+  for (Count* count : {&cells_[cell], &all_}) {
+    count->both += 1;
+    if (is_first) count->first += 1;
+  }
+}
+
+void LaceyGrid::write(TableText& table) const {
+  const double fraction = all_.both > 0 ? all_.first / all_.both : 0;
+  double occupied = 0;
+  double variance = 0;
+  for (const Count& cell : cells_) {
+    if (cell.both == 0) continue;
+    ++occupied;
+    const double excess = cell.first / cell.both - fraction;
+    variance += cell.both * excess * excess / all_.both;
+  }
+  const double segregated = fraction * (1 - fraction);
+  table.add(static_cast<std::size_t>(all_.both)).add(static_cast<std::size_t>(occupied));
+  if (segregated == 0 || occupied >= all_.both) {  // only one group, or as many cells as grains, for which the index is undefined
+    constexpr int kOtherColumns = 5;
+    table.blank(kOtherColumns);
+    return;
+  }
+  const double random = segregated * (occupied - 1) / (all_.both - 1);
+  table.add(fraction).add(variance).add(segregated).add(random).add((segregated - variance) / (segregated - random));
 }
 
 }  // namespace falling_particles

@@ -7,7 +7,7 @@
 #include "base/archive.hpp"
 #include "measurement.hpp"
 #include "region.hpp"
-#include "world/to_vector.hpp"
+#include "world/grain.hpp"
 
 namespace falling_particles {
 namespace {
@@ -28,10 +28,7 @@ struct VisitsOfKind {
     squares += excess * (residence - mean);
   }
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(inside, entered, left, timed, mean, squares);
-  }
+  void serialize(auto& archive) { archive(inside, entered, left, timed, mean, squares); }
 };
 
 /// A visit that has ended.
@@ -40,10 +37,7 @@ struct Visit {
   double entered = 0;  // s
   double left = 0;     // s
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(grain, entered, left);
-  }
+  void serialize(auto& archive) { archive(grain, entered, left); }
 };
 
 constexpr double kLineOfVisit = 80;  // bytes, in feeder.toml

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "lacey.hpp"
 #include "measurement.hpp"
 #include "region.hpp"
 
@@ -50,7 +49,7 @@ MeasurementKind segregation_kind() {
           .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             const std::vector<std::string> grains = table.choices("grains", names_of_grains(scene));
             if (grains.size() != 2) {
-              table.fail("grains", table.full_name("grains") + " has " + std::to_string(grains.size()) + " names; allowed: two");
+              table.refuse("grains", " has " + std::to_string(grains.size()) + " names; allowed: two");
             }
             const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
             const CellCounts cells = read_cells(table);

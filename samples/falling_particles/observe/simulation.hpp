@@ -13,7 +13,7 @@
 #include "energy.hpp"
 #include "leaks.hpp"
 #include "model/scene.hpp"
-#include "world/compression.hpp"
+#include "world/periodic_cell.hpp"
 #include "world/population.hpp"
 #include "world/stepper.hpp"
 #include "world/world.hpp"
@@ -26,8 +26,7 @@ struct Watches {
   void after_step(double time, const Stepper& stepper);
 
   /// The compressor has no state from step to step.
-  template <typename Archive>
-  void serialize(Archive& archive) {
+  void serialize(auto& archive) {
     archive(leaks, energy);
     if (discharge) archive(*discharge);
   }

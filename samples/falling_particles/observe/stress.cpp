@@ -5,6 +5,7 @@
 
 #include "measurement.hpp"
 #include "region.hpp"
+#include "world/grain.hpp"
 
 namespace falling_particles {
 namespace {
@@ -44,8 +45,7 @@ void add_contact(SliceSums& sums, const Bounds& slice, const PairContact& contac
 }
 
 void add_grain(SliceSums& sums, const Grain& grain) {
-  const dReal* v = dBodyGetLinearVel(grain.body);
-  const Vector3 velocity(v[0], v[1], v[2]);
+  const Vector3 velocity = to_vector(grain.velocity());
   sums.mass += grain.mass.mass;
   sums.volume += grain.volume();
   sums.velocity += grain.mass.mass * velocity;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "bed.hpp"
 #include "measurement.hpp"
 #include "region.hpp"
 
@@ -20,26 +21,6 @@ struct Settings {
   std::size_t rays;     // across it, in each column
   double middle;        // fraction of the width to which the line is fitted
 };
-
-struct Top {
-  dGeomID geom;
-  std::array<dReal, 6> aabb;
-};
-
-/// m, the highest point of the grains on a vertical line, if it is above `least`.
-std::optional<double> height_at(const std::vector<Top>& tops, dGeomID ray, double x, double y, double least) {
-  std::optional<double> height;
-  for (const Top& top : tops) {
-    const auto& a = top.aabb;
-    if (x < a[0] || x > a[1] || y < a[2] || y > a[3] || a[5] <= height.value_or(least)) continue;
-    const double start = a[5] + (a[5] - a[4]);
-    dGeomRaySetLength(ray, start - a[4]);
-    dGeomRaySet(ray, x, y, start, 0, 0, -1);
-    dContactGeom hit;
-    if (dCollide(ray, top.geom, 1, &hit, sizeof hit) > 0 && hit.pos[2] > height.value_or(least)) height = hit.pos[2];
-  }
-  return height;
-}
 
 struct Slope {
   double angle;           // degrees
@@ -82,14 +63,17 @@ class Surface final : public Measurement {
 
   void measure(const Sample& sample, TableText& table) const override {
     const Bounds bounds = region_.bounds(sample.world);
-    const std::vector<Top> tops = tops_of(sample.world, bounds);
-    const std::unique_ptr<dxGeom, decltype(&dGeomDestroy)> ray(dCreateRay(nullptr, 1), dGeomDestroy);
+    Tops tops;
+    sample.world.for_each_grain_geom([&](dGeomID geom) {
+      const dReal z = dGeomGetPosition(geom)[2];
+      if (z >= bounds.lower[2] && z < bounds.upper[2]) tops.add(geom);
+    });
     std::vector<std::optional<double>> heights;
     std::vector<std::array<double, 2>> fitted;
     const auto axis = static_cast<Eigen::Index>(settings_.along);
     for (std::size_t i = 0; i < settings_.columns; ++i) {
       const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(settings_.columns);
-      heights.push_back(column_height(tops, ray.get(), bounds, share));
+      heights.push_back(column_height(tops, bounds, share));
       if (heights.back() && std::abs(share - 0.5) <= settings_.middle / 2) {
         fitted.push_back({std::lerp(bounds.lower[axis], bounds.upper[axis], share), *heights.back()});
       }
@@ -106,19 +90,8 @@ class Surface final : public Measurement {
   }
 
  private:
-  static std::vector<Top> tops_of(const World& world, const Bounds& bounds) {
-    std::vector<Top> tops;
-    world.for_each_grain_geom([&](dGeomID geom) {
-      const dReal* p = dGeomGetPosition(geom);
-      if (p[2] < bounds.lower[2] || p[2] >= bounds.upper[2]) return;
-      Top& top = tops.emplace_back(Top{geom, {}});
-      dGeomGetAABB(geom, top.aabb.data());
-    });
-    return tops;
-  }
-
   /// m, the mean over the rays of a column that meet a grain.
-  std::optional<double> column_height(const std::vector<Top>& tops, dGeomID ray, const Bounds& bounds, double share) const {
+  std::optional<double> column_height(const Tops& tops, const Bounds& bounds, double share) const {
     const auto along = static_cast<Eigen::Index>(settings_.along);
     const Eigen::Index across = 1 - along;
     double sum = 0;
@@ -128,7 +101,7 @@ class Surface final : public Measurement {
       at[along] = std::lerp(bounds.lower[along], bounds.upper[along], share);
       at[across] = std::lerp(bounds.lower[across], bounds.upper[across],
                              (static_cast<double>(k) + 0.5) / static_cast<double>(settings_.rays));
-      const std::optional<double> height = height_at(tops, ray, at[0], at[1], bounds.lower[2]);
+      const std::optional<double> height = tops.height_at(at[0], at[1], bounds.lower[2]);
       if (!height) continue;
       sum += *height;
       ++hits;

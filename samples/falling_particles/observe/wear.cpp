@@ -11,9 +11,9 @@
 #include "base/archive.hpp"
 #include "common/nearest_word.hpp"
 #include "measurement.hpp"
+#include "region.hpp"
 #include "simulation.hpp"
-#include "surfaces.hpp"
-#include "world/to_vector.hpp"
+#include "world/grain.hpp"
 
 namespace falling_particles {
 namespace {
@@ -21,9 +21,8 @@ namespace {
 /// N m, the normal force times the sliding distance in the step of a contact of a grain and the wall with `geom`.
 double sliding_work(const MeasuredContact& contact, dGeomID grain, dGeomID wall, const World& world) {
   const double step = world.scene().time.step;
-  const Point force = contact.force();
   const Vector3 normal = to_vector(contact.geom.normal);
-  const double load = normal.dot(Vector3(force[0], force[1], force[2]));
+  const double load = normal.dot(to_vector(contact.force()));
   if (!(load > 0)) return 0;
   dBodyID body = dGeomGetBody(grain);
   const Vector3 velocity = velocity_of_move(body);

@@ -8,9 +8,9 @@
 
 #include "model/geometry.hpp"
 #include "model/scene.hpp"
-#include "observe/container_picture.hpp"
 #include "observe/energy.hpp"
-#include "observe/triangle_field.hpp"
+#include "observe/measurement.hpp"
+#include "observe/wall_mesh.hpp"
 
 namespace falling_particles {
 
@@ -25,10 +25,7 @@ struct GrainState {
   Point angular_velocity;            ///< rad/s
   bool is_present = true;            ///< false for a removed grain, whose other numbers are 0
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(position, quaternion, velocity, angular_velocity, is_present);
-  }
+  void serialize(auto& archive) { archive(position, quaternion, velocity, angular_velocity, is_present); }
 };
 
 /// A contact of the last step, in the world's frame.
@@ -40,10 +37,7 @@ struct ContactState {
   int grain2;
   std::optional<Point> force = {};  ///< N, on grain 1, if the scene requests forces
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(position, normal, depth, grain1, grain2, force);
-  }
+  void serialize(auto& archive) { archive(position, normal, depth, grain1, grain2, force); }
 };
 
 inline constexpr int kWall = -1;
@@ -57,10 +51,7 @@ struct WallPlace {
   Point operator()(const std::array<float, 3>& vertex) const;
   bool operator==(const WallPlace&) const = default;
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(position, quaternion, scale);
-  }
+  void serialize(auto& archive) { archive(position, quaternion, scale); }
 };
 
 /// A run at one time. The grains are all grains so far, by index, removed ones included.
@@ -72,10 +63,7 @@ struct Frame {
   std::vector<WallPlace> wall_places;  ///< of Contents::walls
   std::vector<TriangleField> fields;   ///< on Contents::walls
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(time, energy, grains, contacts, wall_places, fields);
-  }
+  void serialize(auto& archive) { archive(time, energy, grains, contacts, wall_places, fields); }
 };
 
 /// A box with sides along the axes.
@@ -113,5 +101,39 @@ Frame frame_of(double time, const Energy& energy, const Contents& contents, cons
 
 /// The fields of a measurement, on the walls of the contents instead of those of the scene.
 std::vector<TriangleField> fields_on(const Contents& contents, std::vector<TriangleField> fields);
+
+/// A convex body of a grain at one time, in the world's frame, at its true size.
+struct ShownComponent {
+  std::size_t index;                 ///< unique in a run: counted over the components of all grains, removed ones included
+  std::size_t grain;                 ///< index of the grain in the frame
+  ConvexBody body;                   ///< scaled
+  Point position;                    ///< m, of the body's origin
+  std::array<double, 4> quaternion;  ///< w, x, y, z; unit
+  Point velocity;                    ///< m/s, of the body's origin
+  Point angular_velocity;            ///< rad/s
+};
+
+/// In the order of the present grains: one body of each, but all components of a compound.
+std::vector<ShownComponent> shown_components(const Frame& frame, const Contents& contents);
+
+/// Red, green and blue in [0, 1] for a screen (sRGB).
+using Colour = std::array<double, 3>;
+
+/// The colour of a kind: from Okabe and Ito's palette, which people with any colour vision can distinguish; then the same colours
+/// darker, then lighter, repeatedly.
+inline Colour colour_of_kind(std::size_t kind) {
+  constexpr std::array<Colour, 7> kPalette = {{{0.90, 0.62, 0.00},
+                                               {0.34, 0.71, 0.91},
+                                               {0.00, 0.62, 0.45},
+                                               {0.94, 0.89, 0.26},
+                                               {0.00, 0.45, 0.70},
+                                               {0.84, 0.37, 0.00},
+                                               {0.80, 0.47, 0.65}}};
+  constexpr std::array kWhite = {0.0, 0.0, 0.55}, kStrength = {1.0, 0.5, 0.45};
+  const std::size_t round = kind / kPalette.size() % kStrength.size();
+  Colour colour = kPalette[kind % kPalette.size()];
+  for (double& part : colour) part = kWhite[round] + kStrength[round] * part;
+  return colour;
+}
 
 }  // namespace falling_particles

@@ -1,14 +1,34 @@
-#include "lammps_dump.hpp"
+// A run as a LAMMPS dump.
 
 #include <algorithm>
+#include <filesystem>
 #include <initializer_list>
 #include <string>
 
+#include "base/write_file.hpp"
 #include "common/interval.hpp"
-#include "shown_components.hpp"
+#include "frame.hpp"
+#include "picture.hpp"
 
 namespace falling_particles {
 namespace {
+
+/// grains.lammpstrj: a LAMMPS text dump for OVITO and other programs. Each grain is an atom. The type is the index of its kind in
+/// the scene file, from 1. As in LAMMPS since July 2020, shapex, shapey, shapez are diameters (m), which OVITO halves; quati,
+/// quatj, quatk, quatw are the orientation. roundness_phi = 2/delta and roundness_theta = 2/epsilon are OVITO's Superquadric
+/// Roundness. The rounding of edges and the taper have no column, and a capsule is the ellipsoid of its size. A compound has an
+/// atom per component. In scenes with compounds, mol is the number of the grain.
+class LammpsDump final : public Picture {
+ public:
+  LammpsDump(const std::filesystem::path& path, const Contents& contents);
+  void add(const Frame& frame) override;
+  void finish(const std::string& summary) override;
+
+ private:
+  const Contents& contents_;
+  OutputFile file_;
+  int frames_ = 0;
+};
 
 /// The bounds of the box that a dump needs.
 std::string bounds_of(const Extent& extent) {
@@ -48,5 +68,7 @@ void LammpsDump::add(const Frame& frame) {
 }
 
 void LammpsDump::finish(const std::string& /*summary*/) { file_.close(); }
+
+PictureFormat lammps_format() { return {"lammps", {"grains.lammpstrj"}, make_file<LammpsDump>}; }
 
 }  // namespace falling_particles

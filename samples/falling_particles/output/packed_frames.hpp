@@ -5,11 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "frame.hpp"
 
 namespace falling_particles {
+
+/// Encodes bytes as base 64 (RFC 4648, section 4).
+std::string to_base64(std::string_view bytes);
 
 /// Packs numbers into text. Each number is replaced by the difference to its predecessor in a zigzag (0, -1, 1, -2 … are 0, 1, 2, 3
 /// …), so that small changes are small numbers. The first bytes of all numbers come first, then the second bytes …, least

@@ -3,13 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "lammps_dump.hpp"
 #include "observe/measuring.hpp"
-#include "povray_scene.hpp"
-#include "scene_glb.hpp"
 #include "summary.hpp"
-#include "view_page.hpp"
-#include "vtk_series.hpp"
 
 // The texts of the scripts (plot_scripts.S).
 extern "C" const char kEnergiesScript[], kStateScript[], kDischargeScript[], kCompressionScript[], kMeasurementScript[];
@@ -74,15 +69,6 @@ std::vector<std::string> files_of_plots() {
   return files;
 }
 
-template <typename Format>
-std::unique_ptr<Picture> make_file(const OutputFolder& folder, const PictureFormat& format, const Contents& contents) {
-  return std::make_unique<Format>(folder.file(std::string(format.files.front())), contents);
-}
-
-std::unique_ptr<Picture> make_vtk(const OutputFolder& folder, const PictureFormat&, const Contents& contents) {
-  return std::make_unique<VtkSeries>(folder, contents);
-}
-
 std::unique_ptr<Picture> make_plots(const OutputFolder&, const PictureFormat&, const Contents& contents) {
   return std::make_unique<Plots>(contents);
 }
@@ -90,12 +76,8 @@ std::unique_ptr<Picture> make_plots(const OutputFolder&, const PictureFormat&, c
 }  // namespace
 
 const std::vector<PictureFormat>& picture_formats() {
-  static const std::vector<PictureFormat> formats = {{"page", {"view.html"}, make_file<ViewPage>},
-                                                     {"glb", {"scene.glb"}, make_file<SceneGlb>},
-                                                     {"lammps", {"grains.lammpstrj"}, make_file<LammpsDump>},
-                                                     {"vtk", {"grains.pvd", "contacts.pvd", "container.pvd", "vtk"}, make_vtk},
-                                                     {"povray", {"still.pov"}, make_file<PovrayScene>, {"still.png"}},
-                                                     {"plots", {}, make_plots, files_of_plots()}};
+  static const std::vector<PictureFormat> formats = {page_format(), glb_format(),    lammps_format(),
+                                                     vtk_format(),  povray_format(), {"plots", {}, make_plots, files_of_plots()}};
   return formats;
 }
 
@@ -105,8 +87,7 @@ const PictureFormat* find_picture_format(std::string_view name) {
 }
 
 ResultNames result_names() {
-  ResultNames names{{std::string(kSummaryFile)},
-                    {{std::string(kMeasurementFolder), ".csv"}, {std::string(VtkSeries::kFramesFolder), ".vtp"}}};
+  ResultNames names{{std::string(kSummaryFile)}, {{std::string(kMeasurementFolder), ".csv"}, {std::string(kVtkFolder), ".vtp"}}};
   for (const MeasurementKind& kind : measurement_kinds()) {
     if (kind.on_by_default) names.files.push_back(default_file(kind));
   }

@@ -36,6 +36,22 @@ struct PictureFormat {
   std::vector<std::string> rendered = {};  ///< names of the files that other programs make
 };
 
+/// PictureFormat::make of a picture that is one file.
+template <typename Format>
+std::unique_ptr<Picture> make_file(const OutputFolder& folder, const PictureFormat& format, const Contents& contents) {
+  return std::make_unique<Format>(folder.file(std::string(format.files.front())), contents);
+}
+
+// Each is in a file of its own, but for the plots.
+PictureFormat page_format();
+PictureFormat glb_format();
+PictureFormat lammps_format();
+PictureFormat vtk_format();
+PictureFormat povray_format();
+
+/// Of the frames of `vtk`, within the folder of the results.
+inline constexpr std::string_view kVtkFolder = "vtk";
+
 /// All formats, in the order of the list for users.
 const std::vector<PictureFormat>& picture_formats();
 

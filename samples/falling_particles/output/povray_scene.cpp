@@ -1,8 +1,9 @@
-#include "povray_scene.hpp"
+// The last frame of a run as a POV-Ray scene.
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <supernormal/shapes/tessellation.hpp>
 #include <variant>
@@ -10,11 +11,28 @@
 
 #include "base/write_file.hpp"
 #include "common/interval.hpp"
-#include "model/grain_mesh.hpp"
-#include "palette.hpp"
+#include "frame.hpp"
+#include "model/grain_shape.hpp"
+#include "picture.hpp"
+#include "world/grain.hpp"
 
 namespace falling_particles {
 namespace {
+
+/// still.pov: the last frame for POV-Ray, and still.png, if povray is installed. Superellipsoids are exact; a grain with rounded
+/// edges is a mesh. Each kind has a colour (colour_of_kind). Walls are transparent, except the floor and the dish.
+class PovrayScene final : public Picture {
+ public:
+  PovrayScene(const std::filesystem::path& path, const Contents& contents);
+  void add(const Frame& frame) override { last_ = frame; }
+  void finish(const std::string& summary) override;
+  std::vector<Rendering> renderings() const override;
+
+ private:
+  std::filesystem::path path_;
+  const Contents& contents_;
+  Frame last_;
+};
 
 using supernormal::Vector3;
 
@@ -25,8 +43,7 @@ constexpr double kStillChordError = 0.005;
 // grains of millimetres would have bright spots beside their contacts.
 constexpr double kUnits = 10;
 
-template <typename Numbers>
-std::string vector(const Numbers& numbers) {
+std::string vector(const auto& numbers) {
   std::string text;
   for (const double number : numbers) text += (text.empty() ? "<" : ", ") + shortest(number);
   return text + '>';
@@ -71,14 +88,12 @@ std::string shape(const GrainKind& kind) {
   return kind.is_capsule ? capsule(body) : superellipsoid(body);
 }
 
-Vector3 vector_of(const Point& point) { return {point[0], point[1], point[2]}; }
-
 /// The positions of the vertices of a wall. Walls of infinite height are shown up to `top` (m).
 std::vector<Vector3> vertices_of(const WallPicture& wall, const WallPlace& place, double top) {
   std::vector<Vector3> vertices;
   vertices.reserve(wall.mesh.vertices.size());
   for (const auto& vertex : wall.mesh.vertices) {
-    vertices.push_back(vector_of(place(vertex)));
+    vertices.push_back(to_vector(place(vertex)));
     if (wall.name == "walls") vertices.back().z() = std::min(vertices.back().z(), top);
   }
   return vertices;
@@ -122,7 +137,7 @@ std::string container(const WallPicture& wall, const std::vector<Vector3>& verti
 /// A camera to the side and above. All grains and the points of `held` just fit into the picture, whatever its aspect ratio.
 Camera camera_on(const Frame& frame, double radius, const std::vector<Vector3>& held) {
   const Extent extent = extent_of(frame, radius);
-  const Vector3 least = vector_of(extent.least), most = vector_of(extent.most), centre = 0.5 * (least + most);
+  const Vector3 least = to_vector(extent.least), most = to_vector(extent.most), centre = 0.5 * (least + most);
   const double size = (most - least).norm();
   const Vector3 back = Vector3(0.45, -0.75, 0.48).normalized();
   const Vector3 right = Vector3::UnitZ().cross(back).normalized(), up = back.cross(right);
@@ -136,7 +151,7 @@ Camera camera_on(const Frame& frame, double radius, const std::vector<Vector3>& 
     height = std::max(height, (std::abs(from_eye.dot(up)) + around) / distance);
   };
   for (const GrainState& grain : frame.grains) {
-    if (grain.is_present) hold(vector_of(grain.position), radius);
+    if (grain.is_present) hold(to_vector(grain.position), radius);
   }
   for (const Vector3& point : held) hold(point, 0);
   const Vector3 light = centre + 4 * size * Vector3(0.1, -0.5, 0.85).normalized();
@@ -203,5 +218,7 @@ std::vector<Rendering> PovrayScene::renderings() const {
   // One thread: with several threads the pixels depend on their order.
   return {{"still.png", {"povray", "+I" + scene, "+O-", "+FN", "+W900", "+H560", "+A0.2", "-D", "+WT1"}, "", "povray"}};
 }
+
+PictureFormat povray_format() { return {"povray", {"still.pov"}, make_file<PovrayScene>, {"still.png"}}; }
 
 }  // namespace falling_particles

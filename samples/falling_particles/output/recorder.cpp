@@ -1,11 +1,14 @@
 #include "recorder.hpp"
 
+#include <fstream>
+#include <string>
 #include <utility>
 
-#include "base/files.hpp"
+#include "base/archive.hpp"
+#include "base/write_file.hpp"
+#include "common/input_error.hpp"
 
 namespace falling_particles {
-
 Recorder::Recorder(const OutputFolder& folder, const Scene& scene, const Simulation& simulation, bool logs_frames)
     : Recorder(folder, scene, simulation, RecorderState{{}, scene.pictures.empty() ? 0 : top_of(simulation.world, scene)},
                logs_frames) {}
@@ -35,7 +38,7 @@ void Recorder::record(double time, const Simulation& simulation, bool with_force
   Frame frame = frame_of(time, energy, contents_, simulation.world, &simulation.stepper, with_forces);
   frame.fields = fields_on(contents_, fields);
   for (const std::unique_ptr<Picture>& picture : pictures_) picture->add(frame);
-  if (log_) log_->add(frame);
+  if (log_) log_frame(frame, *log_);
 }
 
 void Recorder::finish_pictures(const std::string& summary) {
@@ -54,6 +57,35 @@ RecorderState Recorder::save() {
   if (!log_) return {{}, top_};
   log_->sync();
   return {log_->state(), top_};
+}
+
+void log_frame(const Frame& frame, OutputFile& log) {
+  Writer writer;
+  writer(frame);
+  const std::string bytes = writer.bytes();
+  Writer head;
+  head(static_cast<std::uint64_t>(bytes.size()), hash_of(bytes));
+  log.write(head.bytes() + bytes);
+}
+
+void replay_frames(const std::filesystem::path& path, std::uint64_t size, const std::function<void(const Frame&)>& visit) {
+  std::ifstream stream(path, std::ios::binary);
+  const auto refuse = [&](const char* reason) { throw InputError('"' + path.string() + "\" " + reason + kStartAnew); };
+  const auto take = [&](std::uint64_t count) {
+    std::string bytes(count <= size ? count : 0, '\0');
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (count > size || !stream) refuse("ends within a frame");
+    size -= count;
+    return bytes;
+  };
+  while (size > 0) {
+    std::uint64_t length = 0;
+    Hash hash{};
+    Reader(take(sizeof length + sizeof hash))(length, hash);
+    const std::string bytes = take(length);
+    if (hash_of(bytes) != hash) refuse("is damaged: a frame has another checksum");
+    visit(Reader(bytes).read<Frame>());
+  }
 }
 
 }  // namespace falling_particles

@@ -1,27 +1,35 @@
 // The recording of a run's frames in its pictures.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/output_folder.hpp"
-#include "frame_log.hpp"
+#include "base/write_file.hpp"
+#include "frame.hpp"
 #include "observe/simulation.hpp"
 #include "picture.hpp"
 
 namespace falling_particles {
+
+/// Appends a frame with exact numbers to a log. Pictures keep what they have seen in memory; a resumed run shows them the logged
+/// frames again.
+void log_frame(const Frame& frame, OutputFile& log);
+
+/// Visits the frames in the first `size` bytes of a log. Throws InputError when the bytes were changed.
+void replay_frames(const std::filesystem::path& path, std::uint64_t size, const std::function<void(const Frame&)>& visit);
 
 /// The state of a recorder, for a resumed run.
 struct RecorderState {
   FileState log;   ///< of the frame log
   double top = 0;  ///< m, top_of() at the start
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(log, top);
-  }
+  void serialize(auto& archive) { archive(log, top); }
 };
 
 /// Adds the frames of a run to its pictures.
@@ -51,7 +59,7 @@ class Recorder {
   double top_;
   Contents contents_;
   std::vector<std::unique_ptr<Picture>> pictures_;
-  std::optional<FrameLog> log_;
+  std::optional<OutputFile> log_;
 };
 
 }  // namespace falling_particles

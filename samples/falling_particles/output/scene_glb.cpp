@@ -1,21 +1,58 @@
-#include "scene_glb.hpp"
+// The animation of a run as a glTF file.
 
 #include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <memory>
 #include <span>
 #include <string>
 #include <supernormal/shapes/tessellation.hpp>
+#include <vector>
 
 #include "base/write_file.hpp"
-#include "model/grain_mesh.hpp"
-#include "palette.hpp"
+#include "frame.hpp"
+#include "model/grain_shape.hpp"
+#include "picture.hpp"
 
 namespace falling_particles {
 namespace {
+
+/// scene.glb: glTF 2.0, binary. It has a mesh per kind of grain with smooth normals. Each grain is a node, in the order of the
+/// indices, with the mesh of its kind and a scale for its size. The translations and rotations of moving grains are animated;
+/// absent grains have scale 0. Each wall is a node, which is scaled when it changes. A root node rotates the z-axis upwards.
+/// A wall has the colours and numbers of the first field with numbers on it, at the end of the run.
+/// Lengths are in m. The file is written at the end of a run; until then a grain needs 28 bytes per frame.
+class SceneGlb final : public Picture {
+ public:
+  SceneGlb(const std::filesystem::path& path, const Contents& contents);
+  void add(const Frame& frame) override;
+  void finish(const std::string& summary) override;
+
+ private:
+  /// The poses of a node, frame by frame.
+  struct Track {
+    std::vector<float> translations;  // x, y, z
+    std::vector<float> rotations;     // x, y, z, w
+    std::vector<float> scales;        // along x, y, z
+
+    void add(const Point& position, const std::array<double, 4>& quaternion, double scale);
+    void repeat_last(double scale);
+    /// Inserts `frames` frames before the first one; in these the node is absent.
+    void precede(std::size_t frames);
+  };
+  void add_grain(std::size_t grain, const GrainState& state);
+
+  std::filesystem::path path_;
+  const Contents& contents_;
+  std::vector<float> times_;
+  std::vector<Track> grains_;
+  std::vector<Track> walls_;           // of the walls
+  std::vector<TriangleField> fields_;  // of the last frame
+};
 
 // Relative to the smallest half-axis of a grain: most grains have a few hundred triangles and no visible edges.
 constexpr double kAnimationChordError = 0.02;
@@ -158,8 +195,7 @@ class Builder {
     }
   }
 
-  template <typename Tuples>
-  int add_indices(const Tuples& tuples) {
+  int add_indices(const auto& tuples) {
     std::vector<std::uint32_t> corners;
     for (const auto& tuple : tuples) corners.insert(corners.end(), tuple.begin(), tuple.end());
     return add_accessor(add_view(TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER), corners, TINYGLTF_TYPE_SCALAR);
@@ -374,5 +410,7 @@ void SceneGlb::finish(const std::string& /*summary*/) {
   }
   builder.write(path_);
 }
+
+PictureFormat glb_format() { return {"glb", {"scene.glb"}, make_file<SceneGlb>}; }
 
 }  // namespace falling_particles

@@ -59,13 +59,15 @@ void add_run(Lines& lines, const Summary& s) {
   if (!s.scene.overrides.empty()) lines.add("set", array_of(s.scene.overrides), "in place of the scene's values");
   lines.add("seed", static_cast<unsigned long long>(s.scene.seed));
   lines.add("container", toml_string(kind_of(s.scene.container)));
-  lines.add("bodies", static_cast<unsigned long long>(s.scene.grains_at_start()), s.population == nullptr ? "" : "at the start");
+  lines.add("bodies", static_cast<unsigned long long>(s.scene.grains_at_start()),
+            s.scene.changes_population() ? "at the start" : "");
   for (const GrainCount& entry : s.scene.kinds) {
     lines.add(("bodies_of." + entry.kind.name).c_str(), static_cast<unsigned long long>(entry.count));
   }
   lines.add("steps", static_cast<unsigned long long>(s.steps));
-  if (s.scene.solver.stepper) lines.add("parts", s.costs.parts, "of steps: after an impact the stepper ends a step early");
-  lines.add("simulated", s.simulated_seconds, "s");
+  if (s.scene.solver.stepper)
+    lines.add("parts", s.simulation.stepper.costs().parts, "of steps: after an impact the stepper ends a step early");
+  lines.add("simulated", s.steps * s.scene.time.step, "s");
   lines.add("interrupted", s.interrupted, "whether the run ended before time.duration");
 }
 
@@ -90,16 +92,19 @@ void add_sizes(Lines& lines, const std::vector<DrawnSizes>& all) {
 }
 
 unsigned long long contacts_ahead(const Summary& s) {
-  const auto cost = std::ranges::find(s.effects, std::string_view("speculative_contacts"), &supernormal::effects::Cost::name);
-  return cost == s.effects.end() ? 0 : cost->contacts;
+  if (s.scene.solver.stepper) return s.simulation.stepper.costs().contacts_ahead;
+  const std::vector<supernormal::effects::Cost> costs = s.simulation.effect_costs();
+  const auto cost = std::ranges::find(costs, std::string_view("speculative_contacts"), &supernormal::effects::Cost::name);
+  return cost == costs.end() ? 0 : cost->contacts;
 }
 
 void add_queries(Lines& lines, const Summary& s) {
   const snStatistics& n = s.statistics;
+  const Stepper& stepper = s.simulation.stepper;
   const auto steps = static_cast<unsigned long long>(s.steps);
   lines.section("collision");
-  lines.add("pairs_tested", s.costs.pairs_tested, "whose bounding boxes met, in all steps");
-  lines.add("sweep_axis", toml_string(name_of(s.sweep_axis)), "of the broad phase, in the last step");
+  lines.add("pairs_tested", stepper.costs().pairs_tested, "whose bounding boxes met, in all steps");
+  lines.add("sweep_axis", toml_string(name_of(s.simulation.world.sweep().axis())), "of the broad phase, in the last step");
   if (s.scene.query) lines.add("solver", toml_string(name_of(s.scene.query->solver)), "of the queries of two smooth bodies");
   lines.add("queries_cold", n.queries_cold, "pairs without a remembered normal; mesh and ground have none");
   lines.add("queries_warm", n.queries_warm, "with one");
@@ -114,12 +119,11 @@ void add_queries(Lines& lines, const Summary& s) {
     lines.add("contacts_not_converged", n.contacts_not_converged,
               "of these queries; they separate the bodies, along an estimated normal");
   }
-  lines.add("contacts", s.costs.contacts, "in all steps");
-  const unsigned long long ahead = s.scene.solver.stepper ? s.costs.contacts_ahead : contacts_ahead(s);
-  if (s.scene.looks_ahead()) lines.add("contacts_ahead", ahead, "of these, ahead of touch: the bodies were apart");
-  lines.add("contacts_per_step", ratio(s.costs.contacts, steps), "mean");
-  lines.add("contacts_at_end", static_cast<unsigned long long>(s.contacts_at_end), "in the last step");
-  lines.add("deepest_contact", s.deepest_contact, "m, of all steps: grains hit one another in flight");
+  lines.add("contacts", stepper.costs().contacts, "in all steps");
+  if (s.scene.looks_ahead()) lines.add("contacts_ahead", contacts_ahead(s), "of these, ahead of touch: the bodies were apart");
+  lines.add("contacts_per_step", ratio(stepper.costs().contacts, steps), "mean");
+  lines.add("contacts_at_end", static_cast<unsigned long long>(stepper.contacts()), "in the last step");
+  lines.add("deepest_contact", stepper.deepest_contact(), "m, of all steps: grains hit one another in flight");
 }
 
 void add_bed(Lines& lines, const Bed& bed, const char* about_height) {
@@ -131,6 +135,7 @@ void add_bed(Lines& lines, const Bed& bed, const char* about_height) {
 
 void add_end_state(Lines& lines, const Summary& s) {
   const double size = s.scene.smallest_half_axis();
+  const Watches& watches = s.simulation.watches;
   lines.section("end");
   lines.add("smallest_half_axis", size, "m, of all grains");
   lines.add("deepest_overlap", s.overlap.depth, "m, over all pairs of grains and walls");
@@ -138,14 +143,15 @@ void add_end_state(Lines& lines, const Summary& s) {
   lines.add("deepest_overlap_of_pair", s.overlap.relative_to_pair, "largest of depth / smallest half-axis of the pair itself");
   lines.add("overlapping_pairs", static_cast<unsigned long long>(s.overlap.pairs));
   lines.add("bodies_outside", static_cast<unsigned long long>(s.outside), "beyond a wall or the floor, or below all parts");
-  lines.add("bodies_leaked", static_cast<unsigned long long>(s.leaked), "outside after any step");
+  lines.add("bodies_leaked", static_cast<unsigned long long>(watches.leaks.count()), "outside after any step");
   if (s.scene.gravity() != nullptr) {
-    lines.add("kinetic_height", s.kinetic_height, "m, to which the kinetic energy would lift all grains");
-    lines.add("settled", s.kinetic_height < kSettledHeight * size, "kinetic_height below 0.1 % of smallest_half_axis");
+    const double height = kinetic_height(s.simulation.world, s.scene);
+    lines.add("kinetic_height", height, "m, to which the kinetic energy would lift all grains");
+    lines.add("settled", height < kSettledHeight * size, "kinetic_height below 0.1 % of smallest_half_axis");
   }
-  lines.add("largest_kinetic_energy", s.largest_kinetic_energy, "J, of the grain that has most");
-  lines.add("energy_lost", s.energy.lost(), "J, from the start to the least of all steps");
-  lines.add("energy_gained", s.energy.gained(), "J, largest rise over any step before");
+  lines.add("largest_kinetic_energy", largest_kinetic_energy(s.simulation.world), "J, of the grain that has most");
+  lines.add("energy_lost", watches.energy.lost(), "J, from the start to the least of all steps");
+  lines.add("energy_gained", watches.energy.gained(), "J, largest rise over any step before");
   if (s.bed) add_bed(lines, *s.bed, "m, twice the mean height of the grains' volume");
 }
 
@@ -186,7 +192,7 @@ void add_amount(Lines& lines, const std::string& name, const Amount& amount, con
 }
 
 void add_population(Lines& lines, const Summary& s) {
-  const Population& population = *s.population;
+  const Population& population = s.simulation.population;
   lines.section("population");
   add_amount(lines, "at_start", population.at_start());
   add_amount(lines, "fed", population.fed(), "by all feeders");
@@ -238,7 +244,7 @@ void add_heap(Lines& lines, const Heap& heap) {
 }
 
 void add_costs(Lines& lines, const Summary& s) {
-  const StepCosts& c = s.costs;
+  const StepCosts& c = s.simulation.stepper.costs();
   const double total = s.real_seconds;
   const double narrow = c.narrow_phase_seconds();
   const double solver = c.solver.seconds();
@@ -249,7 +255,7 @@ void add_costs(Lines& lines, const Summary& s) {
   lines.add_time("share_narrow_phase", narrow / total, "contacts of the pairs, on all threads");
   lines.add_time("share_contact_setup", c.contact_setup.seconds() / total, "contact joints made and removed");
   lines.add_time("share_solver", solver / total, s.scene.solver.stepper ? "snStepperStep" : "dWorldQuickStep");
-  if (s.bonds != nullptr) lines.add_time("share_bonds", c.bonds.seconds() / total, "forces and breaks of bonds");
+  if (s.simulation.world.bonds() != nullptr) lines.add_time("share_bonds", c.bonds.seconds() / total, "forces and breaks of bonds");
   const double known = c.collision.seconds() + c.contact_setup.seconds() + solver + c.bonds.seconds();
   lines.add_time("share_output", (total - known) / total, "the rest");
   if (s.checkpoints.number > 0) {
@@ -263,23 +269,25 @@ void add_costs(Lines& lines, const Summary& s) {
 /// seconds are the time of its own passes and, by rows, its share of the solver's time.
 void add_costs_by_rows(Lines& lines, const Summary& s) {
   constexpr const char* kSeconds = "s, in its passes and its rows' share of the solver";
-  const StepCosts& c = s.costs;
-  unsigned long long rows = c.rows_of_walls + (s.bonds == nullptr ? 0 : s.bonds->rows());
-  for (const supernormal::effects::Cost& cost : s.effects) rows += cost.rows;
+  const StepCosts& c = s.simulation.stepper.costs();
+  const Bonds* const bonds = s.simulation.world.bonds();
+  const std::vector<supernormal::effects::Cost> effects = s.simulation.effect_costs();
+  unsigned long long rows = c.rows_of_walls + (bonds == nullptr ? 0 : bonds->rows());
+  for (const supernormal::effects::Cost& cost : effects) rows += cost.rows;
   if (c.rows_of_walls > 0) {
     lines.add_time("walls.seconds", ratio(c.rows_of_walls, rows) * c.solver.seconds(), "s, their joints' share of the solver");
     lines.add("walls.rows", c.rows_of_walls, "constraint rows added by joints of driven walls");
   }
   if (c.contacts_of_walls > 0) lines.add("walls.contacts", c.contacts_of_walls, "between walls, in rigid_contact too");
-  if (s.bonds != nullptr) {
-    const double seconds = s.costs.bonds.seconds() + ratio(s.bonds->rows(), rows) * s.costs.solver.seconds();
+  if (bonds != nullptr) {
+    const double seconds = c.bonds.seconds() + ratio(bonds->rows(), rows) * c.solver.seconds();
     lines.add_time("bonds.seconds", seconds, kSeconds);
-    lines.add("bonds.rows", static_cast<unsigned long long>(s.bonds->rows()), "constraint rows added");
+    lines.add("bonds.rows", static_cast<unsigned long long>(bonds->rows()), "constraint rows added");
   }
-  for (const supernormal::effects::Cost& cost : s.effects) {
+  for (const supernormal::effects::Cost& cost : effects) {
     const std::string section = std::string("effect.") + cost.name + ".";
     const auto add = [&](const char* key, auto value, const char* comment) { lines.add((section + key).c_str(), value, comment); };
-    lines.add_time((section + "seconds").c_str(), cost.seconds + ratio(cost.rows, rows) * s.costs.solver.seconds(), kSeconds);
+    lines.add_time((section + "seconds").c_str(), cost.seconds + ratio(cost.rows, rows) * c.solver.seconds(), kSeconds);
     if (cost.rows > 0) add("rows", cost.rows, "constraint rows added");
     const bool is_ahead = std::string_view(cost.name) == "speculative_contacts";
     if (cost.contacts > 0) add("contacts", cost.contacts, is_ahead ? "ahead of touch" : "touched");
@@ -308,10 +316,11 @@ std::string to_toml(const Summary& summary, Times times) {
   add_sizes(lines, summary.sizes);
   add_queries(lines, summary);
   add_end_state(lines, summary);
-  if (summary.discharge != nullptr) add_discharge(lines, summary.scene, *summary.discharge);
-  if (summary.population != nullptr) add_population(lines, summary);
-  if (summary.bonds != nullptr) add_bonds(lines, summary.scene, *summary.bonds);
-  if (summary.packing) add_packing(lines, *summary.packing);
+  const Watches& watches = summary.simulation.watches;
+  if (watches.discharge) add_discharge(lines, summary.scene, *watches.discharge);
+  if (summary.scene.changes_population()) add_population(lines, summary);
+  if (const Bonds* const bonds = summary.simulation.world.bonds()) add_bonds(lines, summary.scene, *bonds);
+  if (watches.compressor) add_packing(lines, watches.compressor->packing());
   if (summary.heap) add_heap(lines, *summary.heap);
   add_costs(lines, summary);
   add_costs_by_rows(lines, summary);

@@ -11,16 +11,9 @@
 #include "common/stopwatch.hpp"
 #include "model/scene.hpp"
 #include "observe/bed.hpp"
-#include "observe/discharge.hpp"
 #include "observe/energy.hpp"
-#include "observe/heap.hpp"
 #include "observe/measuring.hpp"
-#include "observe/overlap.hpp"
-#include "observe/sizes.hpp"
-#include "world/bonds.hpp"
-#include "world/compression.hpp"
-#include "world/population.hpp"
-#include "world/stepper.hpp"
+#include "observe/simulation.hpp"
 
 namespace falling_particles {
 
@@ -37,32 +30,19 @@ struct CheckpointCost {
 /// The work and the results of a run.
 struct Summary {
   const Scene& scene;
+  const Simulation& simulation;
   bool interrupted;  ///< before the end of the scene
   int steps;
-  double simulated_seconds;
-  double real_seconds;  ///< s, of the steps and their output, without the measurements at the end
-  const StepCosts& costs;
+  double real_seconds;      ///< s, of the steps and their output, without the measurements at the end
   snStatistics statistics;  ///< counts of the steps
-  Axis sweep_axis;
-  std::size_t contacts_at_end;
-  double deepest_contact;         ///< m, over all steps
-  double kinetic_height;          ///< m
-  double largest_kinetic_energy;  ///< J, of a single grain
-  const EnergyWatch& energy;
   Overlap overlap;
-  std::size_t outside;             ///< grains outside at the end
-  std::size_t leaked;              ///< grains that have been outside at any time
-  std::optional<Bed> bed;          ///< for a box
-  const Discharge* discharge;      ///< for a hopper, otherwise null
-  std::optional<Packing> packing;  ///< for a compression
-  std::optional<Heap> heap;        ///< for a hopper's dish
-  std::vector<supernormal::effects::Cost> effects;
-  std::vector<MeasurementCost> measurements = {};
-  double seconds_of_contacts = 0;  ///< s, to gather contacts for the measurements
-  std::vector<DrawnSizes> sizes = {};
-  const Population* population = nullptr;  ///< null unless grains are inserted or removed
-  CheckpointCost checkpoints = {};
-  const Bonds* bonds = nullptr;  ///< null unless the scene has bonds
+  std::size_t outside;       ///< grains outside at the end
+  std::optional<Bed> bed;    ///< for a box
+  std::optional<Heap> heap;  ///< for a hopper's dish
+  std::vector<DrawnSizes> sizes;
+  std::vector<MeasurementCost> measurements;
+  double seconds_of_contacts;  ///< s, to gather contacts for the measurements
+  CheckpointCost checkpoints;
 };
 
 /// Whether the summary has the times of the run. Only these depend on the machine and on when the run was stopped.

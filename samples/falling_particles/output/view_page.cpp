@@ -1,23 +1,46 @@
-#include "view_page.hpp"
+// A page that plays a run in a browser.
 
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
 #include <supernormal/shapes/tessellation.hpp>
+#include <vector>
 
-#include "base/base64.hpp"
 #include "base/write_file.hpp"
-#include "model/grain_mesh.hpp"
-#include "palette.hpp"
+#include "frame.hpp"
+#include "model/grain_shape.hpp"
+#include "packed_frames.hpp"
+#include "picture.hpp"
 
 // The page that `npm run build` makes in page/ (view_page_html.S).
 extern "C" const char kViewPageHtml[], kViewPageHtmlEnd[];
 
 namespace falling_particles {
 namespace {
+
+/// view.html: the page of `page/` with the run in it, without other files. It is written at the end of a run; until then a grain
+/// needs up to 45 bytes per frame.
+class ViewPage final : public Picture {
+ public:
+  ViewPage(const std::filesystem::path& path, const Contents& contents);
+  void add(const Frame& frame) override;
+  void finish(const std::string& summary) override;
+
+ private:
+  std::filesystem::path path_;
+  const Contents& contents_;
+  std::vector<double> times_, kinetic_, potential_;
+  std::vector<std::vector<double>> wall_scales_;  // of each frame
+  std::vector<std::vector<double>> wall_poses_;   // of each frame: x, y, z of the position and x, y, z, w of each moving wall
+  PackedGrains grains_;
+  std::vector<std::size_t> grain_counts_;  // of each frame
+  PackedContacts contacts_;
+};
 
 using nlohmann::json;
 
@@ -100,8 +123,7 @@ void write_json(std::ostream& stream, const json& value) {
   stream << R"(<script type="application/json" id="run">)" << text << "</script>\n";
 }
 
-template <typename Texts>
-void write_lines(std::ostream& stream, const char* id, const Texts& texts) {
+void write_lines(std::ostream& stream, const char* id, const auto& texts) {
   stream << R"(<script type="text/plain" id=")" << id << "\">\n";
   for (const std::string& text : texts) stream << text << '\n';
   stream << "</script>\n";
@@ -164,5 +186,7 @@ void ViewPage::finish(const std::string& summary) {
   stream << page.substr(place + kPlace.size());
   close_or_throw(stream, path_);
 }
+
+PictureFormat page_format() { return {"page", {"view.html"}, make_file<ViewPage>}; }
 
 }  // namespace falling_particles

@@ -1,21 +1,54 @@
-#include "vtk_series.hpp"
+// A run as files for ParaView.
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <vector>
 
 #include "base/write_file.hpp"
 #include "common/interval.hpp"
-#include "shown_components.hpp"
+#include "frame.hpp"
+#include "picture.hpp"
 
 namespace falling_particles {
 namespace {
 
+/// grains.pvd, contacts.pvd and container.pvd list the files of every frame in the folder vtk. These are in VTK's XML format for
+/// points, lines and polygons, as text.
+///
+/// A grain is a point with its kind (from 0, in the order of the scene file), quaternion (w, x, y, z), half-axes (m), exponents
+/// (delta, epsilon), rounding (m), velocity (m/s) and angular velocity (rad/s). A compound has a point per component. A capsule
+/// is the ellipsoid of its size. In scenes with compounds, feeders or sinks, `grain` is the index of the point's grain. Absent
+/// grains are left out. A contact is a point with its normal (unit, towards grain 1), depth (m) and the two grains (-1: a wall). If
+/// the scene requests forces, it has the force on grain 1 (N). The container's triangles face the grains, and have the
+/// fields of measurements; there is a new file whenever a wall has changed.
+class VtkSeries final : public Picture {
+ public:
+  VtkSeries(const OutputFolder& folder, const Contents& contents);
+  void add(const Frame& frame) override;
+  void finish(const std::string& summary) override;
+
+ private:
+  /// Writes a file of this frame and returns its name.
+  std::string write(std::string_view what, const std::string& text) const;
+  static void list(std::string& entries, double time, const std::string& name);
+  std::string grains_of(const Frame& frame) const;
+
+  std::filesystem::path grains_file_, contacts_file_, container_file_, frames_folder_;
+  const Contents& contents_;
+  std::string grains_, contacts_, containers_;  // entries of the lists
+  std::string container_;                       // the latest file of the container
+  std::vector<WallPlace> wall_places_;          // of the walls in this file
+  std::vector<TriangleField> fields_;           // on the walls in this file
+  int frames_ = 0;
+};
+
 /// An array with the value numbers(k), a std::array, for each of `count` points.
-template <typename Numbers>
-std::string array(std::string_view name, std::string_view type, std::size_t count, const Numbers& numbers) {
+std::string array(std::string_view name, std::string_view type, std::size_t count, const auto& numbers) {
   constexpr std::size_t kComponents = std::tuple_size_v<std::remove_cvref_t<decltype(numbers(0))>>;
   std::string text = "<DataArray type=\"" + std::string(type) + "\" Name=\"" + std::string(name) + "\" NumberOfComponents=\"" +
                      std::to_string(kComponents) + "\" format=\"ascii\">\n";
@@ -109,7 +142,7 @@ VtkSeries::VtkSeries(const OutputFolder& folder, const Contents& contents)
     : grains_file_(folder.file("grains.pvd")),
       contacts_file_(folder.file("contacts.pvd")),
       container_file_(folder.file("container.pvd")),
-      frames_folder_(folder.file(std::string(kFramesFolder))),
+      frames_folder_(folder.file(std::string(kVtkFolder))),
       contents_(contents) {
   create_folder(frames_folder_);
 }
@@ -141,7 +174,7 @@ std::string VtkSeries::write(std::string_view what, const std::string& text) con
 }
 
 void VtkSeries::list(std::string& entries, double time, const std::string& name) {
-  entries += "<DataSet timestep=\"" + shortest(time) + "\" file=\"" + std::string(kFramesFolder) + '/' + name + "\"/>\n";
+  entries += "<DataSet timestep=\"" + shortest(time) + "\" file=\"" + std::string(kVtkFolder) + '/' + name + "\"/>\n";
 }
 
 std::string VtkSeries::grains_of(const Frame& frame) const {
@@ -160,6 +193,14 @@ std::string VtkSeries::grains_of(const Frame& frame) const {
                    numbers("rounding", [&](std::size_t k) { return std::array{body(k).rounding}; }) +
                    numbers("velocity", [&](std::size_t k) { return components[k].velocity; }) +
                    numbers("angular_velocity", [&](std::size_t k) { return components[k].angular_velocity; }));
+}
+
+PictureFormat vtk_format() {
+  return {"vtk",
+          {"grains.pvd", "contacts.pvd", "container.pvd", kVtkFolder},
+          [](const OutputFolder& folder, const PictureFormat&, const Contents& contents) -> std::unique_ptr<Picture> {
+            return std::make_unique<VtkSeries>(folder, contents);
+          }};
 }
 
 }  // namespace falling_particles

@@ -5,177 +5,127 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <optional>
+#include <ranges>
 #include <supernormal/shapes/description.hpp>
+#include <tuple>
+#include <type_traits>
 #include <variant>
+#include <vector>
 
 #include "model/grain_shape.hpp"
-#include "world/to_vector.hpp"
+#include "world/grain.hpp"
 
 namespace py = pybind11;
 
 namespace falling_particles::python {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr Point kNone = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
+                         std::numeric_limits<double>::quiet_NaN()};
 
-/// An array of `count` rows of kWidth numbers each, or of `count` numbers.
-template <typename Number, std::size_t kWidth = 1>
-class Column {
- public:
-  explicit Column(std::size_t count) : array_(shape_of(count)) {}
-
-  Number& operator[](std::size_t row) { return array_.mutable_data()[row]; }
-  template <typename Values>
-  void set(std::size_t row, const Values& values) {
-    for (std::size_t k = 0; k < kWidth; ++k) array_.mutable_data()[row * kWidth + k] = values[k];
+/// An array of of(row), a number or a std::array of numbers, for each row.
+template <typename Rows, typename Of>
+py::array column(const Rows& rows, const Of& of) {
+  using Value = std::decay_t<std::invoke_result_t<Of, std::ranges::range_value_t<const Rows&>>>;
+  const auto count = static_cast<py::ssize_t>(std::ranges::size(rows));
+  if constexpr (std::is_arithmetic_v<Value>) {
+    py::array_t<Value> array(count);
+    std::ranges::transform(rows, array.mutable_data(), of);
+    return array;
+  } else {
+    py::array_t<double> array({count, static_cast<py::ssize_t>(std::tuple_size_v<Value>)});
+    double* next = array.mutable_data();
+    for (const auto& row : rows) next = std::ranges::copy(std::invoke(of, row), next).out;
+    return array;
   }
-  void set_none(std::size_t row) { std::fill_n(array_.mutable_data() + row * kWidth, kWidth, kNone); }
-  const py::array_t<Number>& array() const { return array_; }
+}
 
- private:
-  static std::vector<py::ssize_t> shape_of(std::size_t count) {
-    std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(count)};
-    if (kWidth > 1) shape.push_back(kWidth);
-    return shape;
-  }
-  py::array_t<Number> array_;
-};
-using Indices = Column<std::int64_t>;
-using Flags = Column<bool>;
-using Scalars = Column<double>;
-using Vectors3 = Column<double, 3>;
-using Quaternions = Column<double, 4>;
+std::array<double, 4> values_of(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
-Point values_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
-
-struct ContactColumns {
-  explicit ContactColumns(std::size_t count)
-      : grain1(count), grain2(count), wall(count), position(count), normal(count), depth(count), force(count) {}
-
-  void set(std::size_t row, const dContactGeom& contact, const Point* measured, const World& world) {
-    const bool is_swapped = grain_of(contact.g1) == nullptr;
-    const double sign = is_swapped ? -1 : 1;
-    const dGeomID other = is_swapped ? contact.g1 : contact.g2;
-    const Wall* const solid = world.walls().wall_of(other);
-    grain1[row] = static_cast<std::int64_t>(world.index_of(*grain_of(is_swapped ? contact.g2 : contact.g1)));
-    grain2[row] = solid != nullptr ? -1 : static_cast<std::int64_t>(world.index_of(*grain_of(other)));
-    wall[row] = solid == nullptr ? -1 : solid - world.scene().walls.data();
-    position.set(row, contact.pos);
-    normal.set(row, values_of(sign * to_vector(contact.normal)));
-    depth[row] = contact.depth;
-    if (measured == nullptr) {
-      force.set_none(row);
-    } else {
-      force.set(row, Point{sign * (*measured)[0], sign * (*measured)[1], sign * (*measured)[2]});
-    }
-  }
-
-  Indices grain1, grain2, wall;
-  Vectors3 position, normal;
-  Scalars depth;
-  Vectors3 force;
+/// A contact whose first body is a grain.
+struct ContactRow {
+  std::int64_t grain1, grain2, wall;  // -1 for none
+  Point position, normal;
+  double depth;
+  Point force;
 };
 
-py::dict in_a_dictionary(const ContactColumns& columns) {
-  py::dict fields;
-  fields["grain1"] = columns.grain1.array();
-  fields["grain2"] = columns.grain2.array();
-  fields["wall"] = columns.wall.array();
-  fields["position"] = columns.position.array();
-  fields["normal"] = columns.normal.array();
-  fields["depth"] = columns.depth.array();
-  fields["force"] = columns.force.array();
-  return fields;
+ContactRow row_of(const dContactGeom& contact, const std::optional<Point>& force, const World& world) {
+  const bool is_swapped = grain_of(contact.g1) == nullptr;
+  const double sign = is_swapped ? -1 : 1;
+  const auto [geom, other] = is_swapped ? std::pair(contact.g2, contact.g1) : std::pair(contact.g1, contact.g2);
+  const Wall* const wall = world.walls().wall_of(other);
+  return {static_cast<std::int64_t>(world.index_of(*grain_of(geom))),
+          wall != nullptr ? -1 : static_cast<std::int64_t>(world.index_of(*grain_of(other))),
+          wall == nullptr ? -1 : wall - world.scene().walls.data(),
+          to_point(contact.pos),
+          to_point(sign * to_vector(contact.normal)),
+          contact.depth,
+          force ? to_point(sign * to_vector(*force)) : kNone};
 }
 
 }  // namespace
 
 py::dict grains_of(const StepwiseRun& run) {
-  const World& world = run.simulation().world;
-  const std::vector<Grain>& grains = world.grains();
-  const std::size_t count = grains.size();
-  Indices kind(count);
-  Flags is_present(count), is_awake(count);
-  Scalars scale(count), mass(count), volume(count);
-  Vectors3 position(count), velocity(count), angular_velocity(count);
-  Quaternions quaternion(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Grain& grain = grains[i];
-    kind[i] = static_cast<std::int64_t>(run.scene().kind_of(*grain.kind));
-    scale[i] = grain.scale;
-    mass[i] = grain.mass.mass;
-    volume[i] = grain.volume();
-    is_present[i] = grain.is_present();
-    is_awake[i] = grain.is_present() && dBodyIsEnabled(grain.body) != 0;
-    if (!grain.is_present()) {
-      for (Vectors3* column : {&position, &velocity, &angular_velocity}) column->set_none(i);
-      quaternion.set_none(i);
-      continue;
-    }
-    position.set(i, grain.position());
-    quaternion.set(i, grain.quaternion());
-    velocity.set(i, dBodyGetLinearVel(grain.body));
-    angular_velocity.set(i, dBodyGetAngularVel(grain.body));
-  }
+  const std::vector<Grain>& grains = run.simulation().world.grains();
+  const auto vectors = [&](Point (Grain::*of)() const) {
+    return column(grains, [of](const Grain& grain) { return grain.is_present() ? (grain.*of)() : kNone; });
+  };
   py::dict fields;
-  fields["kind"] = kind.array();
-  fields["is_present"] = is_present.array();
-  fields["is_awake"] = is_awake.array();
-  fields["scale"] = scale.array();
-  fields["mass"] = mass.array();
-  fields["volume"] = volume.array();
-  fields["position"] = position.array();
-  fields["quaternion"] = quaternion.array();
-  fields["velocity"] = velocity.array();
-  fields["angular_velocity"] = angular_velocity.array();
+  fields["kind"] = column(grains, [&](const Grain& grain) { return static_cast<std::int64_t>(run.scene().kind_of(*grain.kind)); });
+  fields["is_present"] = column(grains, &Grain::is_present);
+  fields["is_awake"] = column(grains, [](const Grain& grain) { return grain.is_present() && dBodyIsEnabled(grain.body) != 0; });
+  fields["scale"] = column(grains, &Grain::scale);
+  fields["mass"] = column(grains, [](const Grain& grain) { return double{grain.mass.mass}; });
+  fields["volume"] = column(grains, &Grain::volume);
+  fields["position"] = vectors(&Grain::position);
+  fields["quaternion"] = column(grains, [](const Grain& grain) {
+    return grain.is_present() ? grain.quaternion() : std::array{kNone[0], kNone[0], kNone[0], kNone[0]};
+  });
+  fields["velocity"] = vectors(&Grain::velocity);
+  fields["angular_velocity"] = vectors(&Grain::angular_velocity);
   return fields;
 }
 
 py::dict contacts_of(const StepwiseRun& run) {
   const World& world = run.simulation().world;
   const Stepper& stepper = run.simulation().stepper;
-  if (!run.measures_forces()) {
-    const std::vector<dContactGeom>& contacts = stepper.contact_geoms();
-    ContactColumns columns(contacts.size());
-    for (std::size_t i = 0; i < contacts.size(); ++i) columns.set(i, contacts[i], nullptr, world);
-    return in_a_dictionary(columns);
+  std::vector<ContactRow> rows;
+  if (run.measures_forces()) {
+    for (const MeasuredContact& contact : stepper.measured_contacts()) rows.push_back(row_of(contact.geom, contact.force(), world));
+  } else {
+    for (const dContactGeom& contact : stepper.contact_geoms()) rows.push_back(row_of(contact, std::nullopt, world));
   }
-  ContactColumns columns(stepper.measured_contacts().size());
-  std::size_t row = 0;
-  for (const MeasuredContact& contact : stepper.measured_contacts()) {
-    const Point force = contact.force();
-    columns.set(row++, contact.geom, &force, world);
-  }
-  return in_a_dictionary(columns);
+  py::dict fields;
+  fields["grain1"] = column(rows, &ContactRow::grain1);
+  fields["grain2"] = column(rows, &ContactRow::grain2);
+  fields["wall"] = column(rows, &ContactRow::wall);
+  fields["position"] = column(rows, &ContactRow::position);
+  fields["normal"] = column(rows, &ContactRow::normal);
+  fields["depth"] = column(rows, &ContactRow::depth);
+  fields["force"] = column(rows, &ContactRow::force);
+  return fields;
 }
 
 py::dict walls_of(const StepwiseRun& run) {
   const WallBodies& walls = run.simulation().world.walls();
+  const auto indices = std::views::iota(std::size_t{0}, walls.count());
+  const auto normal_of = [&](std::size_t i) {
+    const auto* const plane = std::get_if<PlaneShape>(&walls.wall(i).shape);
+    return plane == nullptr ? kNone : to_point(walls.state(i).pose.rotation * plane->normal);
+  };
   py::list names;
-  Vectors3 position(walls.count()), normal(walls.count()), velocity(walls.count()), angular_velocity(walls.count());
-  Quaternions quaternion(walls.count());
-  for (std::size_t i = 0; i < walls.count(); ++i) {
-    const WallState state = walls.state(i);
-    const Eigen::Quaterniond& q = state.pose.rotation;
-    names.append(walls.wall(i).name);
-    position.set(i, values_of(state.pose.position));
-    quaternion.set(i, std::array{q.w(), q.x(), q.y(), q.z()});
-    if (const auto* const plane = std::get_if<PlaneShape>(&walls.wall(i).shape)) {
-      normal.set(i, values_of(q * plane->normal));
-    } else {
-      normal.set_none(i);
-    }
-    velocity.set(i, values_of(state.velocity.linear));
-    angular_velocity.set(i, values_of(state.velocity.angular));
-  }
+  for (const std::size_t i : indices) names.append(walls.wall(i).name);
   py::dict fields;
   fields["name"] = py::tuple(names);
-  fields["position"] = position.array();
-  fields["quaternion"] = quaternion.array();
-  fields["normal"] = normal.array();
-  fields["velocity"] = velocity.array();
-  fields["angular_velocity"] = angular_velocity.array();
+  fields["position"] = column(indices, [&](std::size_t i) { return to_point(walls.state(i).pose.position); });
+  fields["quaternion"] = column(indices, [&](std::size_t i) { return values_of(walls.state(i).pose.rotation); });
+  fields["normal"] = column(indices, normal_of);
+  fields["velocity"] = column(indices, [&](std::size_t i) { return to_point(walls.state(i).velocity.linear); });
+  fields["angular_velocity"] = column(indices, [&](std::size_t i) { return to_point(walls.state(i).velocity.angular); });
   return fields;
 }
 

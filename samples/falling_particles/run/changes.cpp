@@ -12,7 +12,7 @@
 #include "common/input_error.hpp"
 #include "common/nearest_word.hpp"
 #include "input/load_effects.hpp"
-#include "model/container_walls.hpp"
+#include "model/container.hpp"
 
 namespace falling_particles {
 namespace {
@@ -93,8 +93,7 @@ Change change_of_part(const std::string& key, std::string_view rest, const Scene
   if (!rest.starts_with('[') || closing == std::string_view::npos) refuse_key(key, scene);
   const std::string name(rest.substr(1, closing - 1));
   rest.remove_prefix(closing + 1);
-  std::vector<std::string> names;
-  for (const Wall& wall : scene.parts()) names.push_back(wall.name);
+  const std::vector<std::string> names = names_of(scene.parts());
   if (std::ranges::find(names, name) == names.end()) {
     throw InputError(key + ": there is no part \"" + name + '"' + did_you_mean(name, names) +
                      (names.empty() ? "; the scene has no parts" : "; allowed: " + join(names)));

@@ -1,12 +1,15 @@
 #include "checkpoints.hpp"
 
+#include <ode/ode.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <variant>
 
-#include "base/files.hpp"
+#include "base/archive.hpp"
 #include "base/write_file.hpp"
 #include "common/input_error.hpp"
 #include "common/interval.hpp"
@@ -27,6 +30,25 @@ void require_time_to_sleep(const Scene& scene, int every) {
                      shortest(least) + " steps, within which bodies can fall asleep");
   }
 }
+
+constexpr std::string_view kMagic = "SNCHKPT\n";
+constexpr std::uint32_t kFormat = 11;  // increase it with every change of the saved data
+
+constexpr std::uint32_t in_other_byte_order(std::uint32_t x) {
+  return x >> 24U | (x >> 8U & 0xff00U) | (x << 8U & 0xff0000U) | x << 24U;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+  throw InputError("checkpoint \"" + path.string() + "\" " + reason + kStartAnew);
+}
+
+std::string words(const std::vector<std::string>& list, const char* none) {
+  std::string text;
+  for (const std::string& word : list) text += (text.empty() ? "" : ", ") + word;
+  return text.empty() ? none : text;
+}
+
+std::string precision(std::uint32_t bytes) { return bytes == sizeof(double) ? "double precision" : "single precision"; }
 
 }  // namespace
 
@@ -63,6 +85,68 @@ void Checkpoints::write(std::string state) {
   sync_folder(file().parent_path().parent_path());
   folder_.keep();
   last_ = std::move(checkpoint.state);
+}
+
+Origin origin_of(const Scene& scene, int every) {
+  Origin origin{FALLING_PARTICLES_VERSION, sizeof(dReal), {}, scene.overrides, scene.pictures, every};
+  for (const std::filesystem::path& file : scene.files) origin.files.push_back({file.filename().string(), hash_of_file(file)});
+  return origin;
+}
+
+std::string seal(const Checkpoint& checkpoint) {
+  Writer body;
+  body(kFormat, checkpoint.origin, checkpoint.state);
+  std::string bytes = std::string(kMagic) + body.bytes();
+  Writer checksum;
+  checksum(hash_of(bytes));
+  return bytes + checksum.bytes();
+}
+
+Checkpoint unseal(const std::string& bytes, const std::filesystem::path& path) {
+  if (!bytes.starts_with(kMagic)) refuse(path, bytes.empty() ? "is empty" : "is not one of falling_particles");
+  if (bytes.size() < kMagic.size() + sizeof kFormat + sizeof(Hash)) refuse(path, "is torn: it ends too early");
+  const std::size_t end = bytes.size() - sizeof(Hash);
+  Reader body(bytes.substr(kMagic.size(), end - kMagic.size()));
+  const auto format = body.read<std::uint32_t>();
+  if (format == in_other_byte_order(kFormat)) {
+    refuse(path, "is of a machine with the other byte order, on which it can go on");
+  }
+  if (format != kFormat) {
+    refuse(path, "has format " + std::to_string(format) + "; allowed: " + std::to_string(kFormat) + ", that of this program");
+  }
+  if (Reader(bytes.substr(end)).read<Hash>() != hash_of(std::string_view(bytes).substr(0, end))) {
+    refuse(path, "is torn: its checksum is another one");
+  }
+  Checkpoint checkpoint;
+  body(checkpoint.origin, checkpoint.state);
+  return checkpoint;
+}
+
+void refuse_other(const Origin& saved, const Origin& here, const std::filesystem::path& path) {
+  if (saved.program != here.program) {
+    refuse(path, "is of version " + saved.program + " of the program; allowed: " + here.program + ", this one");
+  }
+  if (saved.bytes_of_a_real != here.bytes_of_a_real) {
+    refuse(path, "is of ODE with " + precision(saved.bytes_of_a_real) + "; allowed: " + precision(here.bytes_of_a_real) +
+                     ", that of this program");
+  }
+  if (saved.files.size() != here.files.size()) refuse(path, "is of another scene, which names other files");
+  for (std::size_t i = 0; i < saved.files.size(); ++i) {
+    if (saved.files[i].hash == here.files[i].hash) continue;
+    refuse(path, "is of another scene: the text of " + here.files[i].name + " was another one when it was written");
+  }
+  if (saved.overrides != here.overrides) {
+    refuse(path, "is of a run with " + words(saved.overrides, "nothing") + " set; this one has " +
+                     words(here.overrides, "nothing") + " (see --set)");
+  }
+  if (saved.pictures != here.pictures) {
+    refuse(path, "is of a run that leaves " + words(saved.pictures, "no pictures") + "; this one leaves " +
+                     words(here.pictures, "no pictures") + " (see --no-pictures)");
+  }
+  if (here.every != 0 && saved.every != here.every) {
+    refuse(path, "is of a run with --checkpoint-every " + std::to_string(saved.every) + "; allowed: the same, or none, and not " +
+                     std::to_string(here.every) + ", with which the results would be others");
+  }
 }
 
 }  // namespace falling_particles

@@ -10,7 +10,7 @@
 #include "base/interrupt.hpp"
 #include "base/write_file.hpp"
 #include "common/interval.hpp"
-#include "world/to_vector.hpp"
+#include "world/grain.hpp"
 
 namespace falling_particles {
 namespace {
@@ -35,10 +35,7 @@ struct SavedRun {
   MeasuringState measuring;
   RecorderState recorder;
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(step, time, cost.number, cost.watch, simulation, measuring, recorder);
-  }
+  void serialize(auto& archive) { archive(step, time, cost.number, cost.watch, simulation, measuring, recorder); }
 };
 
 bool is_zero(const Point& vector) { return vector == Point{}; }
@@ -191,38 +188,23 @@ void StepwiseRun::advance(int until, Progress* progress) {
 
 Summary StepwiseRun::summarize() {
   World& world = simulation_->world;
-  const Stepper& stepper = simulation_->stepper;
-  const Watches& watches = simulation_->watches;
   const snStatistics statistics = simulation_->statistics();  // before the measurements at the end, which add to them
   if (world.cell() != nullptr) world.cell()->place_images();  // the grains have moved since the images were placed
   const Box* box = std::get_if<Box>(&scene_.container);
   return {scene_,
+          *simulation_,
           !is_at_end(),
           step_,
-          step_ * scene_.time.step,
           time_.seconds(),
-          stepper.costs(),
           statistics,
-          world.sweep().axis(),
-          stepper.contacts(),
-          stepper.deepest_contact(),
-          kinetic_height(world, scene_),
-          largest_kinetic_energy(world),
-          watches.energy,
           measure_overlap(world),
           count_outside(world),
-          watches.leaks.count(),
           box == nullptr ? std::nullopt : std::optional(measure_bed(world, *box, simulation_->random)),
-          watches.discharge ? &*watches.discharge : nullptr,
-          watches.compressor ? std::optional(watches.compressor->packing()) : std::nullopt,
           find_heap(world, scene_.container),
-          simulation_->effect_costs(),
+          measure_sizes(world, scene_),
           measuring_->costs(),
           measuring_->seconds_of_contacts(),
-          measure_sizes(world, scene_),
-          scene_.changes_population() ? &simulation_->population : nullptr,
-          cost_,
-          world.bonds()};
+          cost_};
 }
 
 void StepwiseRun::finish() {

@@ -14,7 +14,7 @@
 #include "observe/simulation.hpp"
 #include "output/recorder.hpp"
 #include "output/summary.hpp"
-#include "progress.hpp"
+#include "run.hpp"
 
 namespace falling_particles {
 

@@ -11,7 +11,8 @@
 
 #include "common/input_error.hpp"
 #include "common/interval.hpp"
-#include "to_vector.hpp"
+#include "driven_body.hpp"
+#include "grain.hpp"
 #include "world.hpp"
 
 namespace falling_particles {
@@ -276,11 +277,8 @@ void Bonds::place_anchor(const Bond& bond, const Joints& joints) const {
   const auto [pose, velocity] = world_.walls().state(*world_.scene().bonds[bond.rule].wall);
   const Vector3 place = pose(bond.rest.start);
   const Vector3 linear = velocity.linear + velocity.angular.cross(place - pose.position);
-  const dQuaternion q = {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()};
-  dBodySetPosition(joints.first, place.x(), place.y(), place.z());
-  dBodySetQuaternion(joints.first, q);
-  dBodySetLinearVel(joints.first, linear.x(), linear.y(), linear.z());
-  dBodySetAngularVel(joints.first, velocity.angular.x(), velocity.angular.y(), velocity.angular.z());
+  set_pose(joints.first, {place, pose.rotation});
+  set_velocity(joints.first, {linear, velocity.angular});
   velocity.is_zero() ? dBodyDisable(joints.first) : dBodyEnable(joints.first);
 }
 
@@ -395,8 +393,7 @@ void Bonds::after_step() {
 
 void Bonds::break_bond(std::size_t index, const Strain& strain, const BondStress& stress, bool is_removed) {
   Bond& bond = state_.bonds[index];
-  const Point place = {strain.middle.x(), strain.middle.y(), strain.middle.z()};
-  state_.breaks.push_back({time(), index, place, stress, is_removed});
+  state_.breaks.push_back({time(), index, to_point(strain.middle), stress, is_removed});
   for (const dBodyID body : {joints_[index].first, joints_[index].second}) dBodyEnable(body);
   const bool parts = hidden_.contains(key_of(bond)) && !is_removed;
   remove_joints(index);

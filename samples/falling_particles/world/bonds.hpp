@@ -32,10 +32,7 @@ struct Bond {
   /// m, of a broken bond: contacts of its grains leave this overlap. It is the overlap at the break, and shrinks with the overlap.
   double overlap = 0;
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(rule, first, second, radius, rest, is_broken, overlap);
-  }
+  void serialize(auto& archive) { archive(rule, first, second, radius, rest, is_broken, overlap); }
 };
 
 /// The stresses of a bond in its outermost fibre, after Potyondy and Cundall, Int. J. Rock Mech. Min. Sci. 41 (2004), eq. 15. The
@@ -46,10 +43,7 @@ struct BondStress {
   double shear = 0;    ///< Pa, by the shear force
   double torsion = 0;  ///< Pa, by the twisting moment
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(tension, bending, shear, torsion);
-  }
+  void serialize(auto& archive) { archive(tension, bending, shear, torsion); }
 };
 
 /// The break of a bond.
@@ -60,10 +54,7 @@ struct BondBreak {
   BondStress stress;
   bool is_removed = false;  ///< whether a sink has removed a grain of the bond
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(time, bond, place, stress, is_removed);
-  }
+  void serialize(auto& archive) { archive(time, bond, place, stress, is_removed); }
 };
 
 /// What broke a bond: the largest part of the stress that exceeds its strength.
@@ -75,10 +66,7 @@ struct BondsState {
   std::vector<Bond> bonds;
   std::vector<BondBreak> breaks;
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(steps, rows, bonds, breaks);
-  }
+  void serialize(auto& archive) { archive(steps, rows, bonds, breaks); }
 };
 
 /// The bonds of a world. A beam between two centres is an Euler-Bernoulli beam with the shear of Timoshenko. About its middle its

@@ -1,11 +1,34 @@
-// The body of a driven wall in an ODE world.
+// The bodies of walls that a force, a torque or their contacts move.
 #pragma once
 
 #include <ode/ode.h>
 
+#include "common/motion.hpp"
 #include "model/wall.hpp"
 
 namespace falling_particles {
+
+using namespace common;
+
+/// A body without automatic sleep and without damping.
+inline dBodyID create_wall_body(dWorldID world) {
+  const dBodyID body = dBodyCreate(world);
+  dBodySetAutoDisableFlag(body, 0);
+  dBodySetLinearDamping(body, 0);
+  dBodySetAngularDamping(body, 0);
+  return body;
+}
+
+inline void set_velocity(dBodyID body, const WallVelocity& velocity) {
+  dBodySetLinearVel(body, velocity.linear.x(), velocity.linear.y(), velocity.linear.z());
+  dBodySetAngularVel(body, velocity.angular.x(), velocity.angular.y(), velocity.angular.z());
+}
+
+inline void set_pose(dBodyID body, const WallPose& pose) {
+  dBodySetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());
+  const dQuaternion q = {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()};
+  dBodySetQuaternion(body, q);
+}
 
 /// The state of a driven wall between two steps.
 struct DrivenState {
@@ -14,10 +37,7 @@ struct DrivenState {
   double push = 0;      ///< N or N m, of the drive in the last step
   double load = 0;      ///< N, of the grains against the axis in the last step, on a servo
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(position, speed, push, load);
-  }
+  void serialize(auto& archive) { archive(position, speed, push, load); }
 };
 
 /// A body with inertia on a joint to the kinematic body of its wall, its carrier. The joint leaves one degree of freedom: along the
@@ -63,6 +83,53 @@ class DrivenBody {
   dJointFeedback feedback_ = {};  // of the joint of a servo: the force of a stop
   double inertia_ = 0;            // of the body, in the units of Drive::mass
   DrivenState state_;
+  bool is_held_ = true;
+};
+
+/// The state of a free wall between two steps.
+struct FlightState {
+  Vector3 velocity = Vector3::Zero();  ///< m/s, of the centre of mass
+  Vector3 momentum = Vector3::Zero();  ///< kg m^2/s, angular, about the centre of mass
+
+  void serialize(auto& archive) {
+    for (Vector3* vector : {&velocity, &momentum}) archive((*vector)[0], (*vector)[1], (*vector)[2]);
+  }
+};
+
+/// A body with the inertia of its wall, at the wall's centre of mass. Quickstep finds its momenta; this class finds its poses.
+/// Quickstep would let the angular momentum of a body drift that turns freely about no principal axis. The stepper does not, and
+/// finds the poses too.
+class FlyingBody {
+ public:
+  /// The wall must outlive this object. `step`: s.
+  FlyingBody(dWorldID world, const Wall& wall, double step, bool is_of_stepper = false);
+  ~FlyingBody();
+  FlyingBody(const FlyingBody&) = delete;
+  FlyingBody& operator=(const FlyingBody&) = delete;
+
+  /// Holds or releases the body for the step that starts at `now` (s).
+  void before_step(double now);
+  /// Reads the momenta after the step, and returns the pose of the wall that was in `pose` before it.
+  WallPose read(const WallPose& pose);
+  /// Sets the body to the pose of its wall.
+  void put(const WallPose& pose);
+
+  dBodyID id() const { return body_; }
+  bool is_held() const { return is_held_; }
+  WallPose centred(const WallPose& pose) const;            ///< of the centre of mass of a wall in `pose`
+  WallPose next(const WallPose& pose, double time) const;  ///< of the wall after `time` (s) without forces
+  Vector3 spin(const Eigen::Quaterniond& rotation) const;  ///< rad/s, of a wall with this rotation and the present momentum
+
+  const FlightState& state() const { return state_; }
+  void restore(const FlightState& state) { state_ = state; }
+
+ private:
+  const Flight& flight_;
+  double step_;
+  bool is_of_stepper_;
+  Eigen::Matrix3d inverse_inertia_;
+  dBodyID body_;
+  FlightState state_;
   bool is_held_ = true;
 };
 

@@ -18,13 +18,24 @@ std::vector<dGeomID> Grain::geoms() const {
   return all;
 }
 
-std::array<dReal, 6> Grain::aabb() const {
-  std::array<dReal, 6> box{};
-  dGeomGetAABB(geom, box.data());
+Aabb aabb_of(dGeomID geom) {
+  Aabb aabb;
+  dGeomGetAABB(geom, aabb.data());
+  return aabb;
+}
+
+bool meet(const Aabb& a, const Aabb& b) {
+  for (std::size_t i = 0; i < 6; i += 2) {
+    if (a[i] > b[i + 1] || b[i] > a[i + 1]) return false;
+  }
+  return true;
+}
+
+Aabb Grain::aabb() const {
+  Aabb box = aabb_of(geom);
   if (kind->components.empty()) return box;
   for (const dGeomID each : geoms()) {
-    std::array<dReal, 6> other{};
-    dGeomGetAABB(each, other.data());
+    const Aabb other = aabb_of(each);
     for (std::size_t i = 0; i < 6; i += 2) {
       box[i] = std::min(box[i], other[i]);
       box[i + 1] = std::max(box[i + 1], other[i + 1]);

@@ -1,4 +1,4 @@
-// A grain in an ODE world.
+// A grain in an ODE world, and vectors of ODE.
 #pragma once
 
 #include <ode/ode.h>
@@ -7,14 +7,56 @@
 #include <vector>
 
 #include "common/motion.hpp"
+#include "model/geometry.hpp"
 #include "model/scene.hpp"
 #include "placement.hpp"
 
 namespace falling_particles {
 
+using namespace common;
+
+inline Vector3 to_vector(const dReal* v) { return {v[0], v[1], v[2]}; }
+inline Vector3 to_vector(const Point& p) { return {p[0], p[1], p[2]}; }
+inline Point to_point(const dReal* v) { return {v[0], v[1], v[2]}; }
+inline Point to_point(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// `vector`: rad, along the axis.
+inline Eigen::Quaterniond rotation_by(const Vector3& vector) {
+  const double angle = vector.norm();
+  return angle > 0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle)) : Eigen::Quaterniond::Identity();
+}
+
+/// Grain::move of a body that the stepper moves; null for quickstep.
+inline WallVelocity* move_by_stepper(dBodyID body) { return static_cast<WallVelocity*>(dBodyGetData(body)); }
+
+/// m/s, the velocity with which a body was moved in the last step. By quickstep it is the new velocity before [damping], which ODE
+/// applies after the move. 0 if damping has taken all of it.
+inline Vector3 velocity_of_move(dBodyID body) {
+  if (const auto* const move = move_by_stepper(body)) return move->linear;
+  const double kept = 1 - dBodyGetLinearDamping(body);
+  return kept > 0 ? Vector3(to_vector(dBodyGetLinearVel(body)) / kept) : Vector3(Vector3::Zero());
+}
+
+/// m, of a body before the last step (s).
+inline Vector3 position_before(dBodyID body, double step) {
+  return to_vector(dBodyGetPosition(body)) - step * velocity_of_move(body);
+}
+
+/// rad/s, as velocity_of_move() of the angular velocity.
+inline Vector3 spin_of_move(dBodyID body) {
+  if (const auto* const move = move_by_stepper(body)) return move->angular;
+  const double kept = 1 - dBodyGetAngularDamping(body);
+  return kept > 0 ? Vector3(to_vector(dBodyGetAngularVel(body)) / kept) : Vector3(Vector3::Zero());
+}
+
 /// Category bits of the geoms of a world. Walls collide with grains only.
 inline constexpr unsigned long kWallBit = 1;
 inline constexpr unsigned long kGrainBit = 2;
+
+/// m, a box around a geom: least x, most x, least y, most y, least z, most z.
+using Aabb = std::array<dReal, 6>;
+Aabb aabb_of(dGeomID geom);
+bool meet(const Aabb& a, const Aabb& b);
 
 /// A grain of a world. Its index in the world's list is never reused, also after its removal.
 struct Grain {
@@ -27,27 +69,17 @@ struct Grain {
 
   bool is_present() const { return body != nullptr; }
   std::vector<dGeomID> geoms() const;
-  /// m; of all geoms together: least x, most x, least y, most y, least z, most z.
-  std::array<dReal, 6> aabb() const;
+  Aabb aabb() const;                                                                ///< of all geoms together
   double smallest_half_axis() const { return scale * kind->smallest_half_axis(); }  ///< m
   double bounding_radius() const { return scale * kind->bounding_radius(); }        ///< m
   double volume() const { return mass.mass / kind->density; }                       ///< m^3
-  Point position() const {                                                          ///< m, of the centre
-    const dReal* p = dBodyGetPosition(body);
-    return {p[0], p[1], p[2]};
-  }
-  std::array<double, 4> quaternion() const {  ///< w, x, y, z
+  Point position() const { return to_point(dBodyGetPosition(body)); }               ///< m, of the centre
+  std::array<double, 4> quaternion() const {                                        ///< w, x, y, z
     const dReal* q = dBodyGetQuaternion(body);
     return {q[0], q[1], q[2], q[3]};
   }
-  Point velocity() const {  ///< m/s
-    const dReal* v = dBodyGetLinearVel(body);
-    return {v[0], v[1], v[2]};
-  }
-  Point angular_velocity() const {  ///< rad/s
-    const dReal* w = dBodyGetAngularVel(body);
-    return {w[0], w[1], w[2]};
-  }
+  Point velocity() const { return to_point(dBodyGetLinearVel(body)); }           ///< m/s
+  Point angular_velocity() const { return to_point(dBodyGetAngularVel(body)); }  ///< rad/s
 };
 
 /// The grain of a geom in a World. Null for a wall, whose mesh may have data of its own.

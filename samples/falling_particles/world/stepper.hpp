@@ -5,15 +5,66 @@
 #include <supernormal/supernormal.h>
 
 #include <deque>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "common/stopwatch.hpp"
-#include "contact_joints.hpp"
 #include "model/scene.hpp"
 #include "world.hpp"
 
 namespace falling_particles {
+
+/// max_contacts of a pair: four points support a face on a face, and the deepest point is the fifth.
+inline constexpr int kContactsPerPair = 5;
+
+/// A contact with its force.
+struct MeasuredContact {
+  dContactGeom geom;
+  dJointFeedback feedback;   ///< by the stepper, only f1
+  bool is_reversed = false;  ///< whether the joint's first body is the body of geom.g2
+
+  /// N, in the world's frame, on the body of geom.g1; valid after the step.
+  Point force() const;
+};
+
+/// The contact joints of a step in a world, which must outlive them; or the contacts that its stepper takes in their place.
+class ContactJoints {
+ public:
+  explicit ContactJoints(const World& world);
+  ~ContactJoints();
+  ContactJoints(const ContactJoints&) = delete;
+  ContactJoints(ContactJoints&&) = delete;
+  ContactJoints& operator=(const ContactJoints&) = delete;
+  ContactJoints& operator=(ContactJoints&&) = delete;
+
+  /// Replaces the joints of the last step by joints for `contacts`, as the effects of the world set them up. The contacts of a
+  /// pair, at most kContactsPerPair, must be consecutive. Of two walls the first is free; it has the friction and restitution of
+  /// grains on the second. If `measures`, measured() has their forces after the next step.
+  void replace(std::span<const dContactGeom> contacts, bool measures = false);
+  /// Adds further contacts, of the rest of a step that ended early.
+  void add(std::span<const dContactGeom> contacts, bool measures = false);
+  /// After the stepper has made the fraction `part` of a step: the measured forces are means over the step. The contacts must be
+  /// the first ones that the stepper was given.
+  void read_forces(double part);
+
+  /// The contacts that the effects have kept, in the order of their pairs; of a step that ended early, part by part. Empty if
+  /// `measures` was false.
+  const std::deque<MeasuredContact>& measured() const { return measured_; }
+
+ private:
+  using Side = supernormal::effects::Side;
+
+  void attach(std::span<const dContactGeom> pair, bool measures);
+  Side side_of(dGeomID geom) const;
+  void follow_chords(std::span<dContact> contacts, const Side& side1, const Side& side2) const;
+  void measure(dJointID joint, const dContact& contact, bool is_reversed);
+
+  const World& world_;
+  dJointGroupID joints_;
+  std::deque<MeasuredContact> measured_;  // the joints point to its elements, which a deque does not move
+  std::size_t read_ = 0;                  // how many of them have their force, by the stepper
+};
 
 /// The time and the amount of work of all steps.
 struct StepCosts {
@@ -29,8 +80,7 @@ struct StepCosts {
   unsigned long long contacts_of_walls = 0;  ///< between two walls
   unsigned long long rows_of_walls = 0;      ///< of the joints of driven walls
   double narrow_phase_seconds() const { return collision.seconds() - broad_phase.seconds(); }
-  template <typename Archive>
-  void serialize(Archive& archive) {
+  void serialize(auto& archive) {
     archive(collision, broad_phase, contact_setup, solver, bonds, pairs_tested, parts, contacts, contacts_ahead, contacts_of_walls,
             rows_of_walls);
   }
@@ -57,10 +107,7 @@ class Stepper {
   const StepCosts& costs() const { return costs_; }
 
   /// Saves or restores the results of the steps so far, but not the contacts of the last one.
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(deepest_contact_, costs_);
-  }
+  void serialize(auto& archive) { archive(deepest_contact_, costs_); }
 
  private:
   double make_part(double done, bool measures);

@@ -31,8 +31,7 @@ class SweepSpace {
   void before_step();
 
   /// Calls visit(geom) for all geoms but the end markers.
-  template <typename Visit>
-  void for_each_geom(const Visit& visit) const {
+  void for_each_geom(const auto& visit) const {
     const int count = dSpaceGetNumGeoms(space_);
     for (int i = 0; i < count; ++i) {
       const dGeomID geom = dSpaceGetGeom(space_, i);

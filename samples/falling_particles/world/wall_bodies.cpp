@@ -9,9 +9,9 @@
 #include <string>
 
 #include "common/interval.hpp"
-#include "model/material.hpp"
-#include "to_vector.hpp"
-#include "wall_body.hpp"
+#include "driven_body.hpp"
+#include "grain.hpp"
+#include "model/wall.hpp"
 
 namespace falling_particles {
 namespace {
@@ -31,16 +31,6 @@ std::vector<double> rows_along_z(const GroundShape& ground) {
     heights.insert(heights.end(), first, first + static_cast<std::ptrdiff_t>(ground.samples));
   }
   return heights;
-}
-
-bool boxes_meet(dGeomID g1, dGeomID g2) {
-  dReal first[6], second[6];
-  dGeomGetAABB(g1, first);
-  dGeomGetAABB(g2, second);
-  for (int i = 0; i < 6; i += 2) {
-    if (first[i] > second[i + 1] || second[i] > first[i + 1]) return false;
-  }
-  return true;
 }
 
 }  // namespace
@@ -324,7 +314,7 @@ std::vector<std::pair<dGeomID, dGeomID>> WallBodies::pairs_of_free() const {
     for (std::size_t k = 0; k < entries_.size(); ++k) {
       const Entry& other = entries_[k];
       const bool is_named = other.flies() && k <= i;
-      if (!is_named && other.is_present && boxes_meet(entries_[i].geom, other.geom))
+      if (!is_named && other.is_present && meet(aabb_of(entries_[i].geom), aabb_of(other.geom)))
         pairs.emplace_back(entries_[i].geom, other.geom);
     }
   }

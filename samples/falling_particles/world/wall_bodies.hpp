@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "driven_body.hpp"
-#include "flying_body.hpp"
 #include "model/two_sided_mesh.hpp"
 #include "model/wall.hpp"
 
@@ -33,18 +32,12 @@ struct WallsState {
     DrivenState driven = {};     ///< of a driven wall
     FlightState flight = {};     ///< of a free wall
 
-    template <typename Archive>
-    void serialize(Archive& archive) {
-      archive(pose, velocity, driven, flight);
-    }
+    void serialize(auto& archive) { archive(pose, velocity, driven, flight); }
   };
   long steps = 0;
   std::vector<OfWall> walls;  ///< that move, in their order
 
-  template <typename Archive>
-  void serialize(Archive& archive) {
-    archive(steps, walls);
-  }
+  void serialize(auto& archive) { archive(steps, walls); }
 };
 
 /// The geoms of all walls of a scene, and the bodies that give contacts their velocities. The geoms have no bodies, since ODE's

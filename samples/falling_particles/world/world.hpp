@@ -4,49 +4,51 @@
 #include <ode/ode.h>
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
+#include <ranges>
 #include <supernormal/effects.hpp>
 #include <supernormal/stepper.hpp>
 #include <vector>
 
 #include "bonds.hpp"
 #include "grain.hpp"
+#include "model/geometry.hpp"
 #include "model/scene.hpp"
 #include "periodic_cell.hpp"
 #include "sweep_space.hpp"
 #include "wall_bodies.hpp"
-#include "world_state.hpp"
 
 namespace falling_particles {
 
-/// The present grains of a list, in its order. Removed grains cost no time.
-class PresentGrains {
- public:
-  class Iterator {
-   public:
-    Iterator(const Grain* grains, const std::size_t* index) : grains_(grains), index_(index) {}
-    const Grain& operator*() const { return grains_[*index_]; }
-    Iterator& operator++() {
-      ++index_;
-      return *this;
-    }
-    bool operator==(const Iterator& other) const { return index_ == other.index_; }
+/// A present grain, or the data of a removed one.
+struct SavedGrain {
+  std::uint64_t kind = 0;  ///< index into Scene::kinds
+  double scale = 1;        ///< of the grain's lengths
+  double mass = 0;         ///< kg
+  bool is_present = true;
+  bool is_awake = true;
+  Point position = {};  ///< m
+  std::array<double, 4> quaternion = {1, 0, 0, 0};
+  Point velocity = {};          ///< m/s
+  Point angular_velocity = {};  ///< rad/s
 
-   private:
-    const Grain* grains_;
-    const std::size_t* index_;
-  };
+  void serialize(auto& archive) {
+    archive(kind, scale, mass, is_present, is_awake, position, quaternion, velocity, angular_velocity);
+  }
+};
 
-  PresentGrains(const Grain* grains, std::span<const std::size_t> indices) : grains_(grains), indices_(indices) {}
-  Iterator begin() const { return {grains_, indices_.data()}; }
-  Iterator end() const { return {grains_, indices_.data() + indices_.size()}; }
-  std::size_t size() const { return indices_.size(); }
+struct WorldState {
+  std::uint64_t seed = 0;          ///< of ODE's random numbers
+  std::vector<SavedGrain> grains;  ///< all grains so far
+  bool has_lid = false;            ///< whether a hopper's outlet has its lid
+  Point periods = {};              ///< m, of the cell along x, y and z; 0 along axes that are not periodic
+  WallsState walls;
+  BondsState bonds;
+  std::vector<double> stepper;  ///< what it remembers (snStepperSave)
 
- private:
-  const Grain* grains_;
-  std::span<const std::size_t> indices_;
+  void serialize(auto& archive) { archive(seed, grains, has_lid, periods, walls, bonds, stepper); }
 };
 
 /// Sets the library's defaults for queries, which hold for the process. The end of its lifetime resets them. Without a section
@@ -81,11 +83,12 @@ class World {
   SweepSpace& sweep() const { return *sweep_; }
   /// All grains so far, removed ones included.
   const std::vector<Grain>& grains() const { return grains_; }
-  /// The present ones of grains().
-  PresentGrains present() const { return {grains_.data(), present_}; }
+  /// The present ones of grains(), in their order. Removed grains cost no time.
+  auto present() const {
+    return std::views::transform(present_, [this](std::size_t index) -> const Grain& { return grains_[index]; });
+  }
   /// Calls visit(geom) for the geoms of all present grains, and of their images in a periodic world.
-  template <typename Visit>
-  void for_each_grain_geom(const Visit& visit) const {
+  void for_each_grain_geom(const auto& visit) const {
     if (cell_ == nullptr) {
       for (const Grain& grain : present()) {
         for (const dGeomID geom : grain.geoms()) visit(geom);

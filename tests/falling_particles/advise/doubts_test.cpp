@@ -12,7 +12,6 @@
 #include "advise/refusals.hpp"
 #include "advise/step.hpp"
 #include "common/interval.hpp"
-#include "complaint.hpp"
 #include "model/grain_shape.hpp"
 #include "observe/simulation.hpp"
 #include "scenes.hpp"

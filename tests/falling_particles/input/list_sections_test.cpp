@@ -1,6 +1,4 @@
 // The list of sections and keys, against what the loader takes and what it says of mistakes.
-#include "input/list_sections.hpp"
-
 #include <doctest/doctest.h>
 
 #include <map>
@@ -11,8 +9,9 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
-#include "complaint.hpp"
 #include "input/load_effects.hpp"
+#include "input/load_sections.hpp"
+#include "scenes.hpp"
 
 namespace {
 

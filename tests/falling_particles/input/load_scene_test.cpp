@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "common/input_error.hpp"
-#include "complaint.hpp"
 #include "input/catalogue.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"

@@ -7,9 +7,8 @@
 
 #include "advise/refusals.hpp"
 #include "common/input_error.hpp"
-#include "complaint.hpp"
 #include "model/grain_shape.hpp"
-#include "scene_text.hpp"
+#include "scenes.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace falling_particles;

@@ -3,7 +3,6 @@
 #include <sys/stat.h>
 
 #include "common/load_mesh.hpp"
-#include "complaint.hpp"
 #include "scenes.hpp"
 
 using namespace falling_particles;

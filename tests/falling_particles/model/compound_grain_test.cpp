@@ -5,13 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "complaint.hpp"
 #include "input/catalogue.hpp"
-#include "model/compound.hpp"
-#include "model/grain_mesh.hpp"
+#include "model/grain_shape.hpp"
 #include "observe/bed.hpp"
 #include "observe/pair_contact.hpp"
-#include "output/shown_components.hpp"
+#include "output/frame.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"
 #include "world/stepper.hpp"

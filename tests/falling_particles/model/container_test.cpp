@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "complaint.hpp"
+#include "observe/energy.hpp"
 #include "observe/leaks.hpp"
-#include "observe/overlap.hpp"
 #include "observe/simulation.hpp"
 #include "scenes.hpp"
 #include "world/placement.hpp"

@@ -1,6 +1,4 @@
 // Tests of the walls of containers: where they are, how they move, and the errors of mistakes.
-#include "model/container_walls.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,7 +10,7 @@
 #include <vector>
 
 #include "common/input_error.hpp"
-#include "complaint.hpp"
+#include "model/container.hpp"
 #include "observe/leaks.hpp"
 #include "observe/simulation.hpp"
 #include "run/changes.hpp"

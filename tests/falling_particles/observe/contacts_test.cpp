@@ -1,12 +1,13 @@
 // Measurements of contacts and their forces against closed forms.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "common/random.hpp"
-#include "complaint.hpp"
 #include "measured.hpp"
+#include "scenes.hpp"
 #include "support/relative.hpp"
 
 using namespace falling_particles;
@@ -68,6 +69,16 @@ BedAtRest rest(const std::string& text, double pressure, int steps) {
     }
   }
   return bed;
+}
+
+std::array<double, 4> plane_of(const World& world, const std::string& name) {
+  const auto found =
+      std::ranges::find(world.walls().geoms(), name, [&](dGeomID geom) { return world.walls().wall_of(geom)->name; });
+  REQUIRE(found != world.walls().geoms().end());
+  REQUIRE(dGeomGetClass(*found) == dPlaneClass);
+  dVector4 plane;
+  dGeomPlaneGetParams(*found, plane);
+  return {plane[0], plane[1], plane[2], plane[3]};
 }
 
 }  // namespace
@@ -277,4 +288,64 @@ TEST_CASE("measurements: there is no box between walls that have rotated togethe
   const Eigen::Quaterniond quarter(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitZ()));
   for (Wall& wall : scene.walls) wall.start = {quarter * wall.start.position, quarter * wall.start.rotation};
   CHECK_THROWS_WITH_AS(measure(scene, World(scene, column())), doctest::Contains("have rotated"), std::runtime_error);
+}
+
+TEST_CASE("measurements: the names of walls are those of their geoms") {
+  using Plane = std::array<double, 4>;
+  const Scene box = falling_particles::scene_of(kSceneText);
+  const World in_box(box, {});
+  CHECK(plane_of(in_box, "floor") == Plane{0, 0, 1, 0});
+  CHECK(plane_of(in_box, "x_low") == Plane{1, 0, 0, 0});
+  CHECK(plane_of(in_box, "x_high") == Plane{-1, 0, 0, -0.05});
+  CHECK(plane_of(in_box, "y_low") == Plane{0, 1, 0, 0});
+  CHECK(plane_of(in_box, "y_high") == Plane{0, -1, 0, -0.06});
+
+  const Scene terrain = falling_particles::scene_of(scene_in(kTerrainText));
+  const World on_terrain(terrain, {});
+  const dGeomID ground = on_terrain.walls().geoms().back();
+  CHECK(on_terrain.walls().wall_of(ground)->name == "ground");
+  CHECK(dGeomGetClass(ground) == dHeightfieldClass);
+  CHECK(plane_of(on_terrain, "y_high") == Plane{0, -1, 0, -0.06});
+}
+
+TEST_CASE("measurements: a pea on the lid of a hopper weighs on it, and later on the floor") {
+  const std::string text = scene_in(kHopperText);
+  const Scene on_lid = scene_with("kind = \"part_force\"\nsurfaces = [\"lid\"]\n", text);
+  const Scene on_floor = scene_with("kind = \"part_force\"\nsurfaces = [\"floor\"]\n", text);
+  const Scene on_mesh = scene_with("kind = \"part_force\"\nsurfaces = [\"hopper\"]\n", text);
+  World world(on_lid, {upright(kPea, 0, 0, 0.05 + 3e-3)});
+  const double weight = world.grains()[0].mass.mass * 9.81;
+  Stepper stepper(world, on_lid);
+  for (int step = 0; step < 400; ++step) stepper.step(true);
+  CHECK(measure(on_lid, world, &stepper).number("force_z_N") == relative(-weight).epsilon(1e-3));
+  CHECK(measure(on_floor, world, &stepper).number("force_z_N") == 0);
+  CHECK(measure(on_mesh, world, &stepper).number("force_z_N") == 0);
+  const std::unique_ptr<Measurement> floor = on_floor.measurements.front().make(world);  // a run makes them before the lid goes
+  world.open_outlet();
+  for (int step = 0; step < 1000; ++step) stepper.step(true);
+  TableText table;
+  floor->measure({0, world, gather_contacts(stepper.measured_contacts(), world, on_lid.time.step)}, table);
+  CHECK(std::stod(split(table.text())[4]) == relative(-weight).epsilon(1e-3));
+}
+
+TEST_CASE("measurements: a pea on a part that rises weighs on it") {
+  const std::string plate = R"(
+[[part]]
+name = "plate"
+shape = "box"
+size = [0.03, 0.03, 0.004]
+position = [0.02, 0.02, 0.008]
+[[part.motion]]
+kind = "velocity"
+velocity = [0, 0, 0.01]
+)";
+  const Scene scene = scene_with("kind = \"part_force\"\nsurfaces = [\"plate\"]\nabout = [0.015, 0.02, 0]\n", kSceneText + plate);
+  World world(scene, {upright(kPea, 0.02, 0.02, 0.01 + 3e-3)});
+  const double weight = world.grains()[0].mass.mass * 9.81;
+  Stepper stepper(world, scene);
+  for (int step = 0; step < 400; ++step) stepper.step(true);
+  CHECK(world.grains()[0].position()[2] == relative(0.012 + 3e-3).epsilon(1e-2));
+  const MeasuredTable table = measure(scene, world, &stepper);
+  CHECK(table.number("force_z_N") == relative(-weight).epsilon(1e-3));
+  CHECK(table.number("torque_y_Nm") == relative(5e-3 * weight).epsilon(1e-2));
 }

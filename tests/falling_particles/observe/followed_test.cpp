@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "common/read_file.hpp"
-#include "complaint.hpp"
 #include "measured.hpp"
 #include "model/grain_shape.hpp"
 #include "observe/measuring.hpp"
@@ -19,6 +18,7 @@
 #include "read_array.hpp"
 #include "run/checkpoints.hpp"
 #include "run/stepwise_run.hpp"
+#include "scenes.hpp"
 #include "support/relative.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -53,15 +53,6 @@ Scene with_grains(const std::string& text, std::vector<StartGrain> grains) {
 
 StartGrain moving(std::size_t kind, const Point& position, const Point& velocity) {
   return {.kind = kind, .position = position, .velocity = velocity};
-}
-
-MeasuredTable parsed(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line;
-  std::getline(lines, line);
-  MeasuredTable table{split(line), {}};
-  while (std::getline(lines, line)) table.rows.push_back(split(line));
-  return table;
 }
 
 /// Runs a scene with its measurements. If `interrupted`, the run saves itself in the middle, and another one resumes it.

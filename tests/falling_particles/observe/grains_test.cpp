@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "complaint.hpp"
 #include "measured.hpp"
+#include "scenes.hpp"
 #include "support/relative.hpp"
 
 using namespace falling_particles;

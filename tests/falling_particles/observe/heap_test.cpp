@@ -1,5 +1,3 @@
-#include "observe/heap.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -8,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "complaint.hpp"
+#include "observe/bed.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"
 #include "world/stepper.hpp"

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "observe/measurement.hpp"
-#include "scene_text.hpp"
 #include "scenes.hpp"
 #include "world/stepper.hpp"
 
@@ -42,6 +41,16 @@ inline std::vector<std::string> split(const std::string& line) {
   return fields;
 }
 
+/// A table's file, with its head.
+inline MeasuredTable parsed(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  std::getline(lines, line);
+  MeasuredTable table{split(line), {}};
+  while (std::getline(lines, line)) table.rows.push_back(split(line));
+  return table;
+}
+
 /// kSceneText with rods besides and a section [[measurement]] of these lines.
 inline Scene scene_with(const std::string& measurement, std::string text = kSceneText) {
   const TemporaryFolder folder;
@@ -65,9 +74,7 @@ inline MeasuredTable measure(const Scene& scene, const World& world, const Stepp
   const std::unique_ptr<Measurement> measurement = scene.measurements.front().make(world);
   TableText table;
   measurement->measure({0, world, contacts}, table);
-  MeasuredTable result{split(measurement->columns()), {}};
-  std::istringstream lines(table.text());
-  for (std::string line; std::getline(lines, line);) result.rows.push_back(split(line));
+  MeasuredTable result = parsed(measurement->columns() + '\n' + table.text());
   CHECK(result.rows.size() == table.lines());
   return result;
 }

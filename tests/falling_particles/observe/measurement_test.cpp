@@ -4,10 +4,9 @@
 #include <numbers>
 #include <vector>
 
-#include "model/container_walls.hpp"
+#include "model/container.hpp"
 #include "observe/bed.hpp"
 #include "observe/energy.hpp"
-#include "observe/overlap.hpp"
 #include "output/frame.hpp"
 #include "support/relative.hpp"
 #include "world/stepper.hpp"

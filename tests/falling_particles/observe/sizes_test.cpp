@@ -1,6 +1,4 @@
 // Sizes of grains: their distributions against closed forms, and what they make of a scene.
-#include "observe/sizes.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -9,7 +7,7 @@
 #include <sstream>
 
 #include "common/random.hpp"
-#include "complaint.hpp"
+#include "observe/energy.hpp"
 #include "observe/measurement.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"
@@ -31,8 +29,7 @@ double normal_below(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2)
 double normal_density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi); }
 
 /// Checks that the quantiles are those of the share below a size, `below`, of a distribution without bounds.
-template <typename Below>
-void check_quantiles(const SizeDistribution& distribution, const Below& below) {
+void check_quantiles(const SizeDistribution& distribution, const auto& below) {
   const double first = below(distribution.smallest());
   const double whole = below(distribution.largest()) - first;
   for (const double p : {0.0, 0.001, 0.1, 0.25, 0.5, 0.75, 0.9, 0.999, 1.0}) {

@@ -13,9 +13,9 @@
 
 #include "common/input_error.hpp"
 #include "common/random.hpp"
-#include "complaint.hpp"
-#include "model/container_walls.hpp"
-#include "model/material.hpp"
+#include "model/container.hpp"
+#include "model/wall.hpp"
+#include "scenes.hpp"
 #include "support/relative.hpp"
 
 using falling_particles::Hopper;

@@ -9,7 +9,6 @@
 #include <limits>
 #include <string_view>
 
-#include "base/base64.hpp"
 
 using namespace falling_particles;
 

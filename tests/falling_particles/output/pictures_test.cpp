@@ -12,7 +12,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "model/picture_names.hpp"
+#include "model/scene.hpp"
 #include "observe/wall_mesh.hpp"
 #include "output/picture.hpp"
 #include "read_array.hpp"

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "base/child_process.hpp"
 #include "base/interrupt.hpp"
 #include "common/read_file.hpp"
 #include "output/picture.hpp"
@@ -23,10 +22,7 @@ ProgramEnd run_shell(const std::string& commands, const std::string& input = "")
   return run_program({"sh", "-c", commands}, folder.path(), input);
 }
 
-template <typename Names>
-bool holds(const Names& names, const std::string& name) {
-  return std::ranges::find(names, name) != names.end();
-}
+bool holds(const auto& names, const std::string& name) { return std::ranges::find(names, name) != names.end(); }
 
 }  // namespace
 

@@ -15,13 +15,11 @@
 #include "advise/forecast.hpp"
 #include "advise/refusals.hpp"
 #include "common/input_error.hpp"
-#include "complaint.hpp"
+#include "observe/energy.hpp"
 #include "observe/measurement.hpp"
-#include "observe/overlap.hpp"
 #include "observe/simulation.hpp"
-#include "observe/table_text.hpp"
 #include "output/lammps_input.hpp"
-#include "scene_text.hpp"
+#include "scenes.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace falling_particles;

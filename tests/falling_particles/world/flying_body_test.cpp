@@ -1,6 +1,4 @@
 // Tests of free walls, against closed forms and invariants.
-#include "world/flying_body.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -9,9 +7,9 @@
 
 #include "advise/refusals.hpp"
 #include "common/input_error.hpp"
-#include "complaint.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"
+#include "world/driven_body.hpp"
 #include "world/stepper.hpp"
 #include "world/world.hpp"
 

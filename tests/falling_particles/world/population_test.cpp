@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "complaint.hpp"
-#include "model/compound.hpp"
 #include "model/grain_shape.hpp"
 #include "observe/energy.hpp"
 #include "observe/leaks.hpp"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "advise/doubts.hpp"
-#include "complaint.hpp"
 #include "observe/leaks.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"

@@ -8,8 +8,8 @@
 #include "common/grain_form.hpp"
 #include "common/stopwatch.hpp"
 #include "supernormal/supernormal.h"
-#include "world/contact_joints.hpp"
 #include "world/placement.hpp"
+#include "world/stepper.hpp"
 #include "world/world.hpp"
 
 namespace scene_cost {

@@ -1,11 +1,12 @@
-// Tests of the section [query]: it reaches the library, and leaves nothing behind.
+// Settings of queries, and the memory that a scene needs.
+#include "model/scene.hpp"
+
 #include <doctest/doctest.h>
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
-#include "complaint.hpp"
-#include "model/scene.hpp"
 #include "observe/simulation.hpp"
 #include "scenes.hpp"
 
@@ -74,4 +75,16 @@ TEST_CASE("query: the section is read, and mistakes are refused") {
   check_says(refused("tolerance = 2"), {"query.tolerance", "2", "[1e-15, 1]"});
   check_says(refused("max_evaluations = 0"), {"query.max_evaluations", "0", "1 to 1000000"});
   check_says(refused("warm = true"), {"warm", "solver", "warm_start"});
+}
+
+TEST_CASE("memory grows in proportion to the grains") {
+  CHECK(memory_needed(2'000'000) < 2 * memory_needed(1'000'000));
+  CHECK(memory_needed(1'000'000) < 25e9);
+  for (const double bytes : {1e8, 1e9, 23e9}) {
+    const int grains = most_grains(bytes);
+    CHECK(memory_needed(grains) <= bytes);
+    CHECK(memory_needed(grains + 1) > bytes);
+  }
+  CHECK(most_grains(0) == 0);
+  CHECK(memory_of_machine() > 1e8);
 }
