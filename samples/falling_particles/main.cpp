@@ -18,7 +18,6 @@
 #include "advise/refusals.hpp"
 #include "base/interrupt.hpp"
 #include "common/input_error.hpp"
-#include "input/load_effects.hpp"
 #include "input/load_sections.hpp"
 #include "model/scene.hpp"
 #include "observe/measuring.hpp"

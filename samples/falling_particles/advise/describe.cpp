@@ -7,7 +7,6 @@
 #include "forecast.hpp"
 #include "model/container.hpp"
 #include "model/wall.hpp"
-#include "step.hpp"
 
 namespace falling_particles {
 namespace {

@@ -9,6 +9,23 @@
 #include "world/world.hpp"
 
 namespace falling_particles {
+namespace {
+
+/// Adds a doubt about a container a thousand grains wide: a box that holds one grain, typed in mm.
+void add_doubts_about_units(const Scene& scene, std::vector<std::string>& doubts) {
+  constexpr double kMillimetres = 1000;
+  double widest = 0;  // m, of the grains
+  for (const GrainCount& entry : scene.kinds) {
+    if (scene.has_grains_of(entry)) widest = std::max(widest, entry.largest_scale() * entry.kind.sieve_size());
+  }
+  const Rectangle plan = plan_of(scene.container);
+  const double narrower = std::min(plan.width[0], plan.width[1]);
+  if (!(widest > 0 && narrower >= kMillimetres * widest)) return;
+  doubts.push_back("the container is " + rounded(narrower) + " m wide, " + rounded(narrower / widest) +
+                   " times the largest grain, " + rounded(widest) + " m: lengths are in m; millimetres would give this factor");
+}
+
+}  // namespace
 
 std::vector<std::string> doubts_about(const Scene& scene) {
   std::vector<std::string> doubts;
@@ -39,20 +56,6 @@ void add_doubts_about_bonds(const Scene& scene, std::vector<std::string>& doubts
   doubts.push_back("bond \"" + rule.name + "\": a step damps its fastest motions by " + rounded(by_step) +
                    " of the critical damping, besides bond.damping = " + shortest(rule.damping) +
                    ", so impacts break fewer bonds; " + remedy);
-}
-
-// A box that holds one grain, typed in mm, is a thousand of its grains wide.
-void add_doubts_about_units(const Scene& scene, std::vector<std::string>& doubts) {
-  constexpr double kMillimetres = 1000;
-  double widest = 0;  // m, of the grains
-  for (const GrainCount& entry : scene.kinds) {
-    if (scene.has_grains_of(entry)) widest = std::max(widest, entry.largest_scale() * entry.kind.sieve_size());
-  }
-  const Rectangle plan = plan_of(scene.container);
-  const double narrower = std::min(plan.width[0], plan.width[1]);
-  if (!(widest > 0 && narrower >= kMillimetres * widest)) return;
-  doubts.push_back("the container is " + rounded(narrower) + " m wide, " + rounded(narrower / widest) +
-                   " times the largest grain, " + rounded(widest) + " m: lengths are in m; millimetres would give this factor");
 }
 
 }  // namespace falling_particles

@@ -13,7 +13,6 @@
 #include "model/wall.hpp"
 #include "observe/region.hpp"
 #include "observe/wall_mesh.hpp"
-#include "step.hpp"
 
 namespace falling_particles {
 namespace {

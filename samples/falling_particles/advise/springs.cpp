@@ -15,7 +15,6 @@
 #include "doubts.hpp"
 #include "model/grain_shape.hpp"
 #include "model/wall.hpp"
-#include "step.hpp"
 
 namespace falling_particles {
 namespace {

@@ -1,5 +1,3 @@
-#include "step.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <variant>

@@ -9,7 +9,6 @@
 #include "doubts.hpp"
 #include "model/wall.hpp"
 #include "observe/wall_mesh.hpp"
-#include "step.hpp"
 
 namespace falling_particles {
 namespace {

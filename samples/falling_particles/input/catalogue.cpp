@@ -140,10 +140,4 @@ std::vector<CatalogueEntry> open_catalogue(const std::string& path) {
   return entries;
 }
 
-std::vector<GrainKind> load_catalogue(const std::string& path) {
-  std::vector<GrainKind> kinds;
-  for (const CatalogueEntry& entry : open_catalogue(path)) kinds.push_back(entry.make());
-  return kinds;
-}
-
 }  // namespace falling_particles

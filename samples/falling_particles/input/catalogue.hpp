@@ -18,7 +18,4 @@ struct CatalogueEntry {
 /// Reads a catalogue file, with a table for each kind, in the order of the file. Throws InputError.
 std::vector<CatalogueEntry> open_catalogue(const std::string& path);
 
-/// Makes all kinds of a catalogue file, in its order. Throws InputError.
-std::vector<GrainKind> load_catalogue(const std::string& path);
-
 }  // namespace falling_particles

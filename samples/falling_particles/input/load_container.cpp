@@ -7,7 +7,6 @@
 #include <variant>
 #include <vector>
 
-#include "load_motion.hpp"
 #include "load_sections.hpp"
 #include "model/container.hpp"
 #include "model/lattice.hpp"

@@ -1,5 +1,3 @@
-#include "load_effects.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,3 @@
-#include "load_motion.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -7,6 +5,7 @@
 #include <numbers>
 #include <string>
 #include <supernormal/shapes/shape.hpp>
+#include <tuple>
 #include <vector>
 
 #include "common/nearest_word.hpp"

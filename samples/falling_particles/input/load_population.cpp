@@ -6,7 +6,6 @@
 #include <variant>
 #include <vector>
 
-#include "load_motion.hpp"
 #include "load_sections.hpp"
 #include "world/grain.hpp"
 

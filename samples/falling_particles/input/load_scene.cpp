@@ -10,8 +10,6 @@
 #include "common/input_error.hpp"
 #include "common/nearest_word.hpp"
 #include "common/read_file.hpp"
-#include "load_effects.hpp"
-#include "load_motion.hpp"
 #include "load_sections.hpp"
 #include "model/scene.hpp"
 

@@ -3,14 +3,53 @@
 
 #include <optional>
 #include <string>
+#include <supernormal/effects.hpp>
 #include <utility>
 #include <vector>
 
 #include "base/toml_input.hpp"
 #include "common/mesh.hpp"
+#include "common/motion.hpp"
 #include "model/scene.hpp"
 
 namespace falling_particles {
+
+Vector3 read_vector(const TomlTable& table, const char* key, const Interval& allowed);
+
+/// Reads a direction of any length but 0, and returns its unit vector.
+Vector3 read_direction(const TomlTable& table, const char* key);
+
+/// Reads `corner` and `size` (m).
+Region read_region(const TomlTable& table);
+
+/// The most revolutions of a wall in a step. The mean velocity of a step assumes the smaller rotation.
+inline constexpr double kLargestTurn = 0.1;
+
+/// Reads `rpm`, revolutions per minute, up to kLargestTurn in a step.
+double read_rpm(const TomlTable& table, const Time& time);
+
+/// Reads `frequency` (Hz) of a vibration, whose period takes at least ten steps.
+double read_frequency(const TomlTable& table, const Time& time);
+
+/// Reads `phase` in degrees and returns it in radians; 0 if it is not given.
+double read_phase(const TomlTable& table);
+
+/// Reads `from` and `until` (s); 0 and infinity if they are not given.
+std::pair<double, double> read_times(const TomlTable& table);
+
+/// Reads the motions of a wall. Throws InputError.
+std::vector<WallMotion> read_motions(const TomlTable& part, const Time& time);
+
+/// Reads `free` of a part, if it has one. The part's shape, pose, motions and drive must have been read. Throws InputError.
+std::optional<Flight> read_flight(const TomlTable& part, const Wall& wall, const Time& time);
+
+/// Reads `drive` of a part, if it has one. The part's shape, pose and motions must have been read. A plane pushes along its normal
+/// unless the drive has an axis. A servo without an area is between the walls of `between`, or those that load_servos() reads if
+/// there are none. Throws InputError.
+std::optional<Drive> read_drive(const TomlTable& part, const Wall& wall, const std::vector<FacingWalls>& between);
+
+/// Reads the walls between which servos are. All walls of the scene must have been read. Throws InputError.
+void load_servos(const TomlTable& root, Scene& scene);
 
 /// Reads the [container] of a scene file. Throws InputError.
 Container read_container(const TomlTable& root, const Time& time);
@@ -72,5 +111,20 @@ extern const char kWallsList[];
 /// The parameters of [[feeder]] and [[sink]] with units and ranges.
 extern const char kPopulationList[];
 }
+
+/// The names of the sections of effects, from supernormal::effects.
+std::vector<std::string> effect_sections();
+
+/// The keys of an effect's section with their defaults, for users: the library's parameters and the additional keys of scenes.
+std::string scene_parameters(const supernormal::effects::Description& effect);
+
+/// Loads the effects whose sections the file has. Throws InputError. `smallest_half_axis` (m) is the unit of the depth of
+/// [surface_layer]; `step` (s) and `solver` are the scene's.
+std::vector<supernormal::effects::Effect> load_effects(const TomlTable& root, double smallest_half_axis, double step,
+                                                       supernormal::effects::Solver solver);
+
+/// Adds the effects of parts with coefficients of their own to the effects of the scene. Throws InputError if a coefficient
+/// excludes one of these.
+void load_wall_effects(const TomlTable& root, Scene& scene);
 
 }  // namespace falling_particles

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "common/load_mesh.hpp"
-#include "load_motion.hpp"
 #include "load_sections.hpp"
 #include "model/container.hpp"
 #include "model/two_sided_mesh.hpp"

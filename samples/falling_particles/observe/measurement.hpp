@@ -77,10 +77,7 @@ struct Sample {
 /// memory, which a resumed run restores.
 class Measurement {
  public:
-  Measurement() = default;
   virtual ~Measurement() = default;
-  Measurement(const Measurement&) = delete;
-  Measurement& operator=(const Measurement&) = delete;
 
   /// The names of the columns, units included, separated by commas.
   virtual std::string columns() const = 0;
@@ -111,16 +108,11 @@ struct MeasurementParameter {
 
 /// The scenes in which a kind is on without a section. Its table is NAME.csv.
 struct OnByDefault {
-  enum class When {
-    Frames,  ///< a sample in each frame
-    End,     ///< one sample, at the end of the run
-  };
-
   std::string lines;   ///< what each line is about
   std::string scenes;  ///< the scenes, in words
   bool (*is_on)(const Scene& scene);
   MeasurementMaker make;
-  When when = When::Frames;
+  bool is_of_end = false;  ///< whether it has one sample, at the end of the run, and not one in each frame
 };
 
 /// A kind of measurement. A scene requests it by a section [[measurement]] with kind = "name".

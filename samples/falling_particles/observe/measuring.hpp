@@ -85,7 +85,7 @@ class Measuring {
     MeasurementState state = {};
     Stopwatch watch = {};
 
-    bool is_of_end() const { return request == nullptr && kind->on_by_default->when == OnByDefault::When::End; }
+    bool is_of_end() const { return request == nullptr && kind->on_by_default->is_of_end; }
     bool is_due(int step, bool is_frame) const { return request == nullptr ? is_frame && !is_of_end() : request->is_due(step); }
     bool follows(int step) const { return kind->follows && request->follows(step); }
     const MeasurementMaker& maker() const { return request == nullptr ? kind->on_by_default->make : request->make; }

@@ -56,14 +56,12 @@ struct PassedPlane : AxisPlane {
 
 class Passage final : public Measurement {
  public:
-  enum class Per { Sample, Grain };
-
-  Passage(const World& world, const PassedPlane& plane, Per per) : plane_(plane), per_(per), kinds_(world.scene().kinds.size()) {}
+  Passage(const World& world, const PassedPlane& plane, bool per_grain)
+      : plane_(plane), per_grain_(per_grain), kinds_(world.scene().kinds.size()) {}
 
   std::string columns() const override {
-    return per_ == Per::Sample
-               ? "time_s,grain,forward,forward_kg,backward,backward_kg,grains_per_s,kg_per_s"
-               : "time_s,body,grain,scale,sieve_size_m,mass_kg,direction,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s";
+    return per_grain_ ? "time_s,body,grain,scale,sieve_size_m,mass_kg,direction,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s"
+                      : "time_s,grain,forward,forward_kg,backward,backward_kg,grains_per_s,kg_per_s";
   }
 
   void begin(const Sample& sample) override {
@@ -79,7 +77,7 @@ class Passage final : public Measurement {
   }
 
   void measure(const Sample& sample, TableText& table) const override {
-    per_ == Per::Sample ? write_kinds(sample, table) : write_grains(sample, table);
+    per_grain_ ? write_grains(sample, table) : write_kinds(sample, table);
   }
 
   void forget(const Sample& written) override {
@@ -92,7 +90,7 @@ class Passage final : public Measurement {
   }
 
   bool has_unwritten() const override { return !passed_.empty(); }
-  double bytes_of_event() const override { return per_ == Per::Grain ? kLineOfPassage : 0; }
+  double bytes_of_event() const override { return per_grain_ ? kLineOfPassage : 0; }
 
   std::string save() const override {
     Writer writer;
@@ -139,7 +137,7 @@ class Passage final : public Measurement {
     PassedAmount& amount = passed.is_forward ? kind.forward : kind.backward;
     ++amount.grains;
     amount.mass += grain.mass.mass;
-    if (per_ == Per::Grain) passed_.push_back(passed);
+    if (per_grain_) passed_.push_back(passed);
   }
 
   void write_kinds(const Sample& sample, TableText& table) const {
@@ -170,7 +168,7 @@ class Passage final : public Measurement {
   }
 
   PassedPlane plane_;
-  Per per_;
+  bool per_grain_;
   std::vector<PassedOfKind> kinds_;           // of the scene
   std::vector<PassedGrain> passed_;           // since the last sample
   double sampled_at_ = 0;                     // s
@@ -199,8 +197,7 @@ MeasurementKind passage_kind() {
         PassedPlane plane{{read_axis(table, "axis"), table.number("at", Interval::closed(-kFarthest, kFarthest, "m"))}, {}};
         if (table.has("lower") || table.has("upper")) plane.window.emplace(table, scene, SamplingRegion::Without::Refused);
         const bool is_per_grain = table.has("per") && table.choice("per", {"sample", "grain"}) == "grain";
-        const auto per = is_per_grain ? Passage::Per::Grain : Passage::Per::Sample;
-        return [=](const World& world) { return std::make_unique<Passage>(world, plane, per); };
+        return [=](const World& world) { return std::make_unique<Passage>(world, plane, is_per_grain); };
       }};
 }
 

@@ -50,14 +50,12 @@ constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
 class Residence final : public Measurement {
  public:
-  enum class Per { Sample, Visit };
-
-  Residence(const World& world, const SamplingRegion& region, Per per)
-      : region_(region), per_(per), kinds_(world.scene().kinds.size()) {}
+  Residence(const World& world, const SamplingRegion& region, bool per_visit)
+      : region_(region), per_visit_(per_visit), kinds_(world.scene().kinds.size()) {}
 
   std::string columns() const override {
-    return per_ == Per::Sample ? "time_s,grain,inside,entered,left,residences,mean_residence_s,deviation_s"
-                               : "body,grain,scale,sieve_size_m,entered_s,left_s,residence_s";
+    return per_visit_ ? "body,grain,scale,sieve_size_m,entered_s,left_s,residence_s"
+                      : "time_s,grain,inside,entered,left,residences,mean_residence_s,deviation_s";
   }
 
   /// The grains of the start enter at time 0. Others that are already inside have no known time of entry.
@@ -90,11 +88,11 @@ class Residence final : public Measurement {
   }
 
   void measure(const Sample& sample, TableText& table) const override {
-    per_ == Per::Sample ? write_kinds(sample, table) : write_visits(sample, table);
+    per_visit_ ? write_visits(sample, table) : write_kinds(sample, table);
   }
   void forget(const Sample& /*written*/) override { ended_.clear(); }
   bool has_unwritten() const override { return !ended_.empty(); }
-  double bytes_of_event() const override { return per_ == Per::Visit ? kLineOfVisit : 0; }
+  double bytes_of_event() const override { return per_visit_ ? kLineOfVisit : 0; }
 
   std::string save() const override {
     Writer writer;
@@ -134,7 +132,7 @@ class Residence final : public Measurement {
     ++kind.left;
     if (entered_[index] != kUnknown) {
       kind.end(time - entered_[index]);
-      if (per_ == Per::Visit) ended_.push_back({index, entered_[index], time});
+      if (per_visit_) ended_.push_back({index, entered_[index], time});
     }
     entered_[index] = kOutside;
   }
@@ -159,7 +157,7 @@ class Residence final : public Measurement {
   }
 
   SamplingRegion region_;
-  Per per_;
+  bool per_visit_;
   std::vector<double> entered_;      // s, of each grain
   std::vector<VisitsOfKind> kinds_;  // of the scene
   std::vector<Visit> ended_;         // since the last sample
@@ -182,8 +180,7 @@ MeasurementKind residence_kind() {
       .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
         const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
         const bool is_per_visit = table.has("per") && table.choice("per", {"sample", "visit"}) == "visit";
-        const auto per = is_per_visit ? Residence::Per::Visit : Residence::Per::Sample;
-        return [=](const World& world) { return std::make_unique<Residence>(world, region, per); };
+        return [=](const World& world) { return std::make_unique<Residence>(world, region, is_per_visit); };
       }};
 }
 

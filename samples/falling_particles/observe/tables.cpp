@@ -18,7 +18,7 @@ struct TableOfFrames {
   const char* scenes;  // the scenes that have the table, in words
   bool (*is_on)(const Scene& scene);
   void (*write)(const Sample& sample, TableText& table);
-  OnByDefault::When when = OnByDefault::When::Frames;
+  bool is_of_end = false;
 };
 
 bool is_always_on(const Scene& /*scene*/) { return true; }
@@ -204,7 +204,7 @@ constexpr std::array kTables = {
     TableOfFrames{"final_state", "poses, velocities and sizes of the grains at the end, from which another run can start",
                   "time_s,body,grain,scale,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,"
                   "wz_rad_per_s",
-                  "a grain that is there at the end", "all scenes", is_always_on, write_final_state, OnByDefault::When::End},
+                  "a grain that is there at the end", "all scenes", is_always_on, write_final_state, true},
     TableOfFrames{"feeders", "the amounts fed so far", "time_s,feeder,grain,grains,kg", "a frame, feeder and kind that it feeds",
                   "scenes with feeders", [](const Scene& scene) { return !scene.feeders.empty(); }, write_feeders},
     TableOfFrames{"sinks", "the amounts removed so far", "time_s,sink,grain,grains,kg", "a frame, sink and kind of the scene",
@@ -218,7 +218,7 @@ constexpr std::array kTables = {
     TableOfFrames{"final_bonds",
                   "the bonds at the end, from which another run can start; start and centre are in the frame of body_1",
                   "time_s,bond,body_1,body_2,radius_m,start_x_m,start_y_m,start_z_m,x_m,y_m,z_m,qw,qx,qy,qz",
-                  "a bond that is there at the end", "scenes with bonds", has_bonds, write_final_bonds, OnByDefault::When::End},
+                  "a bond that is there at the end", "scenes with bonds", has_bonds, write_final_bonds, true},
 };
 
 class FrameMeasurement final : public Measurement {
@@ -243,7 +243,7 @@ MeasurementKind kind_of(const TableOfFrames& table) {
           .measures = table.measures,
           .columns = table.columns,
           .read = read,
-          .on_by_default = OnByDefault{table.lines, table.scenes, table.is_on, make, table.when}};
+          .on_by_default = OnByDefault{table.lines, table.scenes, table.is_on, make, table.is_of_end}};
 }
 
 }  // namespace

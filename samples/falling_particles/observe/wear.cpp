@@ -94,10 +94,9 @@ std::vector<Extent> triangles_of(const Wall& wall, const PeriodicAxes& axes) {
 
 class Wear final : public Measurement {
  public:
-  enum class Per { Wall, Triangle };
-
   /// `worn`: m^3/(N m), the volume for each unit of work.
-  Wear(const World& world, const std::vector<std::string>& names, double worn, Per per) : worn_(worn), per_(per) {
+  Wear(const World& world, const std::vector<std::string>& names, double worn, bool per_triangle)
+      : worn_(worn), per_triangle_(per_triangle) {
     for (const Wall& wall : world.scene().walls) {
       const bool is_chosen = std::ranges::find(names, wall.name) != names.end();
       const std::vector<Extent>& triangles =
@@ -107,8 +106,8 @@ class Wear final : public Measurement {
   }
 
   std::string columns() const override {
-    return per_ == Per::Wall ? "time_s,wall,force_times_distance_Nm,worn_volume_m3"
-                             : "time_s,wall,triangle,x_m,y_m,z_m,area_m2,force_times_distance_Nm,worn_volume_m3,worn_depth_m";
+    return per_triangle_ ? "time_s,wall,triangle,x_m,y_m,z_m,area_m2,force_times_distance_Nm,worn_volume_m3,worn_depth_m"
+                         : "time_s,wall,force_times_distance_Nm,worn_volume_m3";
   }
 
   void follow(const Sample& sample) override {
@@ -128,12 +127,12 @@ class Wear final : public Measurement {
   }
 
   void measure(const Sample& sample, TableText& table) const override {
-    per_ == Per::Wall ? write_walls(sample, table) : write_triangles(sample, table);
+    per_triangle_ ? write_triangles(sample, table) : write_walls(sample, table);
   }
 
   std::vector<TriangleField> fields() const override {
     const auto has_none = [](const std::vector<Extent>& triangles) { return triangles.empty(); };
-    if (per_ == Per::Wall || std::ranges::all_of(triangles_, has_none)) return {};
+    if (!per_triangle_ || std::ranges::all_of(triangles_, has_none)) return {};
     TriangleField depth{"depth", {}}, volume{"volume", {}};
     for (std::size_t i = 0; i < work_.size(); ++i) {
       depth.of_walls.emplace_back();
@@ -187,7 +186,7 @@ class Wear final : public Measurement {
   }
 
   double worn_;
-  Per per_;
+  bool per_triangle_;
   std::vector<std::vector<Extent>> triangles_;  // of each wall of the scene; empty for walls that are not chosen, or no mesh
   std::vector<std::vector<double>> work_;       // N m, of each triangle, or of the whole wall; empty for walls that are not chosen
 };
@@ -237,8 +236,8 @@ MeasurementKind wear_kind() {
             const bool is_per_triangle = table.has("per") && table.choice("per", {"wall", "triangle"}) == "triangle";
             std::vector<std::string> names = read_surfaces(table, scene);
             if (is_per_triangle) names = meshes_of(names, table, scene);
-            const auto per = is_per_triangle ? Wear::Per::Triangle : Wear::Per::Wall;
-            return [=](const World& world) { return std::make_unique<Wear>(world, names, coefficient / hardness, per); };
+            return
+                [=](const World& world) { return std::make_unique<Wear>(world, names, coefficient / hardness, is_per_triangle); };
           }};
 }
 

@@ -24,6 +24,22 @@ namespace {
 
 namespace fx = supernormal::effects;
 
+/// A change of the walls during a run.
+struct LammpsChange {
+  double time;           ///< s
+  std::string commands;  ///< between two runs
+};
+
+constexpr const char* kGravityFix = "fall";  ///< the name of fix gravity
+
+struct LammpsWalls {
+  std::array<std::array<double, 2>, 3> bounds;  ///< m; along x, y, z: of the space between the walls, open upwards
+  const char* boundary = "f f m";               ///< of LAMMPS' box; shrink-wrapped around grains whose walls move
+  std::string commands;
+  std::optional<LammpsChange> change = {};  ///< the outlet of a hopper opens
+  std::vector<LammpsFile> files = {};       ///< meshes, as OBJ
+};
+
 constexpr double kOverlap = 0.01;  // of the smallest half-axis, in the fastest impact
 constexpr double kStepsPerImpact = 50;
 constexpr double kRigidRestitution = 0.1;   // of contacts that do not bounce
@@ -252,6 +268,8 @@ std::string to_obj(const Mesh& mesh) {
   return out.str();
 }
 
+/// Writes walls. `laws`: the contact laws of the scene's walls, in the words of the fix. Throws InputError, which names the
+/// container, unless it is a box, a cell, a drum or a hopper.
 class WallsWriter {
  public:
   WallsWriter(const Scene& scene, const std::vector<std::string>& laws)
@@ -397,7 +415,7 @@ LammpsInput lammps_input(const Scene& scene) {
   std::vector<std::string> laws;
   laws.reserve(reader.walls.size());
   for (const Law& law : reader.walls) laws.push_back(words_of(contacts.springs, law));
-  LammpsWalls walls = lammps_walls(scene, laws);
+  LammpsWalls walls = WallsWriter(scene, laws).write();
 
   std::ostringstream out;
   out.precision(9);
@@ -445,7 +463,5 @@ std::vector<std::string> write_lammps_input(const Scene& scene, const std::files
   replace_file(folder / (scene.name + ".in"), input.commands);
   return input.warnings;
 }
-
-LammpsWalls lammps_walls(const Scene& scene, const std::vector<std::string>& laws) { return WallsWriter(scene, laws).write(); }
 
 }  // namespace falling_particles

@@ -17,26 +17,6 @@ struct LammpsFile {
   std::string text;
 };
 
-/// A change of the walls during a run.
-struct LammpsChange {
-  double time;           ///< s
-  std::string commands;  ///< between two runs
-};
-
-constexpr const char* kGravityFix = "fall";  ///< the name of fix gravity
-
-struct LammpsWalls {
-  std::array<std::array<double, 2>, 3> bounds;  ///< m; along x, y, z: of the space between the walls, open upwards
-  const char* boundary = "f f m";               ///< of LAMMPS' box; shrink-wrapped around grains whose walls move
-  std::string commands;
-  std::optional<LammpsChange> change = {};  ///< the outlet of a hopper opens
-  std::vector<LammpsFile> files = {};       ///< meshes, as OBJ
-};
-
-/// `laws`: the contact laws of the scene's walls, in the words of the fix. Throws InputError, which names the container, unless it
-/// is a box, a cell, a drum or a hopper.
-LammpsWalls lammps_walls(const Scene& scene, const std::vector<std::string>& laws);
-
 /// The files of an input.
 struct LammpsInput {
   std::string commands;                ///< NAME.in

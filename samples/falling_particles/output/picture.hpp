@@ -16,10 +16,7 @@ namespace falling_particles {
 /// contain the inserted grains.
 class Picture {
  public:
-  Picture() = default;
   virtual ~Picture() = default;
-  Picture(const Picture&) = delete;
-  Picture& operator=(const Picture&) = delete;
 
   virtual void add(const Frame& frame) = 0;
   /// Writes the rest. Throws std::runtime_error when anything could not be written. `summary`: the text of summary.toml.

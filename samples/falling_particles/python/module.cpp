@@ -3,26 +3,162 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <limits>
 #include <memory>
+#include <optional>
+#include <ranges>
 #include <stdexcept>
 #include <string>
+#include <supernormal/shapes/description.hpp>
+#include <tuple>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "advise/doubts.hpp"
 #include "advise/forecast.hpp"
 #include "advise/refusals.hpp"
-#include "columns.hpp"
 #include "common/input_error.hpp"
+#include "model/grain_shape.hpp"
 #include "observe/energy.hpp"
 #include "observe/measuring.hpp"
 #include "open_world.hpp"
 #include "supernormal/python/argument_errors.hpp"
+#include "world/grain.hpp"
 
 namespace py = pybind11;
 
 namespace falling_particles::python {
 namespace {
+
+constexpr Point kNone = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
+                         std::numeric_limits<double>::quiet_NaN()};
+
+/// An array of of(row), a number or a std::array of numbers, for each row.
+template <typename Rows, typename Of>
+py::array column(const Rows& rows, const Of& of) {
+  using Value = std::decay_t<std::invoke_result_t<Of, std::ranges::range_value_t<const Rows&>>>;
+  const auto count = static_cast<py::ssize_t>(std::ranges::size(rows));
+  if constexpr (std::is_arithmetic_v<Value>) {
+    py::array_t<Value> array(count);
+    std::ranges::transform(rows, array.mutable_data(), of);
+    return array;
+  } else {
+    py::array_t<double> array({count, static_cast<py::ssize_t>(std::tuple_size_v<Value>)});
+    double* next = array.mutable_data();
+    for (const auto& row : rows) next = std::ranges::copy(std::invoke(of, row), next).out;
+    return array;
+  }
+}
+
+std::array<double, 4> values_of(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+/// A contact whose first body is a grain.
+struct ContactRow {
+  std::int64_t grain1, grain2, wall;  // -1 for none
+  Point position, normal;
+  double depth;
+  Point force;
+};
+
+ContactRow row_of(const dContactGeom& contact, const std::optional<Point>& force, const World& world) {
+  const bool is_swapped = grain_of(contact.g1) == nullptr;
+  const double sign = is_swapped ? -1 : 1;
+  const auto [geom, other] = is_swapped ? std::pair(contact.g2, contact.g1) : std::pair(contact.g1, contact.g2);
+  const Wall* const wall = world.walls().wall_of(other);
+  return {static_cast<std::int64_t>(world.index_of(*grain_of(geom))),
+          wall != nullptr ? -1 : static_cast<std::int64_t>(world.index_of(*grain_of(other))),
+          wall == nullptr ? -1 : wall - world.scene().walls.data(),
+          to_point(contact.pos),
+          to_point(sign * to_vector(contact.normal)),
+          contact.depth,
+          force ? to_point(sign * to_vector(*force)) : kNone};
+}
+
+// Each function of a run returns arrays by the names of the fields of the classes in scenes.py, where units and frames are.
+
+py::dict grains_of(const StepwiseRun& run) {
+  const std::vector<Grain>& grains = run.simulation().world.grains();
+  const auto vectors = [&](Point (Grain::*of)() const) {
+    return column(grains, [of](const Grain& grain) { return grain.is_present() ? (grain.*of)() : kNone; });
+  };
+  py::dict fields;
+  fields["kind"] = column(grains, [&](const Grain& grain) { return static_cast<std::int64_t>(run.scene().kind_of(*grain.kind)); });
+  fields["is_present"] = column(grains, &Grain::is_present);
+  fields["is_awake"] = column(grains, [](const Grain& grain) { return grain.is_present() && dBodyIsEnabled(grain.body) != 0; });
+  fields["scale"] = column(grains, &Grain::scale);
+  fields["mass"] = column(grains, [](const Grain& grain) { return double{grain.mass.mass}; });
+  fields["volume"] = column(grains, &Grain::volume);
+  fields["position"] = vectors(&Grain::position);
+  fields["quaternion"] = column(grains, [](const Grain& grain) {
+    return grain.is_present() ? grain.quaternion() : std::array{kNone[0], kNone[0], kNone[0], kNone[0]};
+  });
+  fields["velocity"] = vectors(&Grain::velocity);
+  fields["angular_velocity"] = vectors(&Grain::angular_velocity);
+  return fields;
+}
+
+py::dict contacts_of(const StepwiseRun& run) {
+  const World& world = run.simulation().world;
+  const Stepper& stepper = run.simulation().stepper;
+  std::vector<ContactRow> rows;
+  if (run.measures_forces()) {
+    for (const MeasuredContact& contact : stepper.measured_contacts()) rows.push_back(row_of(contact.geom, contact.force(), world));
+  } else {
+    for (const dContactGeom& contact : stepper.contact_geoms()) rows.push_back(row_of(contact, std::nullopt, world));
+  }
+  py::dict fields;
+  fields["grain1"] = column(rows, &ContactRow::grain1);
+  fields["grain2"] = column(rows, &ContactRow::grain2);
+  fields["wall"] = column(rows, &ContactRow::wall);
+  fields["position"] = column(rows, &ContactRow::position);
+  fields["normal"] = column(rows, &ContactRow::normal);
+  fields["depth"] = column(rows, &ContactRow::depth);
+  fields["force"] = column(rows, &ContactRow::force);
+  return fields;
+}
+
+py::dict walls_of(const StepwiseRun& run) {
+  const WallBodies& walls = run.simulation().world.walls();
+  const auto indices = std::views::iota(std::size_t{0}, walls.count());
+  const auto normal_of = [&](std::size_t i) {
+    const auto* const plane = std::get_if<PlaneShape>(&walls.wall(i).shape);
+    return plane == nullptr ? kNone : to_point(walls.state(i).pose.rotation * plane->normal);
+  };
+  py::list names;
+  for (const std::size_t i : indices) names.append(walls.wall(i).name);
+  py::dict fields;
+  fields["name"] = py::tuple(names);
+  fields["position"] = column(indices, [&](std::size_t i) { return to_point(walls.state(i).pose.position); });
+  fields["quaternion"] = column(indices, [&](std::size_t i) { return values_of(walls.state(i).pose.rotation); });
+  fields["normal"] = column(indices, normal_of);
+  fields["velocity"] = column(indices, [&](std::size_t i) { return to_point(walls.state(i).velocity.linear); });
+  fields["angular_velocity"] = column(indices, [&](std::size_t i) { return to_point(walls.state(i).velocity.angular); });
+  return fields;
+}
+
+py::list kinds_of(const Scene& scene) {
+  py::list kinds;
+  for (const GrainCount& entry : scene.kinds) {
+    py::list components;
+    for (const Component& component : entry.kind.all_components()) {
+      components.append(py::make_tuple(supernormal::describe(*shape_of(component.body)), component.position, component.quaternion));
+    }
+    py::dict fields;
+    fields["name"] = entry.kind.name;
+    fields["count"] = entry.count;
+    fields["density"] = entry.kind.density;
+    fields["mass"] = mass_of(entry.kind);
+    fields["bounding_radius"] = entry.kind.bounding_radius();
+    fields["components"] = components;
+    kinds.append(fields);
+  }
+  return kinds;
+}
 
 using Vectors = py::array_t<double, py::array::c_style | py::array::forcecast>;
 

@@ -11,7 +11,7 @@
 #include "base/toml_input.hpp"
 #include "common/input_error.hpp"
 #include "common/nearest_word.hpp"
-#include "input/load_effects.hpp"
+#include "input/load_sections.hpp"
 #include "model/container.hpp"
 
 namespace falling_particles {

@@ -25,6 +25,17 @@ constexpr double kRounding = 1e-9;  // of the due amount: times are rounded mult
 
 std::string in_brackets(const Point& p) { return "[" + shortest(p[0]) + ", " + shortest(p[1]) + ", " + shortest(p[2]) + "] m"; }
 
+/// A random position and orientation such that a ball of `radius` (m) lies within the region.
+Placement random_place(const Region& region, std::size_t kind, double scale, double radius, Random& random) {
+  Placement place{kind, {}, {}, scale};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double room = std::max(0.0, region.size[axis] - 2 * radius);
+    place.position[axis] = region.corner[axis] + radius + room * random.uniform();
+  }
+  place.quaternion = random.rotation();
+  return place;
+}
+
 }  // namespace
 
 Population::Population(World& world, const Scene& scene)
@@ -217,16 +228,6 @@ bool Neighbourhood::is_free(dGeomID geom) const {
     if (snGeomProximity(geom, other, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
     return !(proximity.gap > 0);
   });
-}
-
-Placement random_place(const Region& region, std::size_t kind, double scale, double radius, Random& random) {
-  Placement place{kind, {}, {}, scale};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double room = std::max(0.0, region.size[axis] - 2 * radius);
-    place.position[axis] = region.corner[axis] + radius + room * random.uniform();
-  }
-  place.quaternion = random.rotation();
-  return place;
 }
 
 }  // namespace falling_particles

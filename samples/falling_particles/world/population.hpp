@@ -53,9 +53,6 @@ class Neighbourhood {
   std::vector<dGeomID> geoms_;
 };
 
-/// A random position and orientation such that a ball of `radius` (m) lies within the region.
-Placement random_place(const Region& region, std::size_t kind, double scale, double radius, Random& random);
-
 /// The state of a feeder, which a resumed run restores.
 struct FeederState {
   /// The next grain, which is inserted as soon as it is due.

@@ -8,7 +8,6 @@
 #include "advise/doubts.hpp"
 #include "advise/forecast.hpp"
 #include "advise/refusals.hpp"
-#include "advise/step.hpp"
 #include "common/input_error.hpp"
 #include "common/interval.hpp"
 #include "scenes.hpp"

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "advise/refusals.hpp"
-#include "advise/step.hpp"
 #include "common/interval.hpp"
 #include "model/grain_shape.hpp"
 #include "observe/simulation.hpp"

@@ -9,7 +9,6 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
-#include "input/load_effects.hpp"
 #include "input/load_sections.hpp"
 #include "scenes.hpp"
 

@@ -251,9 +251,10 @@ TEST_CASE("files that cannot be read") {
 
 TEST_CASE("the catalogues are valid and name their sources, and the scenes load") {
   for (const char* catalogue : {"grains", "shapes", "compounds"}) {
-    const std::vector<GrainKind> kinds = load_catalogue(std::string(SUPERNORMAL_SAMPLES "/data/") + catalogue + ".toml");
-    CHECK(kinds.size() >= 3);
-    for (const GrainKind& kind : kinds) {
+    const auto entries = open_catalogue(std::string(SUPERNORMAL_SAMPLES "/data/") + catalogue + ".toml");
+    CHECK(entries.size() >= 3);
+    for (const CatalogueEntry& entry : entries) {
+      const GrainKind kind = entry.make();
       CAPTURE(kind.name);
       CHECK_FALSE(kind.source.empty());
       CHECK(kind.bounding_radius() < 0.05);

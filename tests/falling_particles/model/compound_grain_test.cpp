@@ -53,7 +53,9 @@ source = "test"
 
 std::vector<GrainKind> compounds(const std::string& text = kCompoundsText) {
   const TemporaryFolder folder;
-  return load_catalogue(folder.write("grains.toml", text));
+  std::vector<GrainKind> kinds;
+  for (const CatalogueEntry& entry : open_catalogue(folder.write("grains.toml", text))) kinds.push_back(entry.make());
+  return kinds;
 }
 
 Scene scene_with(GrainKind kind, Container container = Box{{0.1, 0.1}}) {
