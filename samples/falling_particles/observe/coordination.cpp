@@ -55,59 +55,49 @@ std::vector<bool> find_rattlers(const Neighbours& neighbours, std::size_t least,
   return is_rattler;
 }
 
-class Coordination final : public Measurement {
- public:
-  Coordination(const SamplingRegion& region, bool counts_walls, std::size_t least)
-      : region_(region), counts_walls_(counts_walls), least_(least) {}
+std::string coordination_columns() {
+  std::string text = "time_s,grains,mean,rattlers,mean_without_rattlers";
+  for (std::size_t k = 0; k < kMostCounted; ++k) text += ",grains_with_" + std::to_string(k);
+  return text + ",grains_with_" + std::to_string(kMostCounted) + "_or_more";
+}
 
-  std::string columns() const override {
-    std::string text = "time_s,grains,mean,rattlers,mean_without_rattlers";
-    for (std::size_t k = 0; k < kMostCounted; ++k) text += ",grains_with_" + std::to_string(k);
-    return text + ",grains_with_" + std::to_string(kMostCounted) + "_or_more";
+void add_mean(TableText& table, std::size_t sum, std::size_t count) {
+  if (count == 0) {
+    table.blank();
+  } else {
+    table.add(static_cast<double>(sum) / static_cast<double>(count));
   }
+}
 
-  void measure(const Sample& sample, TableText& table) const override {
-    const Neighbours neighbours = neighbours_of(sample, counts_walls_);
-    std::vector<std::size_t> left;
-    left.reserve(neighbours.size());
-    for (const auto& of_grain : neighbours) left.push_back(of_grain.size());
-    const std::vector<bool> is_rattler = find_rattlers(neighbours, least_, left);
-    const Bounds bounds = region_.bounds(sample.world);
-    std::array<std::size_t, kMostCounted + 1> histogram{};
-    std::size_t grains = 0, contacts = 0, rattlers = 0, lasting = 0;
-    for (std::size_t index = 0; index < neighbours.size(); ++index) {
-      const Grain& grain = sample.world.grains()[index];
-      if (!grain.is_present() || !bounds.contains(place_of(grain, sample.world))) continue;
-      ++grains;
-      contacts += neighbours[index].size();
-      ++histogram[std::min(neighbours[index].size(), kMostCounted)];
-      if (is_rattler[index]) {
-        ++rattlers;
-      } else {
-        lasting += left[index];
-      }
-    }
-    table.add(sample.time).add(grains);
-    add_mean(table, contacts, grains);
-    table.add(rattlers);
-    add_mean(table, lasting, grains - rattlers);
-    for (const std::size_t count : histogram) table.add(count);
-    table.end_line();
-  }
-
- private:
-  static void add_mean(TableText& table, std::size_t sum, std::size_t count) {
-    if (count == 0) {
-      table.blank();
+void measure_coordination(const Sample& sample, TableText& table, const SamplingRegion& region, bool counts_walls,
+                          std::size_t least) {
+  const Neighbours neighbours = neighbours_of(sample, counts_walls);
+  std::vector<std::size_t> left;
+  left.reserve(neighbours.size());
+  for (const auto& of_grain : neighbours) left.push_back(of_grain.size());
+  const std::vector<bool> is_rattler = find_rattlers(neighbours, least, left);
+  const Bounds bounds = region.bounds(sample.world);
+  std::array<std::size_t, kMostCounted + 1> histogram{};
+  std::size_t grains = 0, contacts = 0, rattlers = 0, lasting = 0;
+  for (std::size_t index = 0; index < neighbours.size(); ++index) {
+    const Grain& grain = sample.world.grains()[index];
+    if (!grain.is_present() || !bounds.contains(place_of(grain, sample.world))) continue;
+    ++grains;
+    contacts += neighbours[index].size();
+    ++histogram[std::min(neighbours[index].size(), kMostCounted)];
+    if (is_rattler[index]) {
+      ++rattlers;
     } else {
-      table.add(static_cast<double>(sum) / static_cast<double>(count));
+      lasting += left[index];
     }
   }
-
-  SamplingRegion region_;
-  bool counts_walls_;
-  std::size_t least_;
-};
+  table.add(sample.time).add(grains);
+  add_mean(table, contacts, grains);
+  table.add(rattlers);
+  add_mean(table, lasting, grains - rattlers);
+  for (const std::size_t count : histogram) table.add(count);
+  table.end_line();
+}
 
 }  // namespace
 
@@ -127,7 +117,9 @@ MeasurementKind coordination_kind() {
             const bool walls = !table.has("walls") || table.boolean("walls");
             const std::size_t least =
                 table.has("least") ? static_cast<std::size_t>(table.integer("least", 1, kMostNeeded)) : kIsostaticSpheres;
-            return [=](const World&) { return std::make_unique<Coordination>(region, walls, least); };
+            return lines_of(coordination_columns(), [=](const Sample& sample, TableText& lines) {
+              measure_coordination(sample, lines, region, walls, least);
+            });
           },
           .plotted = {"mean", "mean_without_rattlers"},
           .plot_label = "contacts per grain"};

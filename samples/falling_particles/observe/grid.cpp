@@ -40,84 +40,70 @@ double energy_beside_field(const CellSums& sums, int& unknowns) {
   return std::max(0.0, energy);
 }
 
-class Grid final : public Measurement {
- public:
-  Grid(const SamplingRegion& region, const CellCounts& cells) : region_(region), cells_(cells) {}
-
-  std::string columns() const override {
-    return "time_s,cell_x,cell_y,cell_z,x_m,y_m,z_m,grains,density_kg/m3,volume_fraction,velocity_x_m/s,velocity_y_m/s,"
-           "velocity_z_m/s,granular_temperature_m2/s2,velocity_variance_m2/s2";
+void visit_cells(const Bounds& bounds, const CellCounts& cells, const World& world, auto visit, std::vector<CellSums>& all) {
+  for (const Grain& grain : world.present()) {
+    const Vector3 place = place_of(grain, world);
+    if (const auto cell = cell_of(place, bounds, cells)) visit(all[*cell], grain, place, to_vector(grain.velocity()));
   }
+}
 
-  void measure(const Sample& sample, TableText& table) const override {
-    const Bounds bounds = region_.bounds(sample.world);
-    std::vector<CellSums> all(number_of(cells_));
-    // Two passes: moments about the means of the cells avoid cancellation.
-    for_each(
-        bounds, sample.world,
-        [&](CellSums& sums, const Grain& grain, const Vector3& place, const Vector3& velocity) {
-          sums.mass += grain.mass.mass;
-          sums.volume += grain.volume();
-          sums.place += grain.mass.mass * place;
-          sums.velocity += grain.mass.mass * velocity;
-          ++sums.grains;
-        },
-        all);
-    for_each(
-        bounds, sample.world,
-        [](CellSums& sums, const Grain& grain, const Vector3& place, const Vector3& velocity) {
-          const Vector3 x = place - sums.place / sums.mass;
-          const Vector3 v = velocity - sums.velocity / sums.mass;
-          sums.spread += grain.mass.mass * x * x.transpose();
-          sums.shear += grain.mass.mass * x * v.transpose();
-          sums.energy += grain.mass.mass * v.squaredNorm();
-        },
-        all);
-    const Vector3 size =
-        (bounds.upper - bounds.lower)
-            .cwiseQuotient(Vector3(static_cast<double>(cells_[0]), static_cast<double>(cells_[1]), static_cast<double>(cells_[2])));
-    for (std::size_t index = 0; index < all.size(); ++index) {
-      const std::size_t i = index % cells_[0];
-      const std::size_t j = index / cells_[0] % cells_[1];
-      const std::size_t k = index / cells_[0] / cells_[1];
-      const Vector3 middle =
-          bounds.lower + size.cwiseProduct(Vector3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)) +
-                                           Vector3::Constant(0.5));
-      table.add(sample.time).add(i).add(j).add(k).add(middle);
-      write(all[index], size.prod(), table);
-    }
+void write(const CellSums& sums, double volume, TableText& table) {
+  table.add(sums.grains).add(sums.mass / volume).add(sums.volume / volume);
+  if (sums.grains == 0) {
+    constexpr int kOtherColumns = 5;
+    table.blank(kOtherColumns).end_line();
+    return;
   }
-
- private:
-  void for_each(const Bounds& bounds, const World& world, auto visit, std::vector<CellSums>& all) const {
-    for (const Grain& grain : world.present()) {
-      const Vector3 place = place_of(grain, world);
-      if (const auto cell = cell_of(place, bounds, cells_)) visit(all[*cell], grain, place, to_vector(grain.velocity()));
-    }
+  table.add(Vector3(sums.velocity / sums.mass));
+  int unknowns = 0;
+  const double energy = energy_beside_field(sums, unknowns);
+  const auto grains = static_cast<double>(sums.grains);
+  if (grains > unknowns) {
+    table.add(energy / sums.mass / 3 * grains / (grains - unknowns));
+  } else {
+    table.blank();
   }
+  table.add(sums.energy / sums.mass / 3).end_line();
+}
 
-  static void write(const CellSums& sums, double volume, TableText& table) {
-    table.add(sums.grains).add(sums.mass / volume).add(sums.volume / volume);
-    if (sums.grains == 0) {
-      constexpr int kOtherColumns = 5;
-      table.blank(kOtherColumns).end_line();
-      return;
-    }
-    table.add(Vector3(sums.velocity / sums.mass));
-    int unknowns = 0;
-    const double energy = energy_beside_field(sums, unknowns);
-    const auto grains = static_cast<double>(sums.grains);
-    if (grains > unknowns) {
-      table.add(energy / sums.mass / 3 * grains / (grains - unknowns));
-    } else {
-      table.blank();
-    }
-    table.add(sums.energy / sums.mass / 3).end_line();
+void measure_cells(const Sample& sample, TableText& table, const SamplingRegion& region, const CellCounts& cells) {
+  const Bounds bounds = region.bounds(sample.world);
+  std::vector<CellSums> all(number_of(cells));
+  // Two passes: moments about the means of the cells avoid cancellation.
+  visit_cells(
+      bounds, cells, sample.world,
+      [&](CellSums& sums, const Grain& grain, const Vector3& place, const Vector3& velocity) {
+        sums.mass += grain.mass.mass;
+        sums.volume += grain.volume();
+        sums.place += grain.mass.mass * place;
+        sums.velocity += grain.mass.mass * velocity;
+        ++sums.grains;
+      },
+      all);
+  visit_cells(
+      bounds, cells, sample.world,
+      [](CellSums& sums, const Grain& grain, const Vector3& place, const Vector3& velocity) {
+        const Vector3 x = place - sums.place / sums.mass;
+        const Vector3 v = velocity - sums.velocity / sums.mass;
+        sums.spread += grain.mass.mass * x * x.transpose();
+        sums.shear += grain.mass.mass * x * v.transpose();
+        sums.energy += grain.mass.mass * v.squaredNorm();
+      },
+      all);
+  const Vector3 size =
+      (bounds.upper - bounds.lower)
+          .cwiseQuotient(Vector3(static_cast<double>(cells[0]), static_cast<double>(cells[1]), static_cast<double>(cells[2])));
+  for (std::size_t index = 0; index < all.size(); ++index) {
+    const std::size_t i = index % cells[0];
+    const std::size_t j = index / cells[0] % cells[1];
+    const std::size_t k = index / cells[0] / cells[1];
+    const Vector3 middle =
+        bounds.lower +
+        size.cwiseProduct(Vector3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)) + Vector3::Constant(0.5));
+    table.add(sample.time).add(i).add(j).add(k).add(middle);
+    write(all[index], size.prod(), table);
   }
-
-  SamplingRegion region_;
-  CellCounts cells_;
-};
+}
 
 }  // namespace
 
@@ -135,7 +121,10 @@ MeasurementKind grid_kind() {
       .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
         const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
         const CellCounts cells = read_cells(table);
-        return [=](const World&) { return std::make_unique<Grid>(region, cells); };
+        return lines_of(
+            "time_s,cell_x,cell_y,cell_z,x_m,y_m,z_m,grains,density_kg/m3,volume_fraction,velocity_x_m/s,velocity_y_m/s,"
+            "velocity_z_m/s,granular_temperature_m2/s2,velocity_variance_m2/s2",
+            [=](const Sample& sample, TableText& lines) { measure_cells(sample, lines, region, cells); });
       }};
 }
 

@@ -5,6 +5,26 @@
 #include "measurement_kinds.hpp"  // made by CMake: MEASUREMENT_KINDS(KIND) is KIND(name) for each measurement of its list
 
 namespace falling_particles {
+namespace {
+
+using LineWriter = std::function<void(const Sample& sample, TableText& table)>;
+
+class Lines final : public Measurement {
+ public:
+  Lines(std::string columns, LineWriter write) : columns_(std::move(columns)), write_(std::move(write)) {}
+  std::string columns() const override { return columns_; }
+  void measure(const Sample& sample, TableText& table) const override { write_(sample, table); }
+
+ private:
+  std::string columns_;
+  LineWriter write_;
+};
+
+}  // namespace
+
+MeasurementMaker lines_of(std::string columns, LineWriter write) {
+  return [columns = std::move(columns), write = std::move(write)](const World&) { return std::make_unique<Lines>(columns, write); };
+}
 
 #define DECLARE(name) MeasurementKind name##_kind();
 MEASUREMENT_KINDS(DECLARE)

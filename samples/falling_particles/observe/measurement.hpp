@@ -101,6 +101,9 @@ class Measurement {
   virtual void restore(const std::string& /*memory*/) {}
 };
 
+/// Makes measurements without a memory. `columns` are their names as in Measurement, `write` is Measurement::measure().
+MeasurementMaker lines_of(std::string columns, std::function<void(const Sample& sample, TableText& table)> write);
+
 struct MeasurementParameter {
   std::string key;
   std::string text;  ///< unit, range and default

@@ -16,40 +16,28 @@ Vector3 axis_in_world(const Grain& grain, std::size_t axis) {
   return Eigen::Quaterniond(w, x, y, z).toRotationMatrix().col(static_cast<Eigen::Index>(axis));
 }
 
-class NematicOrder final : public Measurement {
- public:
-  NematicOrder(const SamplingRegion& region, std::string grain, std::size_t axis)
-      : region_(region), grain_(std::move(grain)), axis_(axis) {}
-
-  std::string columns() const override { return "time_s,grains,order,director_x,director_y,director_z,biaxiality"; }
-
-  void measure(const Sample& sample, TableText& table) const override {
-    const Bounds bounds = region_.bounds(sample.world);
-    Matrix3d sum = Matrix3d::Zero();
-    std::size_t grains = 0;
-    for (const Grain& grain : sample.world.present()) {
-      if (grain.kind->name != grain_ || !bounds.contains(place_of(grain, sample.world))) continue;
-      const Vector3 axis = axis_in_world(grain, axis_);
-      sum += axis * axis.transpose();
-      ++grains;
-    }
-    table.add(sample.time).add(grains);
-    if (grains == 0) {
-      constexpr int kOtherColumns = 5;
-      table.blank(kOtherColumns).end_line();
-      return;
-    }
-    const Matrix3d Q = 1.5 * sum / static_cast<double>(grains) - 0.5 * Matrix3d::Identity();
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(Q);
-    const Vector3& values = solver.eigenvalues();  // in increasing order
-    table.add(values[2]).add(Vector3(solver.eigenvectors().col(2))).add(values[1] - values[0]).end_line();
+void measure_order(const Sample& sample, TableText& table, const SamplingRegion& region, const std::string& kind,
+                   std::size_t axis) {
+  const Bounds bounds = region.bounds(sample.world);
+  Matrix3d sum = Matrix3d::Zero();
+  std::size_t grains = 0;
+  for (const Grain& grain : sample.world.present()) {
+    if (grain.kind->name != kind || !bounds.contains(place_of(grain, sample.world))) continue;
+    const Vector3 u = axis_in_world(grain, axis);
+    sum += u * u.transpose();
+    ++grains;
   }
-
- private:
-  SamplingRegion region_;
-  std::string grain_;
-  std::size_t axis_;
-};
+  table.add(sample.time).add(grains);
+  if (grains == 0) {
+    constexpr int kOtherColumns = 5;
+    table.blank(kOtherColumns).end_line();
+    return;
+  }
+  const Matrix3d Q = 1.5 * sum / static_cast<double>(grains) - 0.5 * Matrix3d::Identity();
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(Q);
+  const Vector3& values = solver.eigenvalues();  // in increasing order
+  table.add(values[2]).add(Vector3(solver.eigenvectors().col(2))).add(values[1] - values[0]).end_line();
+}
 
 /// The index of the half-axis that is longer, or shorter, than both others.
 std::size_t find_axis(const TomlTable& table, const Scene& scene, const std::string& name, const std::string& which) {
@@ -80,7 +68,8 @@ MeasurementKind nematic_order_kind() {
             const SamplingRegion region(table, scene, SamplingRegion::Without::Everywhere);
             const std::string grain = read_grain(table, "grain", scene);
             const std::size_t axis = find_axis(table, scene, grain, table.choice("axis", {"longest", "shortest"}));
-            return [=](const World&) { return std::make_unique<NematicOrder>(region, grain, axis); };
+            return lines_of("time_s,grains,order,director_x,director_y,director_z,biaxiality",
+                            [=](const Sample& sample, TableText& lines) { measure_order(sample, lines, region, grain, axis); });
           },
           .plotted = {"order", "biaxiality"},
           .plot_label = "order parameter"};

@@ -9,32 +9,19 @@
 namespace falling_particles {
 namespace {
 
-class PartForce final : public Measurement {
- public:
-  PartForce(std::vector<std::string> walls, const Vector3& about) : walls_(std::move(walls)), about_(about) {}
-
-  std::string columns() const override {
-    return "time_s,contacts,force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm";
+void measure_force(const Sample& sample, TableText& table, const std::vector<std::string>& walls, const Vector3& about) {
+  Vector3 force = Vector3::Zero();
+  Vector3 moment = Vector3::Zero();
+  std::size_t contacts = 0;
+  for (const PairContact& contact : sample.contacts) {
+    const Wall* const wall = sample.world.walls().wall_of(contact.geom2);
+    if (wall == nullptr || std::ranges::find(walls, wall->name) == walls.end()) continue;
+    force -= contact.force;
+    moment -= contact.moment;
+    if (contact.bears_force()) ++contacts;
   }
-
-  void measure(const Sample& sample, TableText& table) const override {
-    Vector3 force = Vector3::Zero();
-    Vector3 moment = Vector3::Zero();
-    std::size_t contacts = 0;
-    for (const PairContact& contact : sample.contacts) {
-      const Wall* const wall = sample.world.walls().wall_of(contact.geom2);
-      if (wall == nullptr || std::ranges::find(walls_, wall->name) == walls_.end()) continue;
-      force -= contact.force;
-      moment -= contact.moment;
-      if (contact.bears_force()) ++contacts;
-    }
-    table.add(sample.time).add(contacts).add(force).add(Vector3(moment - about_.cross(force))).end_line();
-  }
-
- private:
-  std::vector<std::string> walls_;
-  Vector3 about_;
-};
+  table.add(sample.time).add(contacts).add(force).add(Vector3(moment - about.cross(force))).end_line();
+}
 
 }  // namespace
 
@@ -58,7 +45,8 @@ MeasurementKind part_force_kind() {
         if (table.has("about")) {
           about = Vector3(table.numbers("about", 3, Interval::closed(-kFarthest, kFarthest, "m")).data());
         }
-        return [chosen, about](const World&) { return std::make_unique<PartForce>(chosen, about); };
+        return lines_of("time_s,contacts,force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm",
+                        [=](const Sample& sample, TableText& lines) { measure_force(sample, lines, chosen, about); });
       },
       .plotted = {"force_x_N", "force_y_N", "force_z_N"},
       .plot_label = "force, N"};

@@ -8,31 +8,19 @@
 namespace falling_particles {
 namespace {
 
-class Segregation final : public Measurement {
- public:
-  Segregation(const SamplingRegion& region, const CellCounts& cells, std::vector<std::string> grains)
-      : region_(region), cells_(cells), grains_(std::move(grains)) {}
-
-  std::string columns() const override { return std::string("time_s,") + LaceyGrid::kColumns; }
-
-  void measure(const Sample& sample, TableText& table) const override {
-    const Bounds bounds = region_.bounds(sample.world);
-    LaceyGrid grid(number_of(cells_));
-    for (const Grain& grain : sample.world.present()) {
-      const bool is_first = grain.kind->name == grains_[0];
-      if (!is_first && grain.kind->name != grains_[1]) continue;
-      if (const auto cell = cell_of(place_of(grain, sample.world), bounds, cells_)) grid.add(*cell, is_first);
-    }
-    table.add(sample.time);
-    grid.write(table);
-    table.end_line();
+void measure_segregation(const Sample& sample, TableText& table, const SamplingRegion& region, const CellCounts& cells,
+                         const std::vector<std::string>& kinds) {
+  const Bounds bounds = region.bounds(sample.world);
+  LaceyGrid grid(number_of(cells));
+  for (const Grain& grain : sample.world.present()) {
+    const bool is_first = grain.kind->name == kinds[0];
+    if (!is_first && grain.kind->name != kinds[1]) continue;
+    if (const auto cell = cell_of(place_of(grain, sample.world), bounds, cells)) grid.add(*cell, is_first);
   }
-
- private:
-  SamplingRegion region_;
-  CellCounts cells_;
-  std::vector<std::string> grains_;
-};
+  table.add(sample.time);
+  grid.write(table);
+  table.end_line();
+}
 
 }  // namespace
 
@@ -53,7 +41,9 @@ MeasurementKind segregation_kind() {
             }
             const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
             const CellCounts cells = read_cells(table);
-            return [=](const World&) { return std::make_unique<Segregation>(region, cells, grains); };
+            return lines_of(std::string("time_s,") + LaceyGrid::kColumns, [=](const Sample& sample, TableText& lines) {
+              measure_segregation(sample, lines, region, cells, grains);
+            });
           },
           .plotted = {"lacey"},
           .plot_label = "Lacey's index"};

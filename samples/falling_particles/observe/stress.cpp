@@ -22,14 +22,13 @@ struct SliceSums {
   std::size_t grains = 0;
 };
 
-Bounds slice_of(const Bounds& all, std::size_t axis, std::size_t index, std::size_t count) {
+Bounds slice_of(const Bounds& all, Eigen::Index axis, std::size_t index, std::size_t count) {
   Bounds slice = all;
-  const auto i = static_cast<Eigen::Index>(axis);
   const auto at = [&](std::size_t k) {
-    return std::lerp(all.lower[i], all.upper[i], static_cast<double>(k) / static_cast<double>(count));
+    return std::lerp(all.lower[axis], all.upper[axis], static_cast<double>(k) / static_cast<double>(count));
   };
-  slice.lower[i] = at(index);
-  slice.upper[i] = at(index + 1);
+  slice.lower[axis] = at(index);
+  slice.upper[axis] = at(index + 1);
   return slice;
 }
 
@@ -53,63 +52,52 @@ void add_grain(SliceSums& sums, const Grain& grain) {
   ++sums.grains;
 }
 
-class Stress final : public Measurement {
- public:
-  Stress(const SamplingRegion& region, std::size_t axis, std::size_t slices) : region_(region), axis_(axis), slices_(slices) {}
-
-  std::string columns() const override {
-    std::string text = "time_s,slice,lower_m,upper_m,grains";
-    for (const char* prefix : {"contact", "kinetic"}) {
-      for (const char* entry : {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"}) {
-        text += std::string(",") + prefix + '_' + entry + "_Pa";
-      }
-    }
-    text += ",pressure_Pa,deviator_Pa,volume_fraction";
-    if (region_.start_lengths()) text += ",length_x_m,length_y_m,length_z_m,strain_x,strain_y,strain_z,volumetric_strain";
-    return text;
-  }
-
-  void measure(const Sample& sample, TableText& table) const override {
-    const Bounds all = region_.bounds(sample.world);
-    const Vector3 periods = periods_of(sample.world);
-    const auto axis = static_cast<Eigen::Index>(axis_);
-    for (std::size_t index = 0; index < slices_; ++index) {
-      const Bounds slice = slice_of(all, axis_, index, slices_);
-      SliceSums sums;
-      for (const PairContact& contact : sample.contacts) add_contact(sums, slice, contact, periods);
-      for (const Grain& grain : sample.world.present()) {
-        if (slice.contains(place_of(grain, sample.world))) add_grain(sums, grain);
-      }
-      table.add(sample.time).add(index).add(slice.lower[axis]).add(slice.upper[axis]).add(sums.grains);
-      write(sums, slice.volume(), table);
-      if (region_.start_lengths()) write_strain(all.upper - all.lower, *region_.start_lengths(), table);
-      table.end_line();
+std::string stress_columns(const SamplingRegion& region) {
+  std::string text = "time_s,slice,lower_m,upper_m,grains";
+  for (const char* prefix : {"contact", "kinetic"}) {
+    for (const char* entry : {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"}) {
+      text += std::string(",") + prefix + '_' + entry + "_Pa";
     }
   }
+  text += ",pressure_Pa,deviator_Pa,volume_fraction";
+  if (region.start_lengths()) text += ",length_x_m,length_y_m,length_z_m,strain_x,strain_y,strain_z,volumetric_strain";
+  return text;
+}
 
- private:
-  static void write(const SliceSums& sums, double volume, TableText& table) {
-    const Matrix3d contact = sums.contacts / volume;
-    Matrix3d kinetic = Matrix3d::Zero();
-    if (sums.mass > 0) kinetic = (sums.momentum - sums.velocity * sums.velocity.transpose() / sums.mass) / volume;
-    const Matrix3d total = contact + kinetic;
-    const double pressure = total.trace() / 3;
-    const Matrix3d deviator = (total + total.transpose()) / 2 - pressure * Matrix3d::Identity();
-    for (const Matrix3d& stress : {contact, kinetic}) {
-      for (Eigen::Index row = 0; row < 3; ++row) table.add(Vector3(stress.row(row)));
+void write(const SliceSums& sums, double volume, TableText& table) {
+  const Matrix3d contact = sums.contacts / volume;
+  Matrix3d kinetic = Matrix3d::Zero();
+  if (sums.mass > 0) kinetic = (sums.momentum - sums.velocity * sums.velocity.transpose() / sums.mass) / volume;
+  const Matrix3d total = contact + kinetic;
+  const double pressure = total.trace() / 3;
+  const Matrix3d deviator = (total + total.transpose()) / 2 - pressure * Matrix3d::Identity();
+  for (const Matrix3d& stress : {contact, kinetic}) {
+    for (Eigen::Index row = 0; row < 3; ++row) table.add(Vector3(stress.row(row)));
+  }
+  table.add(pressure).add(std::sqrt(1.5) * deviator.norm()).add(sums.volume / volume);
+}
+
+void write_strain(const Vector3& lengths, const Vector3& at_start, TableText& table) {
+  const Vector3 strain = (at_start.array() / lengths.array()).log();
+  table.add(lengths).add(strain).add(strain.sum());
+}
+
+void measure_stress(const Sample& sample, TableText& table, const SamplingRegion& region, Eigen::Index axis, std::size_t slices) {
+  const Bounds all = region.bounds(sample.world);
+  const Vector3 periods = periods_of(sample.world);
+  for (std::size_t index = 0; index < slices; ++index) {
+    const Bounds slice = slice_of(all, axis, index, slices);
+    SliceSums sums;
+    for (const PairContact& contact : sample.contacts) add_contact(sums, slice, contact, periods);
+    for (const Grain& grain : sample.world.present()) {
+      if (slice.contains(place_of(grain, sample.world))) add_grain(sums, grain);
     }
-    table.add(pressure).add(std::sqrt(1.5) * deviator.norm()).add(sums.volume / volume);
+    table.add(sample.time).add(index).add(slice.lower[axis]).add(slice.upper[axis]).add(sums.grains);
+    write(sums, slice.volume(), table);
+    if (region.start_lengths()) write_strain(all.upper - all.lower, *region.start_lengths(), table);
+    table.end_line();
   }
-
-  static void write_strain(const Vector3& lengths, const Vector3& at_start, TableText& table) {
-    const Vector3 strain = (at_start.array() / lengths.array()).log();
-    table.add(lengths).add(strain).add(strain.sum());
-  }
-
-  SamplingRegion region_;
-  std::size_t axis_;
-  std::size_t slices_;
-};
+}
 
 }  // namespace
 
@@ -136,7 +124,9 @@ MeasurementKind stress_kind() {
             const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
             const std::size_t axis = table.has("axis") ? read_axis(table, "axis") : 2;
             const std::int64_t slices = table.has("slices") ? table.integer("slices", 1, kMostSlices) : 1;
-            return [=](const World&) { return std::make_unique<Stress>(region, axis, static_cast<std::size_t>(slices)); };
+            return lines_of(stress_columns(region), [=](const Sample& sample, TableText& lines) {
+              measure_stress(sample, lines, region, static_cast<Eigen::Index>(axis), static_cast<std::size_t>(slices));
+            });
           },
           .plotted = {"pressure_Pa", "deviator_Pa"},
           .plot_label = "stress, Pa"};

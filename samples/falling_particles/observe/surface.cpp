@@ -51,67 +51,58 @@ std::optional<Slope> fit(const std::vector<std::array<double, 2>>& points) {
   return Slope{std::atan(slope) * degrees, error / (1 + slope * slope) * degrees};
 }
 
-class Surface final : public Measurement {
- public:
-  Surface(const SamplingRegion& region, const Settings& settings) : region_(region), settings_(settings) {}
+std::string surface_columns(const Settings& settings) {
+  std::string text = "time_s,angle_deg,standard_error_deg,fitted_columns";
+  for (std::size_t i = 1; i <= settings.columns; ++i) text += ",height_" + std::to_string(i) + "_m";
+  return text;
+}
 
-  std::string columns() const override {
-    std::string text = "time_s,angle_deg,standard_error_deg,fitted_columns";
-    for (std::size_t i = 1; i <= settings_.columns; ++i) text += ",height_" + std::to_string(i) + "_m";
-    return text;
+/// m, the mean over the rays of a column that meet a grain.
+std::optional<double> column_height(const Settings& settings, const Tops& tops, const Bounds& bounds, double share) {
+  const auto along = static_cast<Eigen::Index>(settings.along);
+  const Eigen::Index across = 1 - along;
+  double sum = 0;
+  int hits = 0;
+  for (std::size_t k = 0; k < settings.rays; ++k) {
+    Vector3 at = Vector3::Zero();
+    at[along] = std::lerp(bounds.lower[along], bounds.upper[along], share);
+    at[across] =
+        std::lerp(bounds.lower[across], bounds.upper[across], (static_cast<double>(k) + 0.5) / static_cast<double>(settings.rays));
+    const std::optional<double> height = tops.height_at(at[0], at[1], bounds.lower[2]);
+    if (!height) continue;
+    sum += *height;
+    ++hits;
   }
+  return hits == 0 ? std::nullopt : std::optional(sum / hits);
+}
 
-  void measure(const Sample& sample, TableText& table) const override {
-    const Bounds bounds = region_.bounds(sample.world);
-    Tops tops;
-    sample.world.for_each_grain_geom([&](dGeomID geom) {
-      const dReal z = dGeomGetPosition(geom)[2];
-      if (z >= bounds.lower[2] && z < bounds.upper[2]) tops.add(geom);
-    });
-    std::vector<std::optional<double>> heights;
-    std::vector<std::array<double, 2>> fitted;
-    const auto axis = static_cast<Eigen::Index>(settings_.along);
-    for (std::size_t i = 0; i < settings_.columns; ++i) {
-      const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(settings_.columns);
-      heights.push_back(column_height(tops, bounds, share));
-      if (heights.back() && std::abs(share - 0.5) <= settings_.middle / 2) {
-        fitted.push_back({std::lerp(bounds.lower[axis], bounds.upper[axis], share), *heights.back()});
-      }
+void measure_surface(const Sample& sample, TableText& table, const SamplingRegion& region, const Settings& settings) {
+  const Bounds bounds = region.bounds(sample.world);
+  Tops tops;
+  sample.world.for_each_grain_geom([&](dGeomID geom) {
+    const dReal z = dGeomGetPosition(geom)[2];
+    if (z >= bounds.lower[2] && z < bounds.upper[2]) tops.add(geom);
+  });
+  std::vector<std::optional<double>> heights;
+  std::vector<std::array<double, 2>> fitted;
+  const auto axis = static_cast<Eigen::Index>(settings.along);
+  for (std::size_t i = 0; i < settings.columns; ++i) {
+    const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(settings.columns);
+    heights.push_back(column_height(settings, tops, bounds, share));
+    if (heights.back() && std::abs(share - 0.5) <= settings.middle / 2) {
+      fitted.push_back({std::lerp(bounds.lower[axis], bounds.upper[axis], share), *heights.back()});
     }
-    table.add(sample.time);
-    if (const std::optional<Slope> slope = fit(fitted)) {
-      table.add(slope->angle).add(slope->standard_error);
-    } else {
-      table.blank(2);
-    }
-    table.add(fitted.size());
-    for (const std::optional<double>& height : heights) height ? table.add(*height) : table.blank();
-    table.end_line();
   }
-
- private:
-  /// m, the mean over the rays of a column that meet a grain.
-  std::optional<double> column_height(const Tops& tops, const Bounds& bounds, double share) const {
-    const auto along = static_cast<Eigen::Index>(settings_.along);
-    const Eigen::Index across = 1 - along;
-    double sum = 0;
-    int hits = 0;
-    for (std::size_t k = 0; k < settings_.rays; ++k) {
-      Vector3 at = Vector3::Zero();
-      at[along] = std::lerp(bounds.lower[along], bounds.upper[along], share);
-      at[across] = std::lerp(bounds.lower[across], bounds.upper[across],
-                             (static_cast<double>(k) + 0.5) / static_cast<double>(settings_.rays));
-      const std::optional<double> height = tops.height_at(at[0], at[1], bounds.lower[2]);
-      if (!height) continue;
-      sum += *height;
-      ++hits;
-    }
-    return hits == 0 ? std::nullopt : std::optional(sum / hits);
+  table.add(sample.time);
+  if (const std::optional<Slope> slope = fit(fitted)) {
+    table.add(slope->angle).add(slope->standard_error);
+  } else {
+    table.blank(2);
   }
-
-  SamplingRegion region_;
-  Settings settings_;
-};
+  table.add(fitted.size());
+  for (const std::optional<double>& height : heights) height ? table.add(*height) : table.blank();
+  table.end_line();
+}
 
 Settings read_settings(const TomlTable& table) {
   constexpr std::int64_t kMostColumns = 1000;
@@ -140,7 +131,8 @@ MeasurementKind surface_kind() {
           .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
             const Settings settings = read_settings(table);
-            return [=](const World&) { return std::make_unique<Surface>(region, settings); };
+            return lines_of(surface_columns(settings),
+                            [=](const Sample& sample, TableText& lines) { measure_surface(sample, lines, region, settings); });
           },
           .plotted = {"angle_deg"},
           .plot_label = "angle, degrees"};

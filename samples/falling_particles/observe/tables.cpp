@@ -221,18 +221,8 @@ constexpr std::array kTables = {
                   "a bond that is there at the end", "scenes with bonds", has_bonds, write_final_bonds, true},
 };
 
-class FrameMeasurement final : public Measurement {
- public:
-  explicit FrameMeasurement(const TableOfFrames& table) : table_(table) {}
-  std::string columns() const override { return table_.columns; }
-  void measure(const Sample& sample, TableText& table) const override { table_.write(sample, table); }
-
- private:
-  const TableOfFrames& table_;
-};
-
 MeasurementKind kind_of(const TableOfFrames& table) {
-  const auto make = [&table](const World&) { return std::make_unique<FrameMeasurement>(table); };
+  const MeasurementMaker make = lines_of(table.columns, table.write);
   const auto read = [&table, make](const TomlTable& section, const Scene& scene) -> MeasurementMaker {
     if (!table.is_on(scene)) {
       section.fail("kind", std::string("measurement.kind is \"") + table.name + "\"; allowed: in " + table.scenes);
