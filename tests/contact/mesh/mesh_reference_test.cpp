@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "contact/mesh/triangle_proximity.hpp"
+#include "contact/mesh/mesh_triangle.hpp"
 #include "proximity/collider_reference.hpp"
 #include "supernormal/contact/body_box.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
