@@ -1,11 +1,10 @@
-#include "common/load_mesh.hpp"
-
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <stdexcept>
 
+#include "common/mesh.hpp"
 #include "common/read_file.hpp"
 
 #ifdef COMMON_ASSIMP

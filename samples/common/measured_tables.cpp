@@ -1,14 +1,54 @@
 #include "common/measured_tables.hpp"
 
+#include <unistd.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <set>
 #include <stdexcept>
+#include <system_error>
 
 namespace common {
+
 namespace {
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+std::string compiler() {
+#if defined(__clang__)
+  return __VERSION__;  // it names the compiler, too
+#else
+  return std::string("GCC ") + __VERSION__;
+#endif
+}
+
+std::string eigen_version() {
+  return std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+         std::to_string(EIGEN_MINOR_VERSION);
+}
+
+std::string commit() {
+  std::FILE* const pipe = popen("git -C '" COMMON_SOURCE "' describe --always --dirty 2>/dev/null", "r");
+  if (pipe == nullptr) return "unknown";
+  std::array<char, 128> text{};
+  const bool found = std::fgets(text.data(), text.size(), pipe) != nullptr;
+  pclose(pipe);
+  std::string name = found ? text.data() : "unknown";
+  if (name.ends_with('\n')) name.pop_back();
+  return name;
+}
 
 namespace fs = std::filesystem;
 
@@ -72,7 +112,21 @@ class Bar {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+std::string print(const char* format, double value) {
+  std::array<char, 48> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), format, value);
+  return buffer.data();
+}
+
 }  // namespace
+
+Environment environment() {
+  return {{"processor", processor()},
+          {"compiler", compiler()},
+          {"build", COMMON_FLAGS},
+          {"commit", commit()},
+          {"Eigen", eigen_version()}};
+}
 
 std::string joined(const std::vector<std::string>& cells) {
   std::string line;
@@ -96,6 +150,16 @@ void measure_tables(const std::vector<MeasuredTable>& tables, const Environment&
   }
   bar.show(done, "done");
   std::fputc('\n', stderr);
+}
+
+std::string text(const char* format, double value) { return std::isnan(value) ? "–" : print(format, value); }
+
+std::string number(double value) { return print("%.6g", value); }
+
+void become_python(const std::string& script, const std::string& argument) {
+  constexpr const char* kPython = "/usr/bin/python3";  // of Debian, which packs matplotlib for it
+  execl(kPython, kPython, script.c_str(), argument.c_str(), nullptr);
+  throw std::runtime_error("no report: cannot run " + std::string(kPython) + ": " + std::generic_category().message(errno));
 }
 
 }  // namespace common

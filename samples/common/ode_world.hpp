@@ -19,9 +19,7 @@ class OdeWorld {
     dWorldDestroy(id_);
   }
   OdeWorld(const OdeWorld&) = delete;
-  OdeWorld(OdeWorld&&) = delete;
   OdeWorld& operator=(const OdeWorld&) = delete;
-  OdeWorld& operator=(OdeWorld&&) = delete;
 
   dWorldID id() const { return id_; }
   dSpaceID space() const { return space_; }

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "common/measured_tables.hpp"
-#include "common/python_script.hpp"
 #include "measurement.hpp"
 #include "ode/collider_cost.hpp"
 #include "ode/face_cost.hpp"

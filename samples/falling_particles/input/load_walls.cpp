@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/load_mesh.hpp"
+#include "common/mesh.hpp"
 #include "load_sections.hpp"
 #include "model/container.hpp"
 #include "model/two_sided_mesh.hpp"

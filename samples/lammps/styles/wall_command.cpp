@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "common/load_mesh.hpp"
+#include "common/mesh.hpp"
 #include "kernel/refuse.hpp"
 #include "kernel/walls/box_wall.hpp"
 #include "kernel/walls/cylinder_wall.hpp"

@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
-#include "common/load_mesh.hpp"
+#include "common/mesh.hpp"
 #include "scenes.hpp"
 
 using namespace falling_particles;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/number_text.hpp"
+#include "common/measured_tables.hpp"
 #include "common/polyhedron.hpp"
 #include "pairs.hpp"
 #include "supernormal/proximity/proximity.hpp"

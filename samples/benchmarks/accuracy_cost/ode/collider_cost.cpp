@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "common/number_text.hpp"
+#include "common/measured_tables.hpp"
 #include "ode_poses.hpp"
 #include "report/environment.hpp"
 #include "report/statistics.hpp"

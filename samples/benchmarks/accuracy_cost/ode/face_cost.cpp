@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "common/number_text.hpp"
+#include "common/measured_tables.hpp"
 #include "common/ode_geom.hpp"
 #include "ode_poses.hpp"
 #include "random_geometry.hpp"

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "common/number_text.hpp"
+#include "common/measured_tables.hpp"
 #include "common/ode_geom.hpp"
 #include "methods/method.hpp"
 #include "ode_poses.hpp"

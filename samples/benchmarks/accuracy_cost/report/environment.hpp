@@ -1,7 +1,7 @@
 // The hardware and software of a measurement.
 #pragma once
 
-#include "common/environment.hpp"
+#include "common/measured_tables.hpp"
 
 namespace accuracy_cost {
 

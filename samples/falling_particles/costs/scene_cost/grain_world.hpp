@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/grain_form.hpp"
+#include "common/ode_geom.hpp"
 #include "common/stopwatch.hpp"
 #include "supernormal/supernormal.h"
 #include "world/placement.hpp"

@@ -13,7 +13,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/environment.hpp"
 #include "common/measured_tables.hpp"
 #include "common/number_text.hpp"
 #include "common/ode_world.hpp"
