@@ -38,6 +38,9 @@ std::string model_of(const std::string& name, const std::string& content) {
   return "<model name='" + name + "'>" + content + "</model>";
 }
 
+/// A world with one model.
+std::string sdf_of(const std::string& content) { return sdf(model_of("m", content)); }
+
 std::string link_of(const std::string& geometry, const std::string& rest = "", const std::string& name = "l") {
   return "<link name='" + name + "'>" + rest + "<collision name='c'><geometry>" + geometry + "</geometry></collision></link>";
 }
@@ -109,32 +112,30 @@ TEST_CASE("robot_model: each shape of shapes.sdf rests on its lowest side") {
 
 TEST_CASE("robot_model: without <inertial> masses and moments are those of the shapes") {
   const double density = 700;
-  struct Expected {
-    std::string geometry;
-    double mass;
-    Eigen::Vector3d moments;
-  };
-  std::vector<Expected> all;
-  const auto add = [&all](const std::string& geometry, double mass, const Eigen::Vector3d& moments) {
-    all.push_back({geometry, mass, moments});
+  const auto check = [=](const std::string& geometry, double expected, const Eigen::Vector3d& moments) {
+    CAPTURE(geometry);
+    const World world(scene_of(sdf_of(link_of(geometry)), "m.sdf"), density);
+    const dMass mass = mass_of(world, 0);
+    CHECK(mass.mass == relative(expected).epsilon(1e-12));
+    CHECK(error_of(mass, moments.asDiagonal()) < 1e-12);
   };
   double m = density * 4.0 / 3 * kPi * 0.3 * 0.2 * 0.1;
-  add("<ellipsoid><radii>0.3 0.2 0.1</radii></ellipsoid>", m, m / 5 * Eigen::Vector3d(0.05, 0.1, 0.13));
+  check("<ellipsoid><radii>0.3 0.2 0.1</radii></ellipsoid>", m, m / 5 * Eigen::Vector3d(0.05, 0.1, 0.13));
   m = density * 4.0 / 3 * kPi * 1e-3;
-  add(kBall, m, 0.4 * m * 0.01 * Eigen::Vector3d::Ones());
+  check(kBall, m, 0.4 * m * 0.01 * Eigen::Vector3d::Ones());
   m = density * 0.4 * 0.4 * 0.2;
-  add(kBrick, m, m / 12 * Eigen::Vector3d(0.2, 0.2, 0.32));
+  check(kBrick, m, m / 12 * Eigen::Vector3d(0.2, 0.2, 0.32));
   m = density * kPi * 0.04 * 0.5;
-  add("<cylinder><radius>0.2</radius><length>0.5</length></cylinder>", m,
-      m * Eigen::Vector3d(0.01 + 0.25 / 12, 0.01 + 0.25 / 12, 0.02));
+  check("<cylinder><radius>0.2</radius><length>0.5</length></cylinder>", m,
+        m * Eigen::Vector3d(0.01 + 0.25 / 12, 0.01 + 0.25 / 12, 0.02));
   {
     const double r = 0.1;
     const double l = 0.4;
     const double middle = density * kPi * r * r * l;
     const double ends = density * 4.0 / 3 * kPi * r * r * r;
     const double across = middle * (r * r / 4 + l * l / 12) + ends * (0.4 * r * r + l * l / 4 + 3 * l * r / 8);
-    add("<capsule><radius>0.1</radius><length>0.4</length></capsule>", middle + ends,
-        {across, across, middle * r * r / 2 + ends * 0.4 * r * r});
+    check("<capsule><radius>0.1</radius><length>0.4</length></capsule>", middle + ends,
+          {across, across, middle * r * r / 2 + ends * 0.4 * r * r});
   }
   {
     const double a = 0.3;
@@ -148,16 +149,9 @@ TEST_CASE("robot_model: without <inertial> masses and moments are those of the s
     const double square = second * 2 / epsilon * beta(1 / epsilon, 1 + 4 / epsilon);
     const double along = area * 2 / epsilon * beta(3 / epsilon, 1 + 2 / epsilon);
     const double scale = density * a * b * c;
-    add("<supernormal:superellipsoid><radii>0.3 0.2 0.1</radii><exponents>4 3</exponents></supernormal:superellipsoid>",
-        scale * volume,
-        scale * Eigen::Vector3d(b * b * square + c * c * along, a * a * square + c * c * along, (a * a + b * b) * square));
-  }
-  for (const Expected& expected : all) {
-    CAPTURE(expected.geometry);
-    const World world(scene_of(sdf(model_of("m", link_of(expected.geometry))), "m.sdf"), density);
-    const dMass mass = mass_of(world, 0);
-    CHECK(mass.mass == relative(expected.mass).epsilon(1e-12));
-    CHECK(error_of(mass, expected.moments.asDiagonal()) < 1e-12);
+    check("<supernormal:superellipsoid><radii>0.3 0.2 0.1</radii><exponents>4 3</exponents></supernormal:superellipsoid>",
+          scale * volume,
+          scale * Eigen::Vector3d(b * b * square + c * c * along, a * a * square + c * c * along, (a * a + b * b) * square));
   }
 }
 
@@ -166,7 +160,7 @@ TEST_CASE("robot_model: a link of two shapes has the sum of their masses about t
       "<pose>1 2 3 0 0 0</pose><link name='l'><collision name='a'><pose>0.5 0 0 0 0 0</pose><geometry>" + kBall +
       "</geometry></collision><collision name='b'><pose>-0.25 0 0 0 0 0</pose><geometry><sphere><radius>0.2</radius></sphere>"
       "</geometry></collision></link>";
-  const Scene scene = scene_of(sdf(model_of("m", two)), "m.sdf");
+  const Scene scene = scene_of(sdf_of(two), "m.sdf");
   const World world(scene, 1000);
   const double small = 1000 * 4.0 / 3 * kPi * 1e-3;
   const double large = 8 * small;
@@ -201,7 +195,7 @@ TEST_CASE("robot_model: <inertial> is about its own centre and in its own axes")
       "iyy='0.3' izz='0.4' ixy='0' ixz='0' iyz='0'/></inertial></link><joint name='j' type='continuous'><origin xyz='0 0 1' rpy='0 "
       "0 0.7'/>"
       "<parent link='world'/><child link='l'/></joint></robot>";
-  const Scene scenes[] = {scene_of(sdf(model_of("m", "<pose>0 0 1 0 0 0.7</pose>" + link_of(kBall, inertial))), "m.sdf"),
+  const Scene scenes[] = {scene_of(sdf_of("<pose>0 0 1 0 0 0.7</pose>" + link_of(kBall, inertial)), "m.sdf"),
                           scene_of(urdf, "r.urdf")};
   for (const Scene& scene : scenes) {
     CAPTURE(scene.file);
@@ -217,7 +211,7 @@ TEST_CASE("robot_model: <inertial> is about its own centre and in its own axes")
 TEST_CASE("robot_model: links that fixed joints connect are one body") {
   const std::string pair = link_of(kBall, "", "a") + link_of(kBall, "<pose>0 0 0.5 0 0 0</pose>", "b") +
                            "<joint name='j' type='fixed'><parent>a</parent><child>b</child></joint>";
-  const Scene scene = scene_of(sdf(model_of("m", pair)), "m.sdf");
+  const Scene scene = scene_of(sdf_of(pair), "m.sdf");
   World world(scene, 1000);
   CHECK(world.body(0) == world.body(1));
   CHECK(world.joints().empty());
@@ -226,8 +220,7 @@ TEST_CASE("robot_model: links that fixed joints connect are one body") {
   CHECK((world.pose(1).translation() - world.pose(0).translation()).norm() == relative(0.5).epsilon(1e-12));
 
   const World fixed(
-      scene_of(sdf(model_of("m", link_of(kBall) + "<joint name='j' type='fixed'><parent>world</parent><child>l</child></joint>")),
-               "m.sdf"),
+      scene_of(sdf_of(link_of(kBall) + "<joint name='j' type='fixed'><parent>world</parent><child>l</child></joint>"), "m.sdf"),
       1000);
   CHECK(fixed.body(0) == nullptr);
 }
@@ -235,7 +228,7 @@ TEST_CASE("robot_model: links that fixed joints connect are one body") {
 TEST_CASE("robot_model: poses refer to the frames of the file") {
   const std::string frames = "<pose>1 0 0 0 0 0</pose><frame name='f'><pose>0 2 0 0 0 1</pose></frame>" +
                              link_of(kBall, "<pose relative_to='f'>0 0 3 0 0 0</pose>");
-  const Scene scene = scene_of(sdf(model_of("m", frames)), "m.sdf");
+  const Scene scene = scene_of(sdf_of(frames), "m.sdf");
   CHECK((scene.links[0].pose.translation() - Eigen::Vector3d(1, 2, 3)).norm() < 1e-12);
   CHECK(scene.links[0].pose.linear().isApprox(Eigen::AngleAxisd(1, Eigen::Vector3d::UnitZ()).toRotationMatrix(), 1e-12));
 }
@@ -261,7 +254,7 @@ TEST_CASE("robot_model: the joints of SDF move along their axes, in their frames
       link_of(kBall) +
       "<joint name='j' type='prismatic'><pose>0 0 0 0 0.5 0</pose><parent>world</parent><child>l</child><axis><xyz>1 0 0</xyz>"
       "<limit><lower>-9</lower><upper>9</upper></limit></axis></joint>";
-  World world(scene_of(sdf(model_of("m", slider)), "m.sdf"), 1000);
+  World world(scene_of(sdf_of(slider), "m.sdf"), 1000);
   world.simulate(0.5);
   const double path = 9.8 * std::sin(0.5) * 0.125;
   CHECK((world.pose(0).translation() - path * Eigen::Vector3d(std::cos(0.5), 0, -std::sin(0.5))).norm() < 5e-3 * path);
@@ -272,7 +265,7 @@ TEST_CASE("robot_model: the joints of SDF move along their axes, in their frames
       link_of("<sphere><radius>0.01</radius></sphere>", "<pose>0.05 0 -1 0 0 0</pose>") +
       "<joint name='j' type='revolute'><pose relative_to='__model__'>0 0 0 0 0 0</pose><parent>world</parent><child>l</child><axis>"
       "<xyz>0 1 0</xyz></axis></joint>";
-  World swing(scene_of(sdf(model_of("m", pendulum)), "m.sdf"), 1000);
+  World swing(scene_of(sdf_of(pendulum), "m.sdf"), 1000);
   swing.simulate(kPi / std::sqrt(9.8));
   CHECK(std::abs(swing.pose(0).translation().x() + 0.05) < 1e-3);
 }
@@ -329,13 +322,12 @@ TEST_CASE("robot_model: the smaller coefficient of friction of two bodies acts")
 }
 
 TEST_CASE("robot_model: elements that would act on the motion are listed if they are not read") {
-  const Scene scene = scene_of(
-      sdf(model_of("m",
-                   link_of(kBall, "<sensor name='s' type='imu'/><visual name='v'><geometry>" + kBall + "</geometry></visual>") +
-                       link_of(kBall, "<pose>9 0 0 0 0 0</pose>", "b") +
-                       "<joint name='j' type='revolute'><parent>l</parent><child>b</child><axis><xyz>0 0 1</xyz>"
-                       "<dynamics><damping>1</damping></dynamics><limit><lower>-4</lower><upper>1</upper></limit></axis></joint>")),
-      "m.sdf");
+  const Scene scene =
+      scene_of(sdf_of(link_of(kBall, "<sensor name='s' type='imu'/><visual name='v'><geometry>" + kBall + "</geometry></visual>") +
+                      link_of(kBall, "<pose>9 0 0 0 0 0</pose>", "b") +
+                      "<joint name='j' type='revolute'><parent>l</parent><child>b</child><axis><xyz>0 0 1</xyz>"
+                      "<dynamics><damping>1</damping></dynamics><limit><lower>-4</lower><upper>1</upper></limit></axis></joint>"),
+               "m.sdf");
   CHECK(scene.not_read == std::vector<std::string>{"sensor", "dynamics", "limits of j beyond pi"});
   CHECK(scene.joints[0].lower == -std::numeric_limits<double>::infinity());
   CHECK(scene.joints[0].upper == 1);
@@ -345,10 +337,9 @@ TEST_CASE("robot_model: elements that would act on the motion are listed if they
 
 TEST_CASE("robot_model: a collision with a mesh is left out and told, unless the reader is strict") {
   const Scene scene =
-      scene_of(sdf(model_of("m",
-                            "<link name='l'><collision name='c'><geometry><mesh><uri>x.stl</uri></mesh></geometry></collision>"
-                            "<collision name='d'><geometry>" +
-                                kBall + "</geometry></collision></link>")),
+      scene_of(sdf_of("<link name='l'><collision name='c'><geometry><mesh><uri>x.stl</uri></mesh></geometry></collision>"
+                      "<collision name='d'><geometry>" +
+                      kBall + "</geometry></collision></link>"),
                "m.sdf", false);
   REQUIRE(scene.left_out.size() == 1);
   CHECK(scene.left_out[0].ends_with("m.sdf: link m::l, collision c: <mesh>"));
@@ -367,12 +358,11 @@ TEST_CASE("robot_model: a collision with a mesh is left out and told, unless the
 TEST_CASE("robot_model: every number for no stop is none") {
   for (const char* const number : {"inf", "1e16", "1.79769e+308"}) {
     CAPTURE(number);
-    const Scene scene =
-        scene_of(sdf(model_of("m", link_of(kBall) + link_of(kBall, "<pose>9 0 0 0 0 0</pose>", "b") +
-                                       "<joint name='j' type='prismatic'><parent>l</parent><child>b</child><axis><xyz>0 0 1</xyz>"
-                                       "<limit><lower>-" +
-                                       std::string(number) + "</lower><upper>" + number + "</upper></limit></axis></joint>")),
-                 "m.sdf");
+    const Scene scene = scene_of(sdf_of(link_of(kBall) + link_of(kBall, "<pose>9 0 0 0 0 0</pose>", "b") +
+                                        "<joint name='j' type='prismatic'><parent>l</parent><child>b</child><axis><xyz>0 0 1</xyz>"
+                                        "<limit><lower>-" +
+                                        std::string(number) + "</lower><upper>" + number + "</upper></limit></axis></joint>"),
+                                 "m.sdf");
     CHECK(scene.joints[0].lower == -std::numeric_limits<double>::infinity());
     CHECK(scene.joints[0].upper == std::numeric_limits<double>::infinity());
     CHECK(scene.not_read.empty());
@@ -381,20 +371,19 @@ TEST_CASE("robot_model: every number for no stop is none") {
 
 TEST_CASE("robot_model: a link without gravity does not fall, and links of one body agree on it") {
   for (const auto& [value, falls] : {std::pair{"1", true}, {"false", false}, {"0", false}, {"true", true}}) {
-    const Scene scene = scene_of(
-        sdf(model_of("m", link_of(kBall, "<pose>0 0 5 0 0 0</pose><gravity>" + std::string(value) + "</gravity>"))), "m.sdf");
+    const Scene scene =
+        scene_of(sdf_of(link_of(kBall, "<pose>0 0 5 0 0 0</pose><gravity>" + std::string(value) + "</gravity>")), "m.sdf");
     World world(scene, 1000);
     world.simulate(0.1);
     CHECK((world.pose(0).translation().z() < 4.99) == falls);
   }
-  check_refused(
-      refusal(sdf(model_of("m", link_of(kBall, "<gravity>0</gravity>", "a") + link_of(kBall, "<pose>1 0 0 0 0 0</pose>", "b") +
-                                    "<joint name='j' type='fixed'><parent>a</parent><child>b</child></joint>"))),
-      {"link m::b", "<gravity>", "must be the same"});
+  check_refused(refusal(sdf_of(link_of(kBall, "<gravity>0</gravity>", "a") + link_of(kBall, "<pose>1 0 0 0 0 0</pose>", "b") +
+                               "<joint name='j' type='fixed'><parent>a</parent><child>b</child></joint>")),
+                {"link m::b", "<gravity>", "must be the same"});
 }
 
 TEST_CASE("robot_model: a message names the file, the element, the value and the valid range") {
-  const auto of_shape = [](const std::string& geometry) { return refusal(sdf(model_of("m", link_of(geometry)))); };
+  const auto of_shape = [](const std::string& geometry) { return refusal(sdf_of(link_of(geometry))); };
   check_refused(of_shape("<sphere><radius>-1</radius></sphere>"),
                 {"file.sdf", "link m::l", "collision c", "<sphere>", "-1", "[1e-06, 1e+06] m"});
   check_refused(of_shape("<sphere><radius>1 7</radius></sphere>"), {"<sphere>", "radius", "\"1 7\"", "1 number"});
@@ -410,19 +399,18 @@ TEST_CASE("robot_model: a message names the file, the element, the value and the
   check_refused(of_shape("<supernormal:egg/>"), {"supernormal:egg", "superellipsoid"});
   check_refused(of_shape("<mesh><uri>x.stl</uri></mesh>"), {"<mesh>", "sphere, box"});
   check_refused(of_shape("<plane><normal>0 0 1</normal></plane>"), {"<plane>", "static"});
-  check_refused(refusal(sdf(model_of("m", "<static>true</static>" + link_of("<plane><normal>0 0 0</normal></plane>")))), {"plane"});
-  check_refused(refusal(sdf(model_of("m", "<link name='l'/>"))), {"link m::l", "no mass"});
-  check_refused(refusal(sdf(model_of("m", link_of(kBall, "<inertial><mass>1</mass></inertial>")))), {"link m::l", "<inertia>"});
-  check_refused(refusal(sdf(model_of("m", link_of(kBall, "<velocity_decay><linear>2</linear></velocity_decay>")))),
+  check_refused(refusal(sdf_of("<static>true</static>" + link_of("<plane><normal>0 0 0</normal></plane>"))), {"plane"});
+  check_refused(refusal(sdf_of("<link name='l'/>")), {"link m::l", "no mass"});
+  check_refused(refusal(sdf_of(link_of(kBall, "<inertial><mass>1</mass></inertial>"))), {"link m::l", "<inertia>"});
+  check_refused(refusal(sdf_of(link_of(kBall, "<velocity_decay><linear>2</linear></velocity_decay>"))),
                 {"velocity_decay", "2", "[0, 1]"});
-  check_refused(refusal(sdf(model_of("m", link_of(kBall, "<pose>0 0 nan 0 0 0</pose>")))), {"file.sdf", "pose"});
-  check_refused(refusal(sdf(model_of("m", link_of(kBall, "", "a") + link_of(kBall, "", "b") +
-                                              "<joint name='j' type='ball'><parent>a</parent><child>b</child></joint>"))),
+  check_refused(refusal(sdf_of(link_of(kBall, "<pose>0 0 nan 0 0 0</pose>"))), {"file.sdf", "pose"});
+  check_refused(refusal(sdf_of(link_of(kBall, "", "a") + link_of(kBall, "", "b") +
+                               "<joint name='j' type='ball'><parent>a</parent><child>b</child></joint>")),
                 {"file.sdf", "joint j", "ball", "revolute"});
-  check_refused(refusal(sdf(model_of("m", link_of(kBall, "<pose rotation_format='quat_xyzw'>0 0 0 0 0 0 0</pose>")))),
+  check_refused(refusal(sdf_of(link_of(kBall, "<pose rotation_format='quat_xyzw'>0 0 0 0 0 0 0</pose>"))),
                 {"file.sdf", "link l", "quaternion", "0 0 0 0"});
-  check_refused(refusal(sdf(model_of("m", link_of(kBall) + model_of("n", link_of(kBall))))),
-                {"file.sdf", "model m", "other models"});
+  check_refused(refusal(sdf_of(link_of(kBall) + model_of("n", link_of(kBall)))), {"file.sdf", "model m", "other models"});
   check_refused(refusal(sdf("<physics name='p' type='ode'><max_step_size>0</max_step_size></physics>")),
                 {"max_step_size", "0", "[1e-06, 1] s"});
   check_refused(refusal(sdf(""), "file.sdf", -3), {"density", "-3", "[1e-06, 1e+12] kg/m^3"});
@@ -568,7 +556,7 @@ TEST_CASE("robot_model: every number is refused outside its range, with its name
     }
   }
   for (const double density : {1e-320, 1e-30, 1e13, 1e300, std::nan("")}) {
-    check_refused(refusal(sdf(model_of("m", link_of(kBall))), "m.sdf", density), {"density", "[1e-06, 1e+12] kg/m^3"});
+    check_refused(refusal(sdf_of(link_of(kBall)), "m.sdf", density), {"density", "[1e-06, 1e+12] kg/m^3"});
   }
 }
 
@@ -576,7 +564,7 @@ TEST_CASE("robot_model: a small body far away keeps its moments") {
   const std::string inertial =
       "<inertial><mass>1</mass><inertia><ixx>1e-5</ixx><iyy>1e-5</iyy><izz>1e-5</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia>"
       "</inertial>";
-  const World world(scene_of(sdf(model_of("m", "<pose>1e6 -1e6 1e6 0 0 0</pose>" + link_of(kBall, inertial))), "m.sdf"), 1000);
+  const World world(scene_of(sdf_of("<pose>1e6 -1e6 1e6 0 0 0</pose>" + link_of(kBall, inertial)), "m.sdf"), 1000);
   CHECK(error_of(mass_of(world, 0), 1e-5 * Eigen::Matrix3d::Identity()) < 1e-12);
 }
 

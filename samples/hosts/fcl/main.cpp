@@ -1,10 +1,19 @@
-// Random pairs of superellipsoids through FCL's broad phase. The distances come from FCL's GJK with our support functions, and from
-// our solver, also with only a support function.
+// The core below a broad phase that exists: FCL's dynamic AABB tree. It takes bodies from text, moves them, and reports which
+// overlap, and how far smooth bodies are apart by FCL's GJK with our support functions and by our solver with only a support
+// function.
+//   fcl_host [FILE]     lines of a shape and a pose, as describe() writes them; without FILE, 500 bodies are drawn
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
-#include <memory>
+#include <exception>
+#include <fstream>
+#include <map>
 #include <random>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "smooth_shape.hpp"
@@ -12,62 +21,218 @@
 namespace {
 
 using namespace supernormal;
-using fcl_host::SmoothShape;
 
-struct Found {
-  int pairs = 0, apart = 0;
-  double worst_to_gjk = 0, worst_to_callback = 0;
+struct Placed {
+  std::shared_ptr<const Shape> shape;
+  Pose pose;
 };
+
+/// A body of each line. The text of a pose begins where the text of the shape ends.
+std::vector<Placed> read_bodies(std::istream& file) {
+  std::vector<Placed> bodies;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number) {
+    if (line.empty()) continue;
+    const std::size_t pose = line.rfind("Pose(");
+    if (pose == std::string::npos) throw std::invalid_argument("line " + std::to_string(number) + " has no Pose(…)");
+    try {
+      bodies.push_back({read_shape(line.substr(0, pose)), read_pose(line.substr(pose))});
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("line " + std::to_string(number) + ": " + error.what());
+    }
+  }
+  return bodies;
+}
+
+/// Whether distances by other means have all their digits: the boundary has neither faces nor edges.
+bool is_smooth(const Shape& shape) {
+  return dynamic_cast<const Ellipsoid*>(&shape) != nullptr || dynamic_cast<const Superellipsoid*>(&shape) != nullptr ||
+         dynamic_cast<const Superovoid*>(&shape) != nullptr;
+}
 
 /// A shape with only its support function and boundary point.
 CallbackShape without_hessian(const Shape& shape) {
   return {[&shape](const Vector3& n) { return shape.support(n); }, [&shape](const Vector3& n) { return shape.point(n); }};
 }
 
-bool compare(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* object2, void* data) {
-  auto& found = *static_cast<Found*>(data);
-  const auto& shape1 = static_cast<const SmoothShape&>(*object1->collisionGeometry());
-  const auto& shape2 = static_cast<const SmoothShape&>(*object2->collisionGeometry());
-  const fcl::Transform3d &pose1 = object1->getTransform(), &pose2 = object2->getTransform();
-  const Proximity ours = fcl_host::proximity(shape1, pose1, shape2, pose2);
-  const Proximity bare = find_proximity(without_hessian(shape1.shape()), fcl_host::pose_of(pose1), without_hessian(shape2.shape()),
-                                        fcl_host::pose_of(pose2));
-  ++found.pairs;
-  found.worst_to_callback = std::max(found.worst_to_callback, std::abs(ours.gap - bare.gap));
-  if (!(ours.gap > 0)) return false;
-  ++found.apart;
-  fcl::detail::GJKSolver_libccd<double> gjk;
-  gjk.distance_tolerance = 1e-9;
-  double distance = 0;
-  gjk.shapeDistance(shape1, pose1, shape2, pose2, &distance);
-  found.worst_to_gjk = std::max(found.worst_to_gjk, std::abs(distance - ours.gap));
-  return false;  // continue
+std::string text_of(const std::vector<Placed>& bodies) {
+  std::string text;
+  for (const Placed& body : bodies) text += describe(*body.shape) + " " + describe(body.pose) + "\n";
+  return text;
+}
+
+std::vector<Placed> draw_bodies(int count) {
+  const std::array<std::shared_ptr<const Shape>, 6> kinds = {
+      std::make_shared<Ellipsoid>(Vector3(0.5, 0.3, 0.2)),
+      std::make_shared<Superellipsoid>(Vector3(0.3, 0.3, 0.2), 6, 4),
+      std::make_shared<Superovoid>(Vector3(0.3, 0.3, 0.4), 2, 2, 0.3, 0.3),
+      std::make_shared<Box>(Vector3(0.4, 0.2, 0.1)),
+      std::make_shared<Rounded>(std::make_shared<Cylinder>(0.2, 0.2), 0.05),
+      std::make_shared<MinkowskiSum>(std::make_shared<Capsule>(0.1, 0.3), std::make_shared<Box>(Vector3(0.1, 0.1, 0))),
+  };
+  std::mt19937_64 engine(1);
+  std::uniform_real_distribution<double> uniform(-2.5, 2.5);
+  std::normal_distribution<double> gauss;
+  std::vector<Placed> bodies;
+  for (int k = 0; k < count; ++k) {
+    Pose pose;
+    pose.position = {uniform(engine), uniform(engine), uniform(engine)};
+    pose.rotation = Eigen::Quaterniond(gauss(engine), gauss(engine), gauss(engine), gauss(engine)).normalized().toRotationMatrix();
+    bodies.push_back({kinds[static_cast<std::size_t>(k) % kinds.size()], pose});
+  }
+  return bodies;
+}
+
+/// The bodies in FCL's tree, and the last normal of each pair.
+class Scene {
+ public:
+  explicit Scene(std::vector<Placed> bodies) : bodies_(std::move(bodies)) {
+    for (Placed& body : bodies_) {
+      auto object = std::make_unique<fcl::CollisionObjectd>(std::make_shared<fcl_host::SmoothShape>(body.shape));
+      object->setUserData(&body);
+      move(*object, body.pose);
+      tree_.registerObject(object.get());
+      objects_.push_back(std::move(object));
+    }
+    tree_.setup();
+  }
+
+  /// Rotates every body by a small angle about the vertical axis through the origin, the faster the farther outside.
+  void stir(double angle) {
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      Pose& pose = bodies_[k].pose;
+      const Matrix3 turn = Eigen::AngleAxisd(angle * pose.position.norm(), Vector3::UnitZ()).toRotationMatrix();
+      pose = {turn * pose.position, turn * pose.rotation};
+      move(*objects_[k], pose);
+    }
+    tree_.update();
+  }
+
+  void collide() {
+    pairs = overlaps = evaluations = 0;
+    deepest = 0;
+    tree_.collide(this, [](fcl::CollisionObjectd* one, fcl::CollisionObjectd* other, void* scene) {
+      static_cast<Scene*>(scene)->collide(*static_cast<Placed*>(one->getUserData()), *static_cast<Placed*>(other->getUserData()));
+      return false;  // go on
+    });
+  }
+
+  /// Compares the distances of smooth bodies with those by FCL's GJK, and by our solver without Hessians.
+  void compare() {
+    tree_.collide(this, [](fcl::CollisionObjectd* one, fcl::CollisionObjectd* other, void* scene) {
+      static_cast<Scene*>(scene)->compare(*one, *other);
+      return false;  // go on
+    });
+  }
+
+  const std::vector<Placed>& bodies() const { return bodies_; }
+
+  int pairs = 0, overlaps = 0, evaluations = 0;
+  double deepest = 0;  // m
+  int compared = 0;
+  double worst_to_gjk = 0, worst_to_callback = 0;  // m
+
+ private:
+  static void move(fcl::CollisionObjectd& object, const Pose& pose) {
+    object.setTransform(pose.rotation, pose.position);
+    object.computeAABB();
+  }
+
+  void collide(const Placed& one, const Placed& other) {
+    const Placed* const first = std::min(&one, &other);
+    const Placed* const second = std::max(&one, &other);
+    // The normal of the last step, in the frame of the first body, is where this query starts. Who only asks about overlaps stops
+    // at the first normal that separates.
+    const auto known = normals_.find({first, second});
+    const Vector3* const start = known == normals_.end() ? nullptr : &known->second;
+    const Settings settings{.stop_when_apart = true};
+    const Proximity found = find_proximity(*first->shape, first->pose, *second->shape, second->pose, settings, start);
+    normals_[{first, second}] = first->pose.rotation.transpose() * found.normal;
+    ++pairs;
+    evaluations += found.evaluations;
+    if (found.gap < 0) ++overlaps;
+    deepest = std::max(deepest, -found.gap);
+  }
+
+  void compare(const fcl::CollisionObjectd& one, const fcl::CollisionObjectd& other) {
+    const auto& shape1 = static_cast<const fcl_host::SmoothShape&>(*one.collisionGeometry());
+    const auto& shape2 = static_cast<const fcl_host::SmoothShape&>(*other.collisionGeometry());
+    if (!is_smooth(shape1.shape()) || !is_smooth(shape2.shape())) return;
+    const fcl::Transform3d &pose1 = one.getTransform(), &pose2 = other.getTransform();
+    const Proximity ours = fcl_host::proximity(shape1, pose1, shape2, pose2);
+    const Proximity bare = find_proximity(without_hessian(shape1.shape()), fcl_host::pose_of(pose1),
+                                          without_hessian(shape2.shape()), fcl_host::pose_of(pose2));
+    worst_to_callback = std::max(worst_to_callback, std::abs(ours.gap - bare.gap));
+    if (!(ours.gap > 0)) return;
+    ++compared;
+    fcl::detail::GJKSolver_libccd<double> gjk;
+    gjk.distance_tolerance = 1e-9;
+    double distance = 0;
+    gjk.shapeDistance(shape1, pose1, shape2, pose2, &distance);
+    worst_to_gjk = std::max(worst_to_gjk, std::abs(distance - ours.gap));
+  }
+
+  std::vector<Placed> bodies_;
+  std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_;
+  fcl::DynamicAABBTreeCollisionManagerd tree_;
+  std::map<std::pair<const Placed*, const Placed*>, Vector3> normals_;
+};
+
+/// Overlaps without a broad phase: every pair.
+int count_overlaps(const std::vector<Placed>& bodies) {
+  int overlaps = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto found =
+          find_proximity(*bodies[i].shape, bodies[i].pose, *bodies[j].shape, bodies[j].pose, {.stop_when_apart = true});
+      if (found.gap < 0) ++overlaps;
+    }
+  }
+  return overlaps;
+}
+
+int run(int count, char** arguments) {
+  std::vector<Placed> bodies;
+  if (count > 1) {
+    std::ifstream file(arguments[1]);
+    if (!file) throw std::invalid_argument(std::string("cannot read ") + arguments[1]);
+    bodies = read_bodies(file);
+  } else {
+    bodies = draw_bodies(500);
+  }
+  Scene scene(bodies);
+  for (int step = 0; step < 5; ++step) {
+    scene.collide();
+    std::printf("step %d: %d of %zu pairs have boxes that meet, %d overlap, the deepest by %.4f m; %.2f evaluations a pair\n", step,
+                scene.pairs, bodies.size() * (bodies.size() - 1) / 2, scene.overlaps, scene.deepest,
+                double(scene.evaluations) / scene.pairs);
+    if (step < 4) scene.stir(0.002);
+  }
+  // The scene travels: a process that reads this text has the same bodies at the same places.
+  const std::string text = text_of(scene.bodies());
+  std::istringstream stream(text);
+  const std::vector<Placed> again = read_bodies(stream);
+  bool is_same = again.size() == bodies.size() && text_of(again) == text;
+  for (std::size_t k = 0; k < again.size() && is_same; ++k) {
+    is_same = *again[k].shape == *scene.bodies()[k].shape && again[k].pose == scene.bodies()[k].pose;
+  }
+  const int every_pair = count_overlaps(again);
+  std::printf("%zu bytes of text %s; without the tree %d pairs overlap\n", text.size(),
+              is_same ? "read back as the same scene" : "DIFFER", every_pair);
+  scene.compare();
+  std::printf("%d smooth pairs apart: largest difference to FCL's GJK %.1e m, to our solver without Hessians %.1e m\n",
+              scene.compared, scene.worst_to_gjk, scene.worst_to_callback);
+  const bool agree = scene.worst_to_gjk < 1e-5 && scene.worst_to_callback < 1e-8;
+  return is_same && agree && every_pair == scene.overlaps && scene.overlaps > 0 ? 0 : 1;
 }
 
 }  // namespace
 
-int main() {
-  std::mt19937_64 engine(1);
-  std::uniform_real_distribution<double> uniform;
-  std::normal_distribution<double> normal;
-  std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects;
-  fcl::DynamicAABBTreeCollisionManagerd manager;
-  for (int k = 0; k < 300; ++k) {
-    const Vector3 axes = Vector3::Constant(0.5) + Vector3(uniform(engine), uniform(engine), uniform(engine));
-    const auto shape = std::make_shared<Superellipsoid>(axes, 1.5 + 4 * uniform(engine), 1.5 + 4 * uniform(engine));
-    fcl::Transform3d pose = fcl::Transform3d::Identity();
-    pose.linear() =
-        Eigen::Quaterniond(normal(engine), normal(engine), normal(engine), normal(engine)).normalized().toRotationMatrix();
-    pose.translation() = 12 * Vector3(uniform(engine), uniform(engine), uniform(engine));
-    objects.push_back(std::make_unique<fcl::CollisionObjectd>(std::make_shared<SmoothShape>(shape), pose));
-    manager.registerObject(objects.back().get());
+int main(int count, char** arguments) {
+  try {
+    return run(count, arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "fcl_host: %s\n", error.what());
+    return 2;
   }
-  manager.setup();
-  Found found;
-  manager.collide(&found, compare);
-  std::printf(
-      "%d pairs whose boxes meet, %d of them apart: largest difference to FCL's GJK %.1e m, to our solver without Hessians %.1e "
-      "m\n",
-      found.pairs, found.apart, found.worst_to_gjk, found.worst_to_callback);
-  return found.pairs > 100 && found.worst_to_gjk < 1e-5 && found.worst_to_callback < 1e-8 ? 0 : 1;
 }

@@ -18,14 +18,8 @@ constexpr double kDeep = 1e-6;  // m; a deeper overlap is more than a host's rou
 constexpr double kTurns[] = {0, 0.75, 2};
 
 const char* name_of(Bodies bodies) {
-  switch (bodies) {
-    case Bodies::Colliders:
-      return "balls, boxes, capsules, cylinders";
-    case Bodies::Ellipsoids:
-      return "ellipsoids";
-    default:
-      return "superellipsoids";
-  }
+  constexpr const char* kNames[] = {"balls, boxes, capsules, cylinders", "ellipsoids", "superellipsoids"};
+  return kNames[static_cast<std::size_t>(bodies)];
 }
 
 /// s; the processor time of this process so far. std::clock is too coarse for one search.

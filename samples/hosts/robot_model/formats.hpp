@@ -1,4 +1,4 @@
-// The two formats behind read_scene().
+// SDF behind read_scene(), and what its reader shares with that of URDF.
 #pragma once
 
 #include <algorithm>
@@ -8,12 +8,9 @@
 
 #include "scene.hpp"
 
-class TiXmlDocument;
-
 namespace robot_model {
 
 Scene read_sdf(const std::string& path, bool strict);
-Scene read_urdf(const std::string& path, const TiXmlDocument& document, bool strict);
 
 /// The shape of a <geometry>; none, with a line in scene.left_out, if it is not known and the reader is not strict.
 inline std::optional<Shape> shape_in(Scene& scene, bool strict, const std::string& element, const TextOf& text_of,
