@@ -3,11 +3,12 @@
 #include <supernormal/supernormal.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "world.hpp"
+#include "common/ode_world.hpp"
 
 namespace resting {
 namespace {
@@ -18,6 +19,57 @@ constexpr double kLeastTilt = 1;      // degrees
 constexpr double kGoldenAngle = 2.4;  // rad; no two drops have the same axis of tilt
 constexpr int kSamples = 9;           // samples of the heightfield along each side
 
+constexpr double kGravity = 9.81;  // m/s^2
+constexpr int kMostRoom = 8;       // contacts
+
+/// A world set up as in a first program with ODE: its defaults, gravity along -z, auto-disable, and Coulomb friction of 0.5 between
+/// all surfaces.
+class World {
+ public:
+  /// `space` is destroyed with the world. `step`: s. `room`: max_contacts, 1 to 8. With `looks_ahead` the bodies of Supernormal
+  /// have contacts before they overlap.
+  World(dSpaceID space, double step, int room, bool looks_ahead)
+      : world_(space), step_(step), room_(room), looks_ahead_(looks_ahead) {
+    dWorldSetGravity(id(), 0, 0, static_cast<dReal>(-kGravity));
+    dWorldSetAutoDisableFlag(id(), 1);
+  }
+
+  dWorldID id() const { return world_.id(); }
+  dSpaceID space() const { return world_.space(); }
+
+  /// Adds a body of this mass with the geom, which must be in the space.
+  dBodyID add(dGeomID geom, const dMass& mass) {
+    const dBodyID body = world_.add(geom, mass);
+    if (looks_ahead_ && dGeomGetClass(geom) == snGeomClass()) snGeomSetLookAhead(geom, static_cast<dReal>(step_));
+    return body;
+  }
+
+  /// Makes a step. `number` seeds quickstep's order of rows, so a run repeats.
+  void step(int number) {
+    world_.collide([this](dGeomID o1, dGeomID o2) { add_contacts(o1, o2); });
+    dRandSetSeed(static_cast<unsigned long>(number));
+    world_.step(step_);
+  }
+
+ private:
+  void add_contacts(dGeomID o1, dGeomID o2) {
+    std::array<dContact, kMostRoom> found;
+    const int count = dCollide(o1, o2, room_, &found[0].geom, sizeof(dContact));
+    for (int i = 0; i < count; ++i) {
+      dContact& contact = found[static_cast<std::size_t>(i)];
+      contact.surface.mode = dContactApprox1;
+      contact.surface.mu = static_cast<dReal>(0.5);
+      snContactLookAhead(&contact, static_cast<dReal>(step_));
+      world_.join(contact);
+    }
+  }
+
+  common::OdeWorld world_;
+  double step_;
+  int room_;
+  bool looks_ahead_;
+};
+
 /// The floor with its top at z = 0. ODE refers to the arrays of a mesh or a heightfield as long as the geom lives.
 class Floor {
  public:
@@ -27,9 +79,7 @@ class Floor {
     if (field_ != nullptr) dGeomHeightfieldDataDestroy(field_);
   }
   Floor(const Floor&) = delete;
-  Floor(Floor&&) = delete;
   Floor& operator=(const Floor&) = delete;
-  Floor& operator=(Floor&&) = delete;
 
   /// `size` is the distance from the middle to the border, m.
   void lay(FloorKind kind, dSpaceID space, double size) {
@@ -99,7 +149,7 @@ Rest drop(const Row& row, const Orientations& orientations, int number) {
   dQuaternion orientation;
   dQFromAxisAndAngle(tilted, static_cast<dReal>(std::cos(direction)), static_cast<dReal>(std::sin(direction)), 0,
                      static_cast<dReal>(tilt * std::numbers::pi / 180));
-  dQFromAxisAndAngle(on_its_side, 0, 1, 0, lies_on_its_side(row.kind) ? static_cast<dReal>(M_PI_2) : 0);
+  dQFromAxisAndAngle(on_its_side, 0, 1, 0, row.kind.lies_on_its_side() ? static_cast<dReal>(M_PI_2) : 0);
   dQMultiply0(orientation, tilted, on_its_side);
   dBodySetQuaternion(body, orientation);
   // A long body far from level would start in the floor, which would throw it beyond its border.

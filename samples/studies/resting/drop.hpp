@@ -15,7 +15,7 @@ enum class FloorKind { Plane, Box, Mesh, Heightfield, Superellipsoid };
 /// A row of the matrix: all choices of a program, and the size of the body. Everything else has ODE's defaults.
 struct Row {
   FloorKind floor = FloorKind::Plane;
-  BodyKind kind = BodyKind::Brick;
+  BodyKind kind = body_kinds().front();
   double exponent = 0;             ///< 0: the dBox or dCylinder of the same size
   double half_height = 0.05;       ///< m
   double step = 0.01;              ///< s

@@ -104,7 +104,7 @@ class Heights {
 
 std::vector<std::string> names_of_bodies() {
   std::vector<std::string> names;
-  for (const NamedKind& named : body_kinds()) names.push_back(named.name);
+  for (const BodyKind& kind : body_kinds()) names.emplace_back(kind.name);
   return names;
 }
 
@@ -116,8 +116,8 @@ class Matrix {
   int run() {
     std::printf(
         "body, floor, half-height m, step s, room, correcting m/s, exponent: asleep, median s, highest, lowest (counterpart)\n");
-    for (const NamedKind& named : body_kinds()) {
-      if (std::find(options_.bodies.begin(), options_.bodies.end(), named.name) != options_.bodies.end()) run(named);
+    for (const BodyKind& kind : body_kinds()) {
+      if (std::find(options_.bodies.begin(), options_.bodies.end(), kind.name) != options_.bodies.end()) run(kind);
     }
     ours_.print("ours");
     counterparts_.print("dBox or dCylinder");
@@ -126,13 +126,13 @@ class Matrix {
   }
 
  private:
-  void run(const NamedKind& named) {
+  void run(const BodyKind& kind) {
     for (const std::string& floor : options_.floors) {
       for (const double half_height : options_.half_heights) {
         for (const double step : options_.steps) {
           for (const double velocity : options_.correcting_velocities) {
             for (const int room : options_.rooms) {
-              compare(named, floor, {kFloors.at(floor), named.kind, 0, half_height, step, room, velocity, options_.looks_ahead});
+              compare(floor, {kFloors.at(floor), kind, 0, half_height, step, room, velocity, options_.looks_ahead});
             }
           }
         }
@@ -140,19 +140,19 @@ class Matrix {
     }
   }
 
-  void compare(const NamedKind& named, const std::string& floor, Row row) {
+  void compare(const std::string& floor, Row row) {
     const Summary box = summarise(row, options_.orientations);
     const std::vector<double> none = {HUGE_VAL};
-    for (const double exponent : has_exponent(named.kind) ? options_.exponents : none) {
+    for (const double exponent : row.kind.has_exponent() ? options_.exponents : none) {
       row.exponent = exponent;
       const Summary ours = summarise(row, options_.orientations);
-      const bool is_good = is_as_good(ours, box, lies_on_its_side(named.kind));
+      const bool is_good = is_as_good(ours, box, row.kind.lies_on_its_side());
       ++rows_;
       ours_.add(ours);
       counterparts_.add(box);
       worse_ += is_good ? 0 : 1;
       if (is_good && !options_.prints_all) continue;
-      std::printf("%-13s %-11s %5.3f %6.4f %d %3.1f %3.0f: %2d %6.3f %6.3f %6.3f (%2d %6.3f %6.3f %6.3f)%s\n", named.name.c_str(),
+      std::printf("%-13s %-11s %5.3f %6.4f %d %3.1f %3.0f: %2d %6.3f %6.3f %6.3f (%2d %6.3f %6.3f %6.3f)%s\n", row.kind.name,
                   floor.c_str(), row.half_height, row.step, row.room, row.correcting_velocity, exponent, ours.asleep, ours.median,
                   ours.highest, ours.lowest, box.asleep, box.median, box.highest, box.lowest, is_good ? "" : " worse");
       std::fflush(stdout);

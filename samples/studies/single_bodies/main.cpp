@@ -1,8 +1,11 @@
 // Single bodies and small clouds with a closed-form or published result. Prints both side by side as a Markdown table.
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "lab.hpp"
 
@@ -36,27 +39,16 @@ void print(const Result& result) {
   std::printf(" | %s |\n", result.source.c_str());
 }
 
-bool is_wanted(const char* name, int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(name, argv[i]) == 0) return true;
-  }
-  return argc == 1;
-}
-
-/// Returns the exit code: 2 for an unknown experiment.
+/// Returns the exit code.
 int run_program(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) {
-    bool known = false;
-    for (const Experiment& experiment : kExperiments) known = known || std::strcmp(experiment.name, argv[i]) == 0;
-    if (known) continue;
-    std::fprintf(stderr, "usage: single_bodies [EXPERIMENT...]\nunknown experiment \"%s\"; allowed:", argv[i]);
-    for (const Experiment& experiment : kExperiments) std::fprintf(stderr, " %s", experiment.name);
-    std::fprintf(stderr, "\n");
-    return 2;
-  }
+  std::vector<std::string> names, wanted;
+  for (const Experiment& experiment : kExperiments) names.emplace_back(experiment.name);
+  CLI::App app("Compares motions of single bodies and small clouds with closed forms and published results");
+  app.add_option("EXPERIMENT", wanted, "all without a name")->check(CLI::IsMember(names));
+  CLI11_PARSE(app, argc, argv);
   std::printf("| experiment | quantity | ours | reference | deviation | source |\n|---|---|---:|---:|---:|---|\n");
   for (const Experiment& experiment : kExperiments) {
-    if (!is_wanted(experiment.name, argc, argv)) continue;
+    if (!wanted.empty() && std::ranges::find(wanted, experiment.name) == wanted.end()) continue;
     for (const Result& result : experiment.run()) print(result);
     std::fflush(stdout);
   }
