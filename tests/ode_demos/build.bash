@@ -5,19 +5,17 @@ demos=$PWD/build/ode_demos
 
 # build_demos NAME...
 build_demos() {
-  local headers=(-Iinclude -Ibuild/release/include) compiler=${CXX:-c++} demo source ode libraries unit
+  local headers=(-Iinclude -Ibuild/release/include) compiler=${CXX:-c++} demo source ode libraries
   [[ -d $demos/fetched ]] || { rm -rf "$demos" && fetch_ode_source "$demos" && mkdir "$demos/fetched"; }
   source=$(echo "$demos"/source/ode-*/)
   cmake --preset release >/dev/null
   cmake --build --preset release --target supernormal >/dev/null
   read -ra ode <<<"$(pkg-config --cflags ode)"
   read -ra libraries <<<"$(pkg-config --libs ode)"
-  for unit in headless replaced; do
-    "$compiler" -std=c++20 -O2 "${headers[@]}" "${ode[@]}" -idirafter "$source/include" -c "tests/ode_demos/$unit.cpp" -o "$demos/$unit.o"
-  done
+  "$compiler" -std=c++20 -O2 "${headers[@]}" "${ode[@]}" -idirafter "$source/include" -c tests/ode_demos/headless.cpp -o "$demos/headless.o"
   for demo in "$@"; do
     "$compiler" -O2 -w "${ode[@]}" -include tests/ode_demos/replaced.h -idirafter "$source/include" "$source/ode/demo/demo_$demo.cpp" \
-      "$demos/headless.o" "$demos/replaced.o" -o "$demos/$demo" -Lbuild/release/lib -lsupernormal "${libraries[@]}" \
+      "$demos/headless.o" -o "$demos/$demo" -Lbuild/release/lib -lsupernormal "${libraries[@]}" \
       "-Wl,-rpath,$PWD/build/release/lib"
   done
 }

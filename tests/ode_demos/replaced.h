@@ -1,5 +1,5 @@
 /* Included before ODE's demos by the compiler (-include): the names of ODE's functions for spheres and boxes become those of
- * replaced.cpp, in the demo and in ODE's headers alike, so that the source of the demo stays as it is. */
+ * headless.cpp, in the demo and in ODE's headers alike, so that the source of the demo stays as it is. */
 #define dCreateSphere demo_create_sphere
 #define dCreateBox demo_create_box
 #define dGeomDestroy demo_geom_destroy
