@@ -1,7 +1,6 @@
 // The styles as a plugin of LAMMPS. LAMMPS calls lammpsplugin_init() when it loads the file.
 #include "lammps.h"
 #include "lammpsplugin.h"
-#include "styles/fix_contact_history.hpp"
 #include "styles/fix_nve_supernormal.hpp"
 #include "styles/fix_rigid_supernormal.hpp"
 #include "styles/fix_wall_supernormal.hpp"

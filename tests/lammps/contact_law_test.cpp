@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernel/cluster.hpp"
-#include "kernel/damping_ratio.hpp"
+#include "kernel/body.hpp"
+#include "kernel/contact_material.hpp"
 #include "support/refusal.hpp"
 #include "support/relative.hpp"
 #include "two_bodies.hpp"

@@ -1,4 +1,4 @@
-// Walls that forces move.
+// Walls that forces move, and the clock of a run with a changing step.
 #include "kernel/walls/driven_wall.hpp"
 
 #include <doctest/doctest.h>
@@ -35,6 +35,10 @@ Drive sliding(const Vector3& axis, double force, double mass) {
   drive.force = force;
   drive.mass = mass;
   return drive;
+}
+
+void advance(Clock& clock, int steps, double step) {
+  for (int i = 0; i < steps; ++i) clock.advance(step);
 }
 
 }  // namespace
@@ -117,4 +121,26 @@ TEST_CASE("lammps: a drive goes with the motions of its wall") {
   const auto velocity = wall.velocity_on(carrier, {Vector3(1, 0, 0), Vector3(0, 0, 2)});
   CHECK((velocity.linear - Vector3(1 - 0.4, 3, 0)).norm() < 1e-12);
   CHECK((velocity.angular - Vector3(0, 0, 2)).norm() < 1e-12);
+}
+
+TEST_CASE("lammps clock: the time is a product while the step is constant, and a sum of products when it changes") {
+  Clock clock;
+  CHECK(clock.now() == 0);
+  advance(clock, 8000, 1e-5);
+  CHECK(clock.now() == 8000 * 1e-5);
+  advance(clock, 4000, 5e-6);
+  CHECK(clock.now() == 8000 * 1e-5 + 4000 * 5e-6);
+  advance(clock, 1, 1e-5);
+  CHECK(clock.now() == doctest::Approx(0.10001).epsilon(1e-14));
+}
+
+TEST_CASE("lammps clock: a clock resumed from saved data has the same time to the bit") {
+  Clock whole;
+  advance(whole, 1000, 0.1);
+  advance(whole, 333, 0.07);
+  Clock again(whole.state());
+  CHECK(again.now() == whole.now());
+  advance(whole, 100, 0.07);
+  advance(again, 100, 0.07);
+  CHECK(again.now() == whole.now());
 }

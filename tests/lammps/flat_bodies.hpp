@@ -12,7 +12,7 @@
 
 #include "common/motion.hpp"
 #include "kernel/face_contact.hpp"
-#include "kernel/walls/plane_wall.hpp"
+#include "kernel/walls/wall.hpp"
 #include "kernel/walls/wall_contacts.hpp"
 #include "support/relative.hpp"
 #include "two_bodies.hpp"
@@ -41,19 +41,26 @@ inline Eigen::Quaterniond tilted(double tilt, Random& random) {
          Eigen::Quaterniond(Eigen::AngleAxisd(random(0, 2 * std::numbers::pi), Vector3::UnitZ()));
 }
 
+/// A body whose axis z lies along x.
+inline const Eigen::Quaterniond kLies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
+
+/// The height (m), down from `height` in steps, at which a body that place(height) puts there touches.
+template <typename Place, typename Touches>
+double touching_height(double height, double step, Place place, Touches touches) {
+  place(height);
+  while (!touches()) place(height -= step);
+  return height;
+}
+
 /// Lowers the second body on the first one until they touch, and by up to 2e-4 m more. `world` rotates both.
 inline void lower(TwoBodies& pair, const Eigen::Quaterniond& world, const Vector3& aside, Random& random) {
   const Eigen::Quaterniond attitude1 = pair.first.attitude, attitude2 = pair.second.attitude;
   pair.first.place(Vector3::Zero(), world * attitude1);
-  double height = 0.06;
-  const auto place = [&] { pair.second.place(world * Vector3(aside + height * Vector3::UnitZ()), world * attitude2); };
-  place();
-  while (pair.find(0).state != PairState::Touching) {
-    height -= 1e-4;
-    place();
-  }
-  height -= random(0, 2e-4);
-  place();
+  const auto place = [&](double height) {
+    pair.second.place(world * Vector3(aside + height * Vector3::UnitZ()), world * attitude2);
+  };
+  const double touching = touching_height(0.06, 1e-4, place, [&] { return pair.find(0).state == PairState::Touching; });
+  place(touching - random(0, 2e-4));
 }
 
 struct Floor {
@@ -80,25 +87,16 @@ struct Floor {
 inline void check_slopes(Particle& body, Eigen::Quaterniond attitude, const ContactMaterial& material, Floor floor = {},
                          const Vector3& aside = Vector3::Zero()) {
   const double scale = material.stiffness * 1e-4;  // N
-  double height = 0.05;
-  const auto place = [&](const Vector3& shift, const Eigen::Quaterniond& turn) {
-    body.place(aside + height * Vector3::UnitZ() + shift, turn * attitude);
-  };
-  const auto still = Eigen::Quaterniond::Identity();
-  place(Vector3::Zero(), still);
-  while (floor.find(body, material, 0).energy == 0) {
-    height -= 5e-5;
-    place(Vector3::Zero(), still);
-  }
-  height -= 1e-4;
-  place(Vector3::Zero(), still);
+  const auto fall_to = [&](double height) { body.place(aside + height * Vector3::UnitZ(), attitude); };
+  fall_to(touching_height(0.05, 5e-5, fall_to, [&] { return floor.find(body, material, 0).energy != 0; }) - 1e-4);
+  const Vector3 place = body.body.pose.position;
   const WallForce force = floor.find(body, material, 0);
   const auto energy = [&](const Vector3& shift, const Eigen::Quaterniond& turn) {
-    place(shift, turn);
+    body.place(place + shift, turn * attitude);
     return floor.find(body, material, 0).energy;
   };
   for (int axis = 0; axis < 3; ++axis) {
-    const auto moved = [&](double way) { return energy(way * Vector3::Unit(axis), still); };
+    const auto moved = [&](double way) { return energy(way * Vector3::Unit(axis), Eigen::Quaterniond::Identity()); };
     CHECK(Slopes(moved(-1e-9), force.energy, moved(1e-9), 1e-9).miss(-force.force[axis]) < 1e-4 * scale);
     const auto turn = [&](double angle) { return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3::Unit(axis))); };
     const auto turned = [&](double angle) { return energy(Vector3::Zero(), turn(angle)); };

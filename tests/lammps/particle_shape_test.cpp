@@ -7,7 +7,6 @@
 #include <random>
 
 #include "kernel/free_rotation.hpp"
-#include "kernel/shape_cache.hpp"
 #include "support/relative.hpp"
 
 using namespace granular;

@@ -1,14 +1,18 @@
-// Straight sides on flat ground and on each other: their geometry, the gradient of their energy, and bodies that rest on them.
-#include "kernel/side_contact.hpp"
-
+// Straight sides on flat ground and on each other: their geometry, the gradient of their energy, bodies that rest on them, and the
+// searches and the fading behind them.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "flat_bodies.hpp"
+#include "kernel/face_contact.hpp"
+#include "kernel/fading.hpp"
+#include "kernel/maximum_on_arc.hpp"
 #include "support/relative.hpp"
 
 using namespace granular;
@@ -51,9 +55,8 @@ TEST_CASE("lammps: forces of a side on a plane are the derivatives of the energy
   for (int i = 0; i < 200; ++i) {
     const bool is_can = i % 4 < 2;
     Particle body{kBrick, is_can ? random(1.5, 3.5) : random(8, 30), is_can ? random(8, 30) : random(1.5, 3.5)};
-    const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
     const Eigen::Quaterniond rolled(Eigen::AngleAxisd(random(-3, 3), Vector3::Unit(is_can ? 2 : 1)));
-    check_slopes(body, tilted(random(0, 0.3), random) * lies * rolled, sticky(i));
+    check_slopes(body, tilted(random(0, 0.3), random) * kLies * rolled, sticky(i));
   }
 }
 
@@ -65,8 +68,7 @@ TEST_CASE("lammps: a body that drops on its side rests along a line, and rolls i
       Particle can({0.01, 0.012, 0.02}, delta, epsilon);
       const ContactMaterial material =
           prepared({.stiffness = 2e4, .restitution = 0.3, .friction = 0.5, .rolling_length = rolling_length});
-      const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
-      can.place({0, 0, 0.012}, Eigen::Quaterniond(Eigen::AngleAxisd(0.03, Vector3(0.2, 1, 0.2).normalized())) * lies);
+      can.place({0, 0, 0.012}, Eigen::Quaterniond(Eigen::AngleAxisd(0.03, Vector3(0.2, 1, 0.2).normalized())) * kLies);
       WallForce last;
       for (int i = 0; i < 100000; ++i) floor.advance(can, material, 1e-5, 9.81, last);
       CAPTURE(delta);
@@ -100,8 +102,6 @@ TEST_CASE("lammps: a level can has the whole stiffness, and one on its rim half 
 }
 
 namespace {
-
-const Eigen::Quaterniond kLies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
 
 /// A body with a side: a can, or a body with a boxy outline and a round profile.
 Particle with_side(bool is_can, Random& random) {
@@ -237,5 +237,80 @@ TEST_CASE("lammps: rolling over a flat spot of its outline, a can beside a borde
     CAPTURE(delta);
     CHECK(largest > 10);
     CHECK(largest < 1000);
+  }
+}
+
+namespace {
+
+/// The derivatives of cos(angle - top), and how often they were asked for.
+struct Cosine {
+  double top;
+  int* evaluations;
+  ArcSlope operator()(double angle) const {
+    ++*evaluations;
+    return {-std::sin(angle - top), -std::cos(angle - top)};
+  }
+};
+
+/// A roof with a sharp ridge: the slope jumps, and the second derivative is no help.
+ArcSlope roof(double angle) { return {angle < 0.3 ? 1.0 : -2.0, 0}; }
+
+}  // namespace
+
+TEST_CASE("lammps: the maximum of a cosine is found to rounding, by Newton's method") {
+  for (const double top : {-0.9, -1e-7, 0.0, 0.123, 0.99}) {
+    int evaluations = 0;
+    CHECK(std::abs(find_maximum_on_arc(Cosine{top, &evaluations}, -1, 1) - top) < 1e-14);
+    CHECK(evaluations <= 10);
+  }
+}
+
+TEST_CASE("lammps: the uphill search finds a maximum up to half a turn away, on either side") {
+  for (const double top : {-3.0, -1.5, -0.02, -1e-9, 0.0, 1e-9, 0.3, 1.6, 3.1}) {
+    int evaluations = 0;
+    CHECK(std::abs(find_maximum_uphill(Cosine{top, &evaluations}) - top) < 1e-14);
+    CHECK(evaluations <= 16);
+  }
+}
+
+TEST_CASE("lammps: a sharp ridge is found by bisection") {
+  CHECK(std::abs(find_maximum_on_arc(roof, 0, 1) - 0.3) < 1e-13);
+  CHECK(std::abs(find_maximum_uphill(roof) - 0.3) < 1e-13);
+}
+
+TEST_CASE("lammps: a slope that is only rounding, and a curvature that is infinite, leave the start") {
+  const double infinite = std::numeric_limits<double>::infinity();
+  CHECK(find_maximum_uphill([](double angle) { return ArcSlope{1e-300 - angle, -1}; }) == doctest::Approx(0).epsilon(1e-14));
+  CHECK(std::abs(find_maximum_uphill([&](double angle) { return ArcSlope{angle > 0 ? -1.0 : 1e-18, -infinite}; })) < 1e-13);
+}
+
+TEST_CASE("lammps: a ramp is 0 up to 0, 1 from 1 on, and a cubic with level ends in between") {
+  for (const double x : {-2.0, 0.0, 1.0, 7.0}) {
+    CHECK(Ramp(x).value == (x > 0.5 ? 1 : 0));
+    CHECK(Ramp(x).slope == 0);
+  }
+  CHECK(Ramp(0.5).value == 0.5);
+  CHECK(Ramp(0.5).slope == 1.5);
+  for (const double x : {0.1, 0.3, 0.8}) {
+    CHECK(Ramp(x).value + Ramp(1 - x).value == relative(1).epsilon(1e-15));
+    CHECK((Ramp(x + 1e-6).value - Ramp(x - 1e-6).value) / 2e-6 == relative(Ramp(x).slope).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("lammps: opposite faces count in full up to the largest tilt, half at 1.5 times, and not at all from twice on") {
+  const double largest = 0.2;
+  const Vector3 axis = Vector3(1, 2, -0.5).normalized(), normal2 = axis.unitOrthogonal();
+  const auto tilt = [&](double angle) { return Tilt(Eigen::AngleAxisd(angle, axis) * -normal2, normal2, largest); };
+  for (const auto& [angle, share] : {std::pair(0.0, 1.0), std::pair(0.199, 1.0), std::pair(0.3, 0.5), std::pair(0.401, 0.0)}) {
+    CHECK(tilt(angle).share == doctest::Approx(share).epsilon(1e-14));
+    CHECK(tilt(-angle).share == doctest::Approx(share).epsilon(1e-14));
+    if (angle != 0.3) CHECK(tilt(angle).by_turn == Vector3::Zero());
+  }
+  // Faces that look the same way.
+  CHECK(Tilt(normal2, normal2, largest).share == 0);
+  // The derivative is along the axis of the tilt, and odd in it.
+  for (const double angle : {-0.3, 0.25, 0.37}) {
+    const double slope = (tilt(angle + 1e-6).share - tilt(angle - 1e-6).share) / 2e-6;
+    CHECK((tilt(angle).by_turn - slope * axis).norm() < 1e-8);
   }
 }

@@ -7,10 +7,8 @@
 #include <stdexcept>
 
 #include "flat_bodies.hpp"
-#include "kernel/walls/box_wall.hpp"
-#include "kernel/walls/cylinder_wall.hpp"
 #include "kernel/walls/mesh_wall.hpp"
-#include "kernel/walls/plane_wall.hpp"
+#include "kernel/walls/wall.hpp"
 #include "kernel/walls/wall_contacts.hpp"
 #include "support/relative.hpp"
 
@@ -216,9 +214,8 @@ namespace {
 Particle flat_body(int kind, double tilt, Random& random) {
   Particle body{kBrick, kind == 1 ? random(1.5, 3.5) : random(6, 30), kind == 2 ? random(1.5, 3.5) : random(6, 30)};
   const Eigen::Quaterniond rolled(Eigen::AngleAxisd(random(-3, 3), Vector3::Unit(kind == 1 ? 2 : 1)));
-  const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
   const Eigen::Quaterniond up = kind == 0   ? face_up(static_cast<int>(random(0, 2.999)))
-                                : kind == 1 ? Eigen::Quaterniond(lies * rolled)
+                                : kind == 1 ? Eigen::Quaterniond(kLies * rolled)
                                             : rolled;
   body.place(Vector3::Zero(), tilted(random(0, tilt), random) * up);
   return body;
@@ -256,16 +253,11 @@ TEST_CASE("lammps: a floor of triangles bears faces and sides as a plane does, a
   for (int i = 0; i < 150; ++i) {
     Particle body = flat_body(i % 3, 0.1, random);
     const Vector3 aside = 0.01 * random.vector(1);
-    double height = 0.05;
-    const auto place = [&] { body.place({aside.x(), aside.y(), height}, body.attitude); };
-    place();
-    while (plane.find(body, material, 0).contacts == 0) {
-      height -= 1e-5;
-      place();
-    }
+    const auto place = [&](double height) { body.place({aside.x(), aside.y(), height}, body.attitude); };
+    const double height = touching_height(0.05, 1e-5, place, [&] { return plane.find(body, material, 0).contacts > 0; });
     // From just above the floor, where only faces touch, into it.
     for (const double depth : {-1e-5, -2e-6, 0.0, 1e-6, 1e-5, 1e-4}) {
-      body.place({aside.x(), aside.y(), height - depth}, body.attitude);
+      place(height - depth);
       const WallForce on_mesh = mesh.find(body, material, 0), on_plane = plane.find(body, material, 0);
       CHECK(on_mesh.contacts == on_plane.contacts);
       CHECK((on_mesh.force - on_plane.force).norm() < 1e-9);
@@ -311,15 +303,8 @@ TEST_CASE("lammps: a slope of triangles in single precision is one plane") {
       for (int i = 0; i < 30; ++i) {
         Particle body = flat_body(i % 3, i % 2 == 0 ? 0 : 0.1, random);
         const Eigen::Quaterniond attitude = slope * body.attitude;
-        double height = 0.05;
-        const auto place = [&] { body.place(middle + height * up, attitude); };
-        place();
-        while (plane.find(body, material, 0).contacts == 0) {
-          height -= 1e-5;
-          place();
-        }
-        height -= depth;
-        place();
+        const auto place = [&](double height) { body.place(middle + height * up, attitude); };
+        place(touching_height(0.05, 1e-5, place, [&] { return plane.find(body, material, 0).contacts > 0; }) - depth);
         const WallForce on_mesh = mesh.find(body, material, 0), on_plane = plane.find(body, material, 0);
         CAPTURE(away);
         CAPTURE(cell);
@@ -361,12 +346,11 @@ TEST_CASE("lammps: forces of a can in a pipe are the derivatives of the energy")
   Random random{std::mt19937(16)};
   Floor pipe;
   pipe.wall = std::make_shared<CylinderWall>(Vector3(0, 0, 0.04), Vector3::UnitX(), 0.04);
-  const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
   for (int i = 0; i < 100; ++i) {
     Particle can{{0.01, 0.012, 0.02}, random(1.5, 3), random(8, 30)};
     const Eigen::Quaterniond rolled(Eigen::AngleAxisd(random(-3, 3), Vector3::UnitZ()));
     const Eigen::Quaterniond askew(Eigen::AngleAxisd(random(-0.1, 0.1), random.vector(1).normalized()));
-    check_slopes(can, askew * lies * rolled, sticky(i), pipe, {0, random(-0.01, 0.01), -0.01});
+    check_slopes(can, askew * kLies * rolled, sticky(i), pipe, {0, random(-0.01, 0.01), -0.01});
   }
 }
 
@@ -376,15 +360,14 @@ TEST_CASE(
   pipe.wall = std::make_shared<CylinderWall>(Vector3(0, 0, 0.011), Vector3::UnitX(), 0.011);
   const ContactMaterial material = prepared({.stiffness = 1e5});
   Particle can({0.01, 0.01, 0.03}, 2, 20);
-  const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()));
-  can.place({0, 0, 0.01 - 1e-5}, lies);
+  can.place({0, 0, 0.01 - 1e-5}, kLies);
   const WallForce level = pipe.find(can, material, 0);
   CHECK(level.contacts == 1);
   CHECK(level.force.z() == relative(1).epsilon(1e-9));
   CHECK(level.torque.norm() < 1e-12);
   double last = 1;
   for (int k = 0; 1e-6 * k < can.shape->sides.at(0).tilt; ++k) {
-    can.place({0, 0, 0.01 - 1e-5}, Eigen::Quaterniond(Eigen::AngleAxisd(1e-6 * k, Vector3::UnitZ())) * lies);
+    can.place({0, 0, 0.01 - 1e-5}, Eigen::Quaterniond(Eigen::AngleAxisd(1e-6 * k, Vector3::UnitZ())) * kLies);
     const WallForce askew = pipe.find(can, material, 0);
     CHECK(std::abs(askew.force.z() - last) < 5e-3);
     last = askew.force.z();

@@ -7,14 +7,6 @@
 
 namespace granular {
 
-SliderForce slide(const Vector3& spring, const Vector3& rate, double stiffness, double damping, double limit) {
-  const Vector3 force = -(stiffness * spring + damping * rate);
-  const double size = force.norm();
-  if (size <= limit) return {force, spring, false};
-  const Vector3 cut = (limit / size) * force;
-  return {cut, -(cut + damping * rate) / stiffness, true};
-}
-
 NormalForce hooke_force(const ContactMaterial& material, double depth) {
   const double force = material.stiffness * depth;
   return {force, material.stiffness, 0.5 * force * depth};
@@ -35,6 +27,24 @@ NormalForce hertz_force(const ContactMaterial& material, double depth, const sup
 }
 
 namespace {
+
+/// The state of a slider: a spring and damper in series with friction, or with rolling resistance. Units: force and displacement,
+/// or torque and angle.
+struct SliderForce {
+  Vector3 force = Vector3::Zero();   ///< against the motion
+  Vector3 spring = Vector3::Zero();  ///< the remaining deflection
+  bool slips = false;                ///< whether the limit was reached
+};
+
+/// The force of a spring with the deflection `spring` and a damper with the velocity `rate`, at most `limit`. Beyond the limit the
+/// spring is shortened, so it pulls back as soon as the motion reverses.
+SliderForce slide(const Vector3& spring, const Vector3& rate, double stiffness, double damping, double limit) {
+  const Vector3 force = -(stiffness * spring + damping * rate);
+  const double size = force.norm();
+  if (size <= limit) return {force, spring, false};
+  const Vector3 cut = (limit / size) * force;
+  return {cut, -(cut + damping * rate) / stiffness, true};
+}
 
 constexpr double kRollingStiffness =
     2.25;  // rolling stiffness over normal stiffness * rolling_length^2 (Ai et al., Powder Technology 206, 269 (2011))

@@ -11,18 +11,6 @@
 
 namespace granular {
 
-/// The state of a slider: a spring and damper in series with friction, or with rolling resistance. Units: force and displacement,
-/// or torque and angle.
-struct SliderForce {
-  Vector3 force = Vector3::Zero();   ///< against the motion
-  Vector3 spring = Vector3::Zero();  ///< the remaining deflection
-  bool slips = false;                ///< whether the limit was reached
-};
-
-/// The force of a spring with the deflection `spring` and a damper with the velocity `rate`, at most `limit`. Beyond the limit the
-/// spring is shortened, so it pulls back as soon as the motion reverses.
-SliderForce slide(const Vector3& spring, const Vector3& rate, double stiffness, double damping, double limit);
-
 /// The history of a pair, in the world frame, for body 1.
 struct ContactHistory {
   Vector3 normal = Vector3::Zero();   ///< of the last query, from body 1 to body 2; zero if there was none

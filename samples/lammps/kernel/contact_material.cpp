@@ -2,13 +2,14 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <sstream>
 #include <stdexcept>
 
-#include "kernel/damping_ratio.hpp"
-#include "kernel/refuse.hpp"
 #include "supernormal/contact/hertz.hpp"
 
 namespace granular {
+
 namespace {
 
 constexpr double kLargest = std::numeric_limits<double>::max();
@@ -16,6 +17,16 @@ constexpr double kLargest = std::numeric_limits<double>::max();
 /// This form of the test refuses NaN.
 void require(const char* name, double value, double least, double most, const char* range) {
   if (!(value >= least && value <= most)) refuse(name, value, range);
+}
+
+/// Solves f(x) = value for an increasing f.
+template <typename Function>
+double solve(const Function& f, double value, double low, double high) {
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (f(middle) < value ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
 }  // namespace
@@ -58,5 +69,20 @@ double effective_modulus(double youngs_modulus, double poisson_ratio) {
 }
 
 double mindlin_ratio(double poisson_ratio) { return 2 * (1 - poisson_ratio) / (2 - poisson_ratio); }
+
+double hooke_damping_ratio(double restitution) {
+  // With b = cos a, the force vanishes at time 2 a / sin a in units of 1/omega. The restitution is exp(-2 a cot a). Beyond critical
+  // damping, b = cosh a, the functions become hyperbolic.
+  const double logarithm = -0.5 * std::log(restitution);
+  if (logarithm <= 0) return 0;
+  if (logarithm < 1) return std::cos(solve([](double a) { return -a / std::tan(a); }, -logarithm, 0, std::numbers::pi / 2));
+  return std::cosh(solve([](double a) { return a / std::tanh(a); }, logarithm, 0, logarithm));
+}
+
+void refuse(const std::string& name, double value, const std::string& range) {
+  std::ostringstream message;
+  message << name << " = " << value << " is outside " << range;
+  throw std::invalid_argument(message.str());
+}
 
 }  // namespace granular

@@ -1,6 +1,8 @@
 // The material of two surfaces in contact.
 #pragma once
 
+#include <string>
+
 namespace granular {
 
 /// The elastic normal force.
@@ -35,5 +37,13 @@ ContactMaterial mixed(const ContactMaterial& a, const ContactMaterial& b);
 /// to normal stiffness.
 double effective_modulus(double youngs_modulus, double poisson_ratio);
 double mindlin_ratio(double poisson_ratio);
+
+/// The damping ratio b, in 2 b sqrt(k m), of a linear spring that gives an impact this restitution, in (0, 1]. The contact ends as
+/// soon as its force would become attractive (Schwager and Poeschel, Granular Matter 9, 465 (2007)). The ratio does not depend on
+/// the velocity.
+double hooke_damping_ratio(double restitution);
+
+/// Throws std::invalid_argument with the parameter, its value and the valid range.
+[[noreturn]] void refuse(const std::string& name, double value, const std::string& range);
 
 }  // namespace granular

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "kernel/fading.hpp"
-#include "kernel/side_contact.hpp"
 
 namespace granular {
 namespace {

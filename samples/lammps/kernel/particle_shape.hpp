@@ -1,5 +1,10 @@
-// A superellipsoid with the quantities that a particle simulation needs at every step.
+// A superellipsoid with the quantities that a particle simulation needs at every step, and a store of such shapes.
 #pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <unordered_map>
 
 #include "kernel/face.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
@@ -27,5 +32,23 @@ struct ParticleShape {
 
 /// The largest distance of a point of a superellipsoid from its centre, m.
 double bounding_radius(const Vector3& half_axes, double delta, double epsilon);
+
+/// Owns shapes. Their addresses are valid until clear().
+class ShapeCache {
+ public:
+  /// The shape with these half-axes (m) and exponents. Throws std::invalid_argument like Superellipsoid.
+  const ParticleShape& find(const Vector3& half_axes, double delta, double epsilon);
+
+  std::size_t size() const { return shapes_.size(); }
+  void clear() { shapes_.clear(); }
+
+ private:
+  using Key = std::array<double, 5>;
+  struct Hash {
+    std::size_t operator()(const Key& key) const;
+  };
+
+  std::unordered_map<Key, std::unique_ptr<const ParticleShape>, Hash> shapes_;
+};
 
 }  // namespace granular

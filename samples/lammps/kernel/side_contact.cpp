@@ -1,14 +1,15 @@
-#include "kernel/side_contact.hpp"
-
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <unsupported/Eigen/AutoDiff>
 
+#include "kernel/face_contact.hpp"
 #include "kernel/fading.hpp"
 #include "kernel/maximum_on_arc.hpp"
 
 namespace granular {
+
 namespace {
 
 // The part of a normal across a side. Lines end in a pole of the body there, so they have no share, by which the derivative of
@@ -189,54 +190,6 @@ Varying find_tilt_share(const Body& body, const Side& side, const Vector3& own, 
   return varying(1 - ramp.value, Vector3::Zero(), -ramp.slope / largest * (rotation * by_normal).cross(rotation * own));
 }
 
-}  // namespace
-
-std::optional<FaceContact> find_side_contact(const Body& body, const Ground& ground) {
-  const Vector3 normal = -ground.frame.col(2);
-  const Vector3 own = body.pose.rotation.transpose() * normal;
-  const Side* const side = find_side(body, own);
-  if (side == nullptr) return std::nullopt;
-  const Varying tilt_share = find_tilt_share(body, *side, own, std::min(side->tilt, ground.tilt));
-  if (tilt_share.value() == 0) return std::nullopt;
-
-  std::array<Vector3, 2> points;
-  std::array<Varying, 2> depths;
-  std::array<Place<Varying>, 2> line;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Side::End end = side->end(own, k == 0 ? -1 : 1);
-    const Matrix3& rotation = body.pose.rotation;
-    const Vector3 arm = rotation * end.point, place = rotation * end.place, turn = (rotation * end.by_roll).cross(normal);
-    const Vector3 centre = body.pose.position - ground.origin;
-    points.at(k) = body.pose.position + arm;
-    depths.at(k) = varying(normal.dot(centre + arm), normal, arm.cross(normal));
-    const auto part = [&](const Vector3& axis) {
-      return varying(axis.dot(centre + place), axis, place.cross(axis) + axis.dot(rotation * end.roll) * turn);
-    };
-    line.at(k) = {part(ground.frame.col(0)), part(ground.frame.col(1))};
-  }
-
-  Part common;
-  if (!ground.patches.empty() && !ground.is_surface) {
-    common = clip(line, ground.patches.front());
-    if (!(common.from < common.to)) return std::nullopt;
-  }
-  const double width = std::min(2 * side->reach, ground.width);
-  Varying share = tilt_share * find_cover(line, width, ground.is_surface ? std::span<const Patch>() : ground.patches);
-  if (ground.is_surface && share.value() > 0) share = share * find_whole_cover(line, width, ground.patches);
-  if (share.value() == 0) return std::nullopt;
-
-  FaceContact contact;
-  contact.origin = body.pose.position;
-  for (const Varying& place : {common.from, common.to}) {
-    const Varying depth = depths[0] + place * (depths[1] - depths[0]);
-    add_end(depth, points[0] + place.value() * (points[1] - points[0]), normal, contact);
-  }
-  set_share(share, contact);
-  return contact;
-}
-
-namespace {
-
 /// The second derivative of an end's support function along a direction, m.
 double bend_along(const Side::End& end, const Matrix3& rotation, const Vector3& along) {
   const double part = along.dot(rotation * end.by_roll);
@@ -358,6 +311,50 @@ PipeEnd find_pipe_end(const Body& body, const Side& side, int sign, const Pipe& 
 }
 
 }  // namespace
+
+std::optional<FaceContact> find_side_contact(const Body& body, const Ground& ground) {
+  const Vector3 normal = -ground.frame.col(2);
+  const Vector3 own = body.pose.rotation.transpose() * normal;
+  const Side* const side = find_side(body, own);
+  if (side == nullptr) return std::nullopt;
+  const Varying tilt_share = find_tilt_share(body, *side, own, std::min(side->tilt, ground.tilt));
+  if (tilt_share.value() == 0) return std::nullopt;
+
+  std::array<Vector3, 2> points;
+  std::array<Varying, 2> depths;
+  std::array<Place<Varying>, 2> line;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Side::End end = side->end(own, k == 0 ? -1 : 1);
+    const Matrix3& rotation = body.pose.rotation;
+    const Vector3 arm = rotation * end.point, place = rotation * end.place, turn = (rotation * end.by_roll).cross(normal);
+    const Vector3 centre = body.pose.position - ground.origin;
+    points.at(k) = body.pose.position + arm;
+    depths.at(k) = varying(normal.dot(centre + arm), normal, arm.cross(normal));
+    const auto part = [&](const Vector3& axis) {
+      return varying(axis.dot(centre + place), axis, place.cross(axis) + axis.dot(rotation * end.roll) * turn);
+    };
+    line.at(k) = {part(ground.frame.col(0)), part(ground.frame.col(1))};
+  }
+
+  Part common;
+  if (!ground.patches.empty() && !ground.is_surface) {
+    common = clip(line, ground.patches.front());
+    if (!(common.from < common.to)) return std::nullopt;
+  }
+  const double width = std::min(2 * side->reach, ground.width);
+  Varying share = tilt_share * find_cover(line, width, ground.is_surface ? std::span<const Patch>() : ground.patches);
+  if (ground.is_surface && share.value() > 0) share = share * find_whole_cover(line, width, ground.patches);
+  if (share.value() == 0) return std::nullopt;
+
+  FaceContact contact;
+  contact.origin = body.pose.position;
+  for (const Varying& place : {common.from, common.to}) {
+    const Varying depth = depths[0] + place * (depths[1] - depths[0]);
+    add_end(depth, points[0] + place.value() * (points[1] - points[0]), normal, contact);
+  }
+  set_share(share, contact);
+  return contact;
+}
 
 std::optional<FaceContact> find_pipe_contact(const Body& body, const Pipe& pipe, std::span<const Vector3> normals,
                                              std::size_t which) {

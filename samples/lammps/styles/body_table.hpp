@@ -1,12 +1,11 @@
-// The particles of a rank, owned and ghosts, as bodies of the kernel.
+// The particles of a rank, owned and ghosts, as bodies of the kernel, and what moves rigid clusters of them.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
 #include "kernel/body.hpp"
-#include "kernel/cluster.hpp"
-#include "kernel/shape_cache.hpp"
+#include "kernel/particle_shape.hpp"
 #include "lammps.h"
 
 namespace LAMMPS_NS {
@@ -78,6 +77,21 @@ class BodyTable {
     double way = 0;                                        // m
   };
   std::vector<Turn> turns_;
+};
+
+/// A fix whose clusters the pair style knows.
+class RigidClusters {
+ public:
+  RigidClusters() = default;
+  RigidClusters(const RigidClusters&) = delete;
+  RigidClusters& operator=(const RigidClusters&) = delete;
+
+  /// The cluster of an owned particle. The answer is valid until LAMMPS builds its neighbour lists again.
+  virtual Cluster cluster(int i) const = 0;
+
+ protected:
+  // Not virtual: LAMMPS deletes its fixes as such, and their destructors may throw in some versions.
+  ~RigidClusters() = default;
 };
 
 }  // namespace granular

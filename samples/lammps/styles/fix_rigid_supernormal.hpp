@@ -10,8 +10,8 @@
 #include "fix_rigid_nve.h"
 #include "fix_rigid_nve_small.h"
 #include "fix_rigid_small.h"
+#include "styles/body_table.hpp"
 #include "styles/pair_supernormal.hpp"
-#include "styles/rigid_clusters.hpp"
 #include "styles/stored_forces.hpp"
 
 namespace granular {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "fix.h"
-#include "kernel/clock.hpp"
 #include "kernel/walls/driven_wall.hpp"
 #include "kernel/walls/wall_contacts.hpp"
 #include "styles/pair_supernormal.hpp"

@@ -19,8 +19,8 @@
 #include "neigh_list.h"
 #include "neigh_request.h"
 #include "neighbor.h"
-#include "styles/coefficients.hpp"
 #include "styles/fix_nve_supernormal.hpp"
+#include "styles/words.hpp"
 #include "update.h"
 
 namespace granular {

@@ -3,17 +3,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <memory>
 #include <vector>
 
+#include "comm.h"
+#include "fix_neigh_history.h"
 #include "kernel/pair_contact.hpp"
 #include "pair.h"
 #include "styles/body_table.hpp"
-#include "styles/rigid_clusters.hpp"
-
-namespace LAMMPS_NS {
-class FixNeighHistory;
-}
+#include "update.h"
 
 namespace granular {
 
@@ -48,7 +47,6 @@ class PairSupernormal : public LAMMPS_NS::Pair {
 
   BodyTable& bodies() { return *bodies_; }
   const ContactMaterial& material(int i, int j) const { return materials_[index(i, j)]; }
-  const supernormal::Settings& query_settings() const { return query_settings_; }
 
   /// Warns, once in a run on each rank, if particle i is deeper (m) in another body than `least` (m), the smallest half-axis of
   /// both.
@@ -107,6 +105,32 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   std::vector<std::size_t> first_proof_;  // per particle of the list
   std::array<double, SumCount> sums_{};
   std::array<double, kSingles> singles_{};
+};
+
+/// fix SUPERNORMAL_HISTORY, which the pair style creates: LAMMPS' history of neighbours, which write_restart between two runs does
+/// not spoil. LAMMPS stores the histories with the particles at the end of a run, and again for the file. By then its ghosts are
+/// new, but the list of neighbours is not, so pairs across a periodic side would get other particles' springs.
+class FixContactHistory : public LAMMPS_NS::FixNeighHistory {
+ public:
+  using FixNeighHistory::FixNeighHistory;
+
+  void post_run() override {
+    FixNeighHistory::post_run();
+    stored_ = update->ntimestep;
+  }
+  void post_neighbor() override {
+    FixNeighHistory::post_neighbor();
+    stored_ = kNever;
+  }
+  void write_restart(FILE* file) override {
+    if (update->ntimestep != stored_) return FixNeighHistory::write_restart(file);
+    const int size = 0;  // of what is stored besides the particles
+    if (comm->me == 0) fwrite(&size, sizeof size, 1, file);
+  }
+
+ private:
+  static constexpr LAMMPS_NS::bigint kNever = -1;
+  LAMMPS_NS::bigint stored_ = kNever;  // the step whose histories a run has stored at its end, until the next list of neighbours
 };
 
 }  // namespace granular

@@ -1,7 +1,9 @@
 // The forces of the last step on each particle, in restart files.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -20,17 +22,39 @@ class StoredForces {
   void grow(int count) { forces_.resize(static_cast<std::size_t>(count), none()); }
   void forget(int i) { at(i) = none(); }  ///< of a new particle
   void copy(int from, int to) { at(to) = at(from); }
-  int pack(int i, double* buffer) const;
-  int unpack(int i, const double* buffer);
-  int pack_restart(int i, double* buffer) const;
+  int pack(int i, double* buffer) const {
+    std::ranges::copy(at(i), buffer);
+    return kSize;
+  }
+  int unpack(int i, const double* buffer) {
+    std::copy_n(buffer, kSize, at(i).begin());
+    return kSize;
+  }
+  /// In a restart file, the first number of a fix is the count of its numbers.
+  int pack_restart(int i, double* buffer) const {
+    buffer[0] = kRestartSize;
+    return 1 + pack(i, buffer + 1);
+  }
   /// Reads what LAMMPS keeps of the restart file for the fix number `set`.
-  void unpack_restart(const LAMMPS_NS::Atom& atom, int i, int set);
+  void unpack_restart(const LAMMPS_NS::Atom& atom, int i, int set) {
+    const double* numbers = atom.extra[i];
+    for (int k = 0; k < set; ++k) numbers += static_cast<int>(*numbers);
+    unpack(i, numbers + 1);
+    is_restored = true;
+  }
 
   /// Stores the present forces on a particle.
-  void store(const LAMMPS_NS::Atom& atom, int i);
+  void store(const LAMMPS_NS::Atom& atom, int i) {
+    std::copy_n(atom.f[i], 3, at(i).begin());
+    std::copy_n(atom.torque[i], 3, at(i).begin() + 3);
+  }
   /// Whether the forces come from a restart file. Then put_back() sets those that are known, and the caller resets this.
   bool is_restored = false;
-  void put_back(LAMMPS_NS::Atom& atom, int i) const;
+  void put_back(LAMMPS_NS::Atom& atom, int i) const {
+    if (std::isnan(at(i)[0])) return;
+    std::copy_n(at(i).begin(), 3, atom.f[i]);
+    std::copy_n(at(i).begin() + 3, 3, atom.torque[i]);
+  }
 
   double bytes() const { return static_cast<double>(forces_.capacity() * sizeof(Forces)); }  ///< memory in use
 

@@ -1,4 +1,4 @@
-// Reads the words of a command in order.
+// Reads the words of a command in order, and the contact parameters among them.
 #pragma once
 
 #include <initializer_list>
@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "kernel/body.hpp"
+#include "kernel/contact_material.hpp"
 #include "lammps.h"
 
 namespace granular {
@@ -41,5 +42,19 @@ class Words {
   std::span<char*> words_;
   LAMMPS_NS::LAMMPS* lammps_;
 };
+
+/// The parsed parameters.
+struct Coefficients {
+  bool has_material = false;
+  ContactMaterial material;
+  bool has_exponents = false;
+  double delta = 2, epsilon = 2;
+};
+
+/// Parses, in any order,
+///     hooke STIFFNESS | hertz YOUNGS_MODULUS POISSON_RATIO, restitution E, friction MU, tangential RATIO, rolling LENGTH,
+///     spinning LENGTH, adhesion FORCE, exponents DELTA EPSILON
+/// All have defaults except the law. Throws std::invalid_argument with the error.
+Coefficients read_coefficients(Words words);
 
 }  // namespace granular

@@ -1,4 +1,4 @@
-// A wall that forces move along an axis, or about it.
+// A wall that forces move along an axis, or about it, and the time of its run.
 #pragma once
 
 #include "common/drive.hpp"
@@ -6,6 +6,32 @@
 #include "kernel/body.hpp"
 
 namespace granular {
+
+/// The time (s) of a run with steps of any length. The step counter of LAMMPS is no measure of time: it may be reset, and the step
+/// may change at any moment. While the step is constant, the time is an exact product.
+class Clock {
+ public:
+  struct State {
+    double before = 0;  ///< s; time before the first step of the present length
+    double steps = 0;   ///< steps of the present length so far; an integer
+    double step = 0;    ///< s
+  };
+
+  Clock() = default;
+  explicit Clock(const State& state) : state_(state) {}
+
+  double now() const { return state_.before + state_.steps * state_.step; }
+  const State& state() const { return state_; }
+
+  /// Adds one step (s).
+  void advance(double step) {
+    if (step != state_.step) state_ = {now(), 0, step};
+    ++state_.steps;
+  }
+
+ private:
+  State state_;
+};
 
 /// The degree of freedom of a driven wall, with the laws of a [[part]] of falling_particles. It is integrated like the particles,
 /// by velocity Verlet: kick(), drift(), forces of the contacts, kick(). Damping is implicit. A servo has no mass: each first kick()

@@ -1,12 +1,13 @@
-// A rigid surface in contact with particles.
+// Rigid surfaces in contact with particles: a plane, a box and a cylinder; mesh_wall.hpp has triangles.
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <vector>
 
-#include "kernel/ground.hpp"
+#include "kernel/face_contact.hpp"
 #include "kernel/particle_shape.hpp"
 #include "supernormal/proximity/pose.hpp"
 
@@ -38,6 +39,50 @@ class Wall {
 
   /// Appends the contacts of a particle. `pose` is in the frame of the wall.
   virtual void add_contacts(const ParticleShape& shape, const supernormal::Pose& pose, std::vector<WallContact>& contacts) = 0;
+};
+
+/// The half-space behind a plane.
+class PlaneWall final : public Wall {
+ public:
+  /// A point of the plane, m, and its normal out of the wall, any length but 0. Throws std::invalid_argument otherwise.
+  PlaneWall(const Vector3& point, const Vector3& normal);
+
+  void add_contacts(const ParticleShape& shape, const supernormal::Pose& pose, std::vector<WallContact>& contacts) override;
+
+ private:
+  Vector3 normal_;
+  double offset_;  // m; normal . x on the plane
+};
+
+/// Six flat walls that face inwards.
+class BoxWall final : public Wall {
+ public:
+  /// The lowest and the highest corner, m. Throws std::invalid_argument unless low < high.
+  BoxWall(const Vector3& low, const Vector3& high);
+
+  void add_contacts(const ParticleShape& shape, const supernormal::Pose& pose, std::vector<WallContact>& contacts) override;
+
+ private:
+  std::vector<std::unique_ptr<PlaneWall>> sides_;
+};
+
+/// The outside of an infinite cylinder.
+///
+/// A body K protrudes from a cylinder by max |p - axis| - radius over its points p. |p| is the largest p.u over the unit vectors u
+/// perpendicular to the axis. So the protrusion is the largest support function h(u) of the body, relative to the axis, minus the
+/// radius. This leaves one unknown angle. Each maximum is a contact, so a long particle rests on both of its ends. The minimum
+/// between two of them is subtracted.
+class CylinderWall final : public Wall {
+ public:
+  /// A point of the axis, m; its direction, any length but 0; the radius, m, > 0. Throws std::invalid_argument otherwise.
+  CylinderWall(const Vector3& point, const Vector3& axis, double radius);
+
+  void add_contacts(const ParticleShape& shape, const supernormal::Pose& pose, std::vector<WallContact>& contacts) override;
+
+ private:
+  Vector3 point_;
+  Vector3 across1_, across2_;  // unit; a frame together with the axis
+  double radius_;
 };
 
 }  // namespace granular

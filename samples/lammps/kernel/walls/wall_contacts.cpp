@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "kernel/side_contact.hpp"
+#include "kernel/face_contact.hpp"
 #include "supernormal/contact/contact_curvature.hpp"
 
 namespace granular {

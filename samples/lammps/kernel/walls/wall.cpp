@@ -1,4 +1,4 @@
-#include "kernel/walls/cylinder_wall.hpp"
+#include "kernel/walls/wall.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,10 +6,12 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "kernel/contact_material.hpp"
 #include "kernel/maximum_on_arc.hpp"
-#include "kernel/refuse.hpp"
+#include "supernormal/proximity/plane.hpp"
 
 namespace granular {
+
 namespace {
 
 // Subdivision of the arc of normals along which the body can protrude, and of an interval with a maximum in it. Two maxima within
@@ -50,6 +52,29 @@ class Outline {
 };
 
 }  // namespace
+
+PlaneWall::PlaneWall(const Vector3& point, const Vector3& normal) : normal_(normal.normalized()), offset_(normal_.dot(point)) {
+  if (!(normal.norm() > 0)) throw std::invalid_argument("plane: the normal has no direction");
+}
+
+void PlaneWall::add_contacts(const ParticleShape& shape, const supernormal::Pose& pose, std::vector<WallContact>& contacts) {
+  if (normal_.dot(pose.position) - offset_ >= shape.bounding_radius) return;
+  const supernormal::Proximity found = supernormal::find_plane_proximity(shape.body, pose, normal_, offset_);
+  if (found.gap < shape.bulge)
+    contacts.push_back({found.normal, found.contact, -found.gap, Matrix3::Zero(), Ground::plane(found.point2, normal_)});
+}
+
+BoxWall::BoxWall(const Vector3& low, const Vector3& high) {
+  if (!(low.array() < high.array()).all()) throw std::invalid_argument("box: the low corner is not below the high one");
+  for (int axis = 0; axis < 3; ++axis) {
+    sides_.push_back(std::make_unique<PlaneWall>(low, Vector3::Unit(axis)));
+    sides_.push_back(std::make_unique<PlaneWall>(high, -Vector3::Unit(axis)));
+  }
+}
+
+void BoxWall::add_contacts(const ParticleShape& shape, const supernormal::Pose& pose, std::vector<WallContact>& contacts) {
+  for (const auto& side : sides_) side->add_contacts(shape, pose, contacts);
+}
 
 CylinderWall::CylinderWall(const Vector3& point, const Vector3& axis, double radius) : point_(point), radius_(radius) {
   if (!(axis.norm() > 0)) throw std::invalid_argument("cylinder: the axis has no direction");
