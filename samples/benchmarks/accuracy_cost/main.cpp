@@ -1,20 +1,19 @@
 // Measures the cost of a query: our solvers and others on the same pairs of bodies, with the same support function, in one run.
 
+#include <supernormal/supernormal.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "common/measured_tables.hpp"
+#include "costs.hpp"
 #include "measurement.hpp"
-#include "ode/collider_cost.hpp"
-#include "ode/face_cost.hpp"
-#include "ode/pair_cost.hpp"
-#include "query_cost.hpp"
-#include "report/environment.hpp"
 
 namespace {
 
@@ -39,9 +38,14 @@ struct Options {
 
 void run(const Options& options) {
   const Effort effort{options.rounds, options.batch_us * 1e-6};
-  if (options.colliders) return write_collider_costs(options.poses, options.seed, effort, std::cout);
-  if (options.faces) return write_face_costs(effort, std::cout);
-  if (options.dcollide) return write_pair_costs(options.pairs / kPairRows, options.seed, effort, std::cout);
+  if (options.colliders || options.faces || options.dcollide) {
+    if (snInit() == 0) throw std::runtime_error(snLastError());
+    for (const auto& [name, value] : environment()) std::cout << "* " << name << ": " << value << "\n";
+    if (options.colliders) write_collider_costs(options.poses, options.seed, effort, std::cout);
+    if (options.faces) write_face_costs(effort, std::cout);
+    if (options.dcollide) write_pair_costs(options.pairs / kPairRows, options.seed, effort, std::cout);
+    return snClose();
+  }
   std::vector<common::MeasuredTable> tables;
   if (options.atlas) tables.push_back(query_costs(kAtlasPairs, options.seed, effort));
   tables.push_back(literature_costs(kAtlasPairs, options.seed, effort));

@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
-#include "random_geometry.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 
 namespace accuracy_cost {
+
 namespace {
 
 using common::Random;
@@ -30,37 +29,12 @@ struct Range {
   double low, high;
 };
 
-Range exponents_of(BodyClass body_class) {
-  switch (body_class) {
-    case BodyClass::Ellipsoid:
-    case BodyClass::Sphere:
-      return {2, 2};
-    case BodyClass::Moderate:
-      return {1.3, 5};
-    case BodyClass::Boxy:
-      return {6, 20};
-    case BodyClass::Octahedral:
-      return {1.1, 1.3};
-    case BodyClass::Needle:
-      return {2, 5};
-  }
-  throw std::logic_error("no such class");
-}
+// Of each class, and of each situation the gap over the smallest half-axis; Far has another.
+constexpr std::array<Range, 6> kExponents = {{{2, 2}, {1.3, 5}, {6, 20}, {1.1, 1.3}, {2, 5}, {2, 2}}};
+constexpr std::array kGaps = {-0.01, -0.3, 0.01, 0.0, 0.0};
 
 double wanted_gap(Random& random, Situation situation, double size) {
-  switch (situation) {
-    case Situation::Shallow:
-      return -0.01 * size;
-    case Situation::Deep:
-      return -0.3 * size;
-    case Situation::Near:
-      return 0.01 * size;
-    case Situation::Touching:
-      return 0;
-    case Situation::Far:
-      break;
-  }
-  return uniform(random, 1, 5);
+  return situation == Situation::Far ? uniform(random, 1, 5) : kGaps[static_cast<std::size_t>(situation)] * size;
 }
 
 /// The i-th of kReferenceStarts directions, uniformly spread on a golden-angle spiral.
@@ -105,13 +79,31 @@ Pair draw_pair(Random& random, BodyClass body_class, Situation situation) {
 
 }  // namespace
 
+using common::Random;
+using supernormal::Matrix3;
+using supernormal::Vector3;
+
+double uniform(Random& random, double low, double high) { return low + (high - low) * random.uniform(); }
+
+Vector3 random_normal(Random& random) {
+  const double z = uniform(random, -1, 1);
+  const double angle = 2 * std::numbers::pi * random.uniform();
+  const double across = std::sqrt(1 - z * z);
+  return {across * std::cos(angle), across * std::sin(angle), z};
+}
+
+Matrix3 random_orientation(Random& random) {
+  const auto [w, x, y, z] = random.rotation();
+  return Eigen::Quaterniond(w, x, y, z).toRotationMatrix();
+}
+
 std::shared_ptr<const Shape> random_body(Random& random, BodyClass body_class) {
   const double a = uniform(random, 0.5, 1.5);
   const double b = uniform(random, 0.5, 1.5);
   const double c = uniform(random, 0.5, 1.5);
   if (body_class == BodyClass::Sphere) return std::make_shared<supernormal::Ellipsoid>(Vector3::Constant(a));
   if (body_class == BodyClass::Ellipsoid) return std::make_shared<supernormal::Ellipsoid>(Vector3(a, b, c));
-  const Range range = exponents_of(body_class);
+  const Range& range = kExponents[static_cast<std::size_t>(body_class)];
   const double delta = uniform(random, range.low, range.high);
   const double epsilon = uniform(random, range.low, range.high);
   const double thin = body_class == BodyClass::Needle ? 0.1 : 1;

@@ -1,4 +1,4 @@
-// The pairs of bodies for all methods.
+// The pairs of bodies for all methods, and the random numbers that they are drawn with.
 #pragma once
 
 #include <array>
@@ -11,6 +11,14 @@
 #include "supernormal/shapes/shape.hpp"
 
 namespace accuracy_cost {
+
+double uniform(common::Random& random, double low, double high);
+
+/// A unit vector, uniform on the sphere.
+supernormal::Vector3 random_normal(common::Random& random);
+
+/// A uniform rotation.
+supernormal::Matrix3 random_orientation(common::Random& random);
 
 /// Classes of bodies by their exponents, uniform in: 2; 1.3...5; 6...20; 1.1...1.3; 2...5; 2. Half-axes are 0.5...1.5 m. In a
 /// needle, two of them are a tenth of this. Those of a sphere are equal.

@@ -1,5 +1,3 @@
-#include "query_cost.hpp"
-
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -7,7 +5,8 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "report/statistics.hpp"
+#include "costs.hpp"
+#include "measurement.hpp"
 #include "supernormal/supernormal.h"
 
 namespace accuracy_cost {
@@ -102,8 +101,7 @@ MeasuredTable table_of(const std::string& name, std::size_t pair_count, std::uin
                                std::vector<std::string> lines;
                                lines.reserve(methods.size());
                                for (std::size_t m = 0; m < methods.size(); ++m) {
-                                 const auto all = [](const Pair&) { return true; };
-                                 lines.push_back(line(*methods[m], body_class, situation, statistics(samples[m], pairs, all)));
+                                 lines.push_back(line(*methods[m], body_class, situation, statistics(samples[m], pairs)));
                                }
                                return lines;
                              }});

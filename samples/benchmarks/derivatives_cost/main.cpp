@@ -1,9 +1,9 @@
 // What derivatives and clearances cost beside the query, as a Markdown table.
 //
-//     derivatives_cost [--pairs 1024] [--rounds 7] [--seed 7] [--only TEXT] [--way N]
+//     derivatives_cost [--pairs 1024] [--rounds 7] [--seed 7] [--only TEXT]
 //
 // Pairs are drawn at a random normal, at which their witness points have the gap. The rounds of all ways of asking are interleaved,
-// and the least processor time of each counts. With --way N only this way is asked, once and untimed, to count its instructions.
+// and the least processor time of each counts.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
@@ -119,7 +119,7 @@ void print_row(const Kind& kind, std::size_t count, int rounds, unsigned seed, d
 int main(int argc, char** argv) try {
   CLI::App app("What derivatives and clearances cost beside the query.");
   std::size_t count = 1024;
-  int rounds = 7, way = -1;
+  int rounds = 7;
   unsigned seed = 7;
   std::string only;
   app.option_defaults()->always_capture_default();
@@ -127,25 +127,13 @@ int main(int argc, char** argv) try {
   app.add_option("--rounds", rounds, "how often each way of asking is timed")->check(CLI::Range(1, 1000));
   app.add_option("--seed", seed, "another seed: other pairs");
   app.add_option("--only", only, "rows whose name has this text");
-  app.add_option("--way", way, "asks only this column, 0 to 5, and times nothing")
-      ->check(CLI::Range(-1, static_cast<int>(kWays.size()) - 1));
   CLI11_PARSE(app, argc, argv);
   double sum = 0;
-  if (way < 0) {
-    std::printf("| pairs |");
-    for (const Way& column : kWays) std::printf(" %s, ns |", column.name);
-    std::printf("\n|---|--:|--:|--:|--:|--:|--:|\n");
-  }
+  std::printf("| pairs |");
+  for (const Way& way : kWays) std::printf(" %s, ns |", way.name);
+  std::printf("\n|---|--:|--:|--:|--:|--:|--:|\n");
   for (const Kind& kind : kKinds) {
-    if (std::string(kind.name).find(only) == std::string::npos) continue;
-    if (way < 0) {
-      print_row(kind, count, rounds, seed, sum);
-    } else {
-      const std::vector<Pair> pairs = draw_pairs(kind, count, seed);
-      for (int round = 0; round < rounds; ++round) {
-        for (const Pair& pair : pairs) sum += kWays[static_cast<std::size_t>(way)].ask(pair);
-      }
-    }
+    if (std::string(kind.name).find(only) != std::string::npos) print_row(kind, count, rounds, seed, sum);
   }
   std::fprintf(stderr, "sum of the answers: %g\n", sum);
   return 0;

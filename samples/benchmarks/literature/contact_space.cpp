@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "published_methods.hpp"
+#include "method.hpp"
+#include "newton_step.hpp"
 #include "supernormal/proximity/gap_function.hpp"
-#include "tangents.hpp"
 
 namespace literature {
 namespace {

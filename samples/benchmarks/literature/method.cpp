@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "published_methods.hpp"
-
 namespace literature {
 namespace {
 

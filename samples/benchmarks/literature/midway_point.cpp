@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
+#include "method.hpp"
 #include "newton_step.hpp"
-#include "published_methods.hpp"
 
 namespace literature {
 namespace {

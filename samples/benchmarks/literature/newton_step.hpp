@@ -1,8 +1,12 @@
-// The step of Newton's method for a small system of equations.
+// The step of Newton's method for a small system of equations, and the tangents in its equations.
 #pragma once
 
 #include <Eigen/LU>
+#include <array>
+#include <limits>
 #include <optional>
+
+#include "superquadric.hpp"
 
 namespace literature {
 
@@ -28,5 +32,28 @@ std::optional<Eigen::Vector<double, kSize>> newton_step_of_any_rank(const Eigen:
   if (!step.allFinite()) return {};
   return step;
 }
+
+/// The second and third columns of the Householder matrix that maps a unit normal to the x-axis (Lopes et al. 2010, 2013), and
+/// their derivatives by the normal.
+struct Tangents {
+  std::array<Vector3, 2> tangent;
+  std::array<Matrix3, 2> rate;
+};
+
+Tangents tangents_of(const Vector3& normal);
+
+/// A unit vector and its derivative, from a vector of any length with its derivative. NaN for a zero vector.
+template <int kColumns>
+struct Normalized {
+  Vector3 vector;
+  Eigen::Matrix<double, 3, kColumns> rate;
+
+  Normalized(const Vector3& v, const Eigen::Matrix<double, 3, kColumns>& v_rate) {
+    double length = v.norm();
+    if (length == 0) length = std::numeric_limits<double>::quiet_NaN();
+    vector = v / length;
+    rate = (v_rate - vector * (vector.transpose() * v_rate)) / length;
+  }
+};
 
 }  // namespace literature

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "simulation.hpp"
+#include "bed.hpp"
 
 namespace look_ahead_beds {
 namespace {
@@ -83,11 +83,6 @@ class BulletSimulation final : public Simulation {
   ~BulletSimulation() override {
     for (const auto& body : bodies_) world_.removeRigidBody(body.get());
   }
-
-  BulletSimulation(const BulletSimulation&) = delete;
-  BulletSimulation(BulletSimulation&&) = delete;
-  BulletSimulation& operator=(const BulletSimulation&) = delete;
-  BulletSimulation& operator=(BulletSimulation&&) = delete;
 
   void step() override {
     const double start = processor_time();

@@ -1,24 +1,21 @@
 // Measures the benefit of contacts before overlap in a bed of grains. Pours the same beds with plain contacts, with contacts ahead
-// and, if available, with Bullet, at several steps. Prints overlaps, costs, and times at equal overlap.
+// and, if available, with Bullet, at several steps. Prints overlaps and costs.
 
 #include <ode/ode.h>
 #include <supernormal/supernormal.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <fstream>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "bed.hpp"
-#include "simulation.hpp"
 
 namespace {
 
@@ -43,10 +40,7 @@ struct Options {
   std::vector<double> exponents = {2, 4, 8, 20, 60};
   std::vector<double> steps = {0.00025, 0.0005, 0.001, 0.002, 0.004, 0.008};
   std::vector<int> iterations = {40};
-  int draws = 1;
   double duration = 1;  // s
-  double deepest = 1e-3;
-  double mean = 2.7e-4;
   std::string csv;
 };
 
@@ -86,35 +80,6 @@ Outcome pour(const Method& method, const Bed& bed, const Settings& settings, dou
   return outcome;
 }
 
-/// Means over the draws. Overlaps and energies scatter by factors, so their means are geometric.
-Outcome mean_of(const std::vector<Outcome>& draws) {
-  const double share = 1 / static_cast<double>(draws.size());
-  Outcome mean{draws.front().step, 1, 1, 1, {}};
-  for (const Outcome& draw : draws) {
-    mean.deepest *= std::pow(draw.deepest, share);
-    mean.mean *= std::pow(draw.mean, share);
-    mean.energy *= std::pow(draw.energy, share);
-    mean.costs.finding += share * draw.costs.finding;
-    mean.costs.solving += share * draw.costs.solving;
-    mean.costs.rows += share * draw.costs.rows;
-    mean.costs.evaluations += share * draw.costs.evaluations;
-  }
-  return mean;
-}
-
-/// The time per simulated second at which a sweep has this overlap, by a power law between neighbouring steps, s. Empty if no
-/// overlap is so small or so large.
-std::optional<double> time_at(const std::vector<Outcome>& sweep, double Outcome::*overlap, double value) {
-  for (std::size_t k = sweep.size(); k-- > 1;) {  // from the longest step, since a scattering overlap may occur twice
-    const Outcome& one = sweep[k - 1];
-    const Outcome& other = sweep[k];
-    if (!(one.*overlap <= value && value <= other.*overlap)) continue;
-    const double part = std::log(value / one.*overlap) / std::log(other.*overlap / one.*overlap);
-    return one.costs.seconds() * std::pow(other.costs.seconds() / one.costs.seconds(), part);
-  }
-  return {};
-}
-
 class Beds {
  public:
   explicit Beds(const Options& options) : options_(options) {
@@ -139,23 +104,14 @@ class Beds {
         }
       }
     }
-    std::printf("\n%s", ratios_.c_str());
   }
 
  private:
   void sweep(const Method& method, double exponent, int iterations) {
-    std::vector<Outcome> sweep;
     for (const double step : options_.steps) {
-      std::vector<Outcome> draws;
-      for (int draw = 1; draw <= options_.draws; ++draw) {
-        const Bed bed = make_bed(options_.grains, exponent, static_cast<unsigned>(draw));
-        draws.push_back(pour(method, bed, {step, iterations}, options_.duration));
-      }
-      sweep.push_back(mean_of(draws));
-      write(method.name, exponent, iterations, sweep.back());
+      const Bed bed = make_bed(options_.grains, exponent, 1);
+      write(method.name, exponent, iterations, pour(method, bed, {step, iterations}, options_.duration));
     }
-    std::sort(sweep.begin(), sweep.end(), [](const Outcome& one, const Outcome& other) { return one.step < other.step; });
-    add_ratio(method.name, exponent, iterations, sweep);
   }
 
   void write(const std::string& method, double exponent, int iterations, const Outcome& o) {
@@ -169,26 +125,8 @@ class Beds {
          << o.costs.solving << ',' << o.costs.seconds() << std::endl;
   }
 
-  void add_ratio(const std::string& method, double exponent, int iterations, const std::vector<Outcome>& sweep) {
-    const auto text = [&](double Outcome::*overlap, const char* name, double value) {
-      std::array<char, 100> line;
-      const std::optional<double> time = time_at(sweep, overlap, value);
-      if (time) {
-        std::snprintf(line.data(), line.size(), "%s overlap of %g: %.2f s", name, value, *time);
-      } else {
-        std::snprintf(line.data(), line.size(), "%s overlap of %g: at none of these steps", name, value);
-      }
-      return std::string(line.data());
-    };
-    std::array<char, 100> head;
-    std::snprintf(head.data(), head.size(), "%d, %g, %s, %d iterations: ", options_.grains, exponent, method.c_str(), iterations);
-    ratios_ += std::string(head.data()) + text(&Outcome::deepest, "deepest", options_.deepest) + "; " +
-               text(&Outcome::mean, "mean", options_.mean) + "\n";
-  }
-
   const Options& options_;
   std::ofstream csv_;
-  std::string ratios_;
 };
 
 void run(const Options& options) {
@@ -214,10 +152,7 @@ int main(int argc, char** argv) {
     app.add_option("--exponents", options.exponents, "of the grains, above 1")->delimiter(',');
     app.add_option("--steps", options.steps, "s")->check(CLI::Range(1e-6, 1.0))->delimiter(',');
     app.add_option("--iterations", options.iterations, "of the solver")->check(CLI::Range(1, 100000))->delimiter(',');
-    app.add_option("--draws", options.draws, "beds of each kind, of which means are taken")->check(CLI::Range(1, 1000));
     app.add_option("--duration", options.duration, "s")->check(CLI::Range(0.01, 1000.0))->capture_default_str();
-    app.add_option("--deepest", options.deepest, "overlap at which times are compared")->check(CLI::PositiveNumber);
-    app.add_option("--mean", options.mean, "likewise")->check(CLI::PositiveNumber);
     app.add_option("--csv", options.csv, "file to which the results are added");
     CLI11_PARSE(app, argc, argv);
     run(options);

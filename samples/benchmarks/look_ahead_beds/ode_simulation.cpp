@@ -3,8 +3,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "bed.hpp"
 #include "common/ode_world.hpp"
-#include "simulation.hpp"
 
 namespace look_ahead_beds {
 namespace {
@@ -39,11 +39,6 @@ class OdeSimulation final : public Simulation {
   }
 
   ~OdeSimulation() override { dSpaceDestroy(walls_); }
-
-  OdeSimulation(const OdeSimulation&) = delete;
-  OdeSimulation(OdeSimulation&&) = delete;
-  OdeSimulation& operator=(const OdeSimulation&) = delete;
-  OdeSimulation& operator=(OdeSimulation&&) = delete;
 
   void step() override {
     snResetStatistics();

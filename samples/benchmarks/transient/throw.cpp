@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "random_geometry.hpp"
+#include "pairs.hpp"
 #include "supernormal/proximity/clearance.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 

@@ -5,23 +5,58 @@
 #include <ctime>
 #include <map>
 #include <optional>
+#include <utility>
+
+#include "literature/method.hpp"
+#include "supernormal/proximity/solve.hpp"
 
 namespace transient {
+
 namespace {
 
 using accuracy_cost::Answer;
 using accuracy_cost::Method;
+using accuracy_cost::Methods;
 using accuracy_cost::Pair;
+using accuracy_cost::Start;
+using supernormal::Proximity;
+using supernormal::Solver;
+
+constexpr double kTolerance = 1e-9;  // the tolerance of all methods that have one
+constexpr double kFinest = 1e-14;
+constexpr double kCertifiedTolerance = 1e-14;
+
+class Certified final : public Method {
+ public:
+  Certified() : Method(kCertified) {}
+
+  Answer query(const Pair& pair) const override {
+    const Proximity found = certified_proximity(pair);
+    return {Answer::Kind::Gap, found.gap, found.normal, static_cast<double>(found.evaluations), found.contact};
+  }
+};
+
+void add_ours(std::vector<Contestant>& all, const char* name, Solver solver, double tolerance = kTolerance) {
+  all.push_back({name, "cold", accuracy_cost::supernormal_method(name, solver, Start::Cold, tolerance), nullptr});
+  all.push_back({name, "warm", accuracy_cost::supernormal_method(name, solver, Start::Cold, tolerance),
+                 accuracy_cost::supernormal_method(name, solver, Start::Warm, tolerance)});
+}
+
+/// The name of a method in a list includes the number of vertices if the methods differ by it.
+void add_cold(std::vector<Contestant>& all, Methods methods, bool has_sizes) {
+  for (auto& method : methods) {
+    const std::string name = has_sizes ? method->name() + " (" + method->accuracy() + " vertices)" : method->name();
+    all.push_back({name, "cold", std::move(method), nullptr});
+  }
+}
 
 constexpr double kWrong = 1e-6;   // of the smallest half-axis of the pair
 constexpr double kParted = 0.01;  // smallest half-axes
 
 using Key = std::pair<std::size_t, std::size_t>;
 
-/// The record of a pair while its bounding boxes meet.
-struct Memory {
-  std::optional<Vector3> normal;  ///< the last answer's, in the frame of body 1
-};
+/// The last answer's normal of each pair whose bounding boxes meet, in the frame of body 1.
+using Memory = std::map<Key, std::optional<Vector3>>;
 
 double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -53,12 +88,11 @@ Touch touch_of(const Answer& answer) {
 /// The pairs of a step and the method's answers.
 class Step {
  public:
-  Step(Throw& world, const Contestant& contestant, std::map<Key, Memory>& memories, Outcome& outcome)
-      : contestant_(contestant), outcome_(outcome) {
-    std::map<Key, Memory> current;
+  Step(Throw& world, const Contestant& contestant, Memory& memory, Outcome& outcome) : contestant_(contestant), outcome_(outcome) {
+    Memory current;
     for (const auto& [body1, body2] : world.neighbours()) {
       const Key key(body1, body2);
-      const auto known = memories.find(key);
+      const auto known = memory.find(key);
       Pair pair{accuracy_cost::BodyClass::Ellipsoid,
                 accuracy_cost::Situation::Touching,
                 world.shape(body1),
@@ -73,15 +107,15 @@ class Step {
                 {}};
       pair.size = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
       // The preparation of a body, made once, is not timed.
-      if (known == memories.end()) contestant.cold->query(pair);
-      const Memory memory = known == memories.end() ? Memory() : known->second;
-      if (memory.normal) pair.warm_normal = *memory.normal;
-      is_warm_.push_back(contestant.warm != nullptr && memory.normal.has_value());
+      if (known == memory.end()) contestant.cold->query(pair);
+      const std::optional<Vector3> normal = known == memory.end() ? std::nullopt : known->second;
+      if (normal) pair.warm_normal = *normal;
+      is_warm_.push_back(contestant.warm != nullptr && normal.has_value());
       pairs_.push_back(std::move(pair));
       keys_.push_back(key);
-      current.emplace(key, memory);
+      current.emplace(key, normal);
     }
-    memories.swap(current);
+    memory.swap(current);
     answers_.resize(pairs_.size());
     const double start = processor_time();
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
@@ -95,7 +129,7 @@ class Step {
       if (is_warm_[k]) ++outcome_.warm_queries;
       if (answer.kind == Answer::Kind::None) ++outcome_.failed;
       outcome_.evaluations += answer.evaluations;
-      std::optional<Vector3>& normal = memories[keys_[k]].normal;
+      std::optional<Vector3>& normal = memory[keys_[k]];
       normal.reset();
       if (answer.kind == Answer::Kind::Gap && std::abs(answer.normal.squaredNorm() - 1) < 1e-6) {
         normal = (pairs_[k].pose1.rotation.transpose() * answer.normal).normalized();
@@ -148,24 +182,51 @@ double distance(const Throw& world, const std::vector<Vector3>& positions) {
 
 }  // namespace
 
+Proximity certified_proximity(const Pair& pair) {
+  supernormal::Settings settings;
+  settings.tolerance = kCertifiedTolerance;
+  settings.certify_depth = true;
+  return find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, settings);
+}
+
+std::vector<Contestant> contestants() {
+  std::vector<Contestant> all;
+  all.push_back({kCertified, "cold", std::make_unique<Certified>(), nullptr});
+  add_ours(all, "hybrid", Solver::Hybrid);
+  add_ours(all, "hybrid at 1e-14", Solver::Hybrid, kFinest);
+  add_ours(all, "Newton (Algorithm I)", Solver::Newton);
+  add_ours(all, "fixed point (Algorithm II)", Solver::FixedPoint);
+  add_cold(all, accuracy_cost::literature_methods(Start::Cold, kTolerance), false);
+  Methods cold = accuracy_cost::literature_methods(Start::Cold, kTolerance);
+  Methods warm = accuracy_cost::literature_methods(Start::Warm, kTolerance);
+  for (std::size_t k = 0; k < cold.size(); ++k) {
+    const std::string name = cold[k]->name();
+    all.push_back({name, "warm", std::move(cold[k]), std::move(warm[k])});
+  }
+  add_cold(all, accuracy_cost::libccd_methods(), false);
+  add_cold(all, accuracy_cost::bullet_methods(), false);
+  add_cold(all, accuracy_cost::literature_mesh_methods(accuracy_cost::Motion::Moves), true);
+  return all;
+}
+
 Outcome watch(const Trial& trial, const Contestant& contestant) {
   Throw world(trial.setup, false);
   Outcome outcome;
-  std::map<Key, Memory> memories;
+  Memory memory;
   const int steps = static_cast<int>(std::lround(trial.duration / trial.setup.step));
-  for (int k = 0; k < steps; ++k) world.step(Step(world, contestant, memories, outcome).certified_touches());
+  for (int k = 0; k < steps; ++k) world.step(Step(world, contestant, memory, outcome).certified_touches());
   return outcome;
 }
 
 Outcome run(const Trial& trial, const Contestant& contestant, bool is_disturbed, const Path* certified, Path* path) {
   Throw world(trial.setup, is_disturbed);
   Outcome outcome;
-  std::map<Key, Memory> memories;
+  Memory memory;
   const int steps = static_cast<int>(std::lround(trial.duration / trial.setup.step));
   const int between = std::max(1, (steps + trial.judged_steps - 1) / std::max(1, trial.judged_steps));
   const double energy = world.kinetic_energy();
   for (int k = 0; k < steps; ++k) {
-    const Step step(world, contestant, memories, outcome);
+    const Step step(world, contestant, memory, outcome);
     if (trial.judged_steps > 0 && k % between == 0) step.judge_all();
     world.step(step.touches());
     if (!trial.setup.has_friction) {

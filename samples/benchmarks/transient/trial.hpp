@@ -1,13 +1,31 @@
-// One method in one world: its cost, its failures, and their effect on the motion.
+// The compared methods as narrow phases of a world, and one of them in one world: its cost, its failures, and their effect on the
+// motion.
 #pragma once
 
 #include <limits>
+#include <memory>
+#include <string>
 #include <vector>
 
-#include "contestant.hpp"
+#include "methods/method.hpp"
 #include "throw.hpp"
 
 namespace transient {
+
+struct Contestant {
+  std::string name;
+  std::string start;  ///< "cold", or "warm": from the answer of the step before
+  std::unique_ptr<accuracy_cost::Method> cold;
+  std::unique_ptr<accuracy_cost::Method> warm;  ///< null: every query is cold
+};
+
+inline constexpr const char* kCertified = "certified";
+
+/// The certified proximity: the hybrid at tolerance 1e-12, which proves the depth minimal.
+supernormal::Proximity certified_proximity(const accuracy_cost::Pair& pair);
+
+/// The certified answer first.
+std::vector<Contestant> contestants();
 
 /// The positions of all bodies after each step.
 using Path = std::vector<std::vector<Vector3>>;

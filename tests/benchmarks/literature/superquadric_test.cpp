@@ -1,17 +1,20 @@
-// Tests of the descriptions of the literature: derivatives against differences, and the descriptions against each other.
+// Tests of the descriptions of the literature: derivatives against differences, and the descriptions against each other; and the
+// step of Newton's method.
 #include "literature/superquadric.hpp"
 
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
-#include "literature/tangents.hpp"
+#include "literature/newton_step.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 
 using namespace literature;
+using Eigen::Matrix2d;
 
 namespace {
 
@@ -106,4 +109,28 @@ TEST_CASE("tangents: they form an orthonormal frame with the normal, and their d
     }
   }
   for (const double x : {1.0, -1.0}) CHECK(tangents_of(x * Vector3::UnitX()).tangent[0].allFinite());
+}
+
+TEST_CASE("literature: a step of Newton's method solves its linear system") {
+  const Matrix2d jacobian{{1, 2}, {3, 5}};
+  const auto step = newton_step(jacobian, Vector2(4, 11));
+  REQUIRE(step.has_value());
+  CHECK((jacobian * *step - Vector2(4, 11)).norm() < 1e-14);
+}
+
+TEST_CASE("literature: a matrix that is singular to the bit has no step, without a division by zero") {
+  const Matrix2d of_rank_1{{1, 2}, {2, 4}};
+  CHECK_FALSE(newton_step(of_rank_1, Vector2(1, 2)).has_value());
+  CHECK_FALSE(newton_step(Matrix2d(Matrix2d::Zero()), Vector2(1, 2)).has_value());
+  const auto step = newton_step_of_any_rank(of_rank_1, Vector2(1, 2));
+  REQUIRE(step.has_value());
+  CHECK((of_rank_1 * *step - Vector2(1, 2)).norm() < 1e-14);
+}
+
+TEST_CASE("literature: numbers that are not finite have no step") {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const Matrix2d jacobian{{1, none}, {3, 5}};
+  CHECK_FALSE(newton_step(jacobian, Vector2(4, 11)).has_value());
+  CHECK_FALSE(newton_step_of_any_rank(jacobian, Vector2(4, 11)).has_value());
+  CHECK_FALSE(newton_step_of_any_rank(Matrix2d(Matrix2d::Identity()), Vector2(none, 1)).has_value());
 }

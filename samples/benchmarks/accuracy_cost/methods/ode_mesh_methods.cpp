@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "method.hpp"
-#include "ode/ode_poses.hpp"
+#include "ode/colliders.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 
 namespace accuracy_cost {

@@ -1,15 +1,13 @@
-#include "collider_cost.hpp"
-
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <limits>
 #include <numeric>
 
+#include "../costs.hpp"
+#include "colliders.hpp"
 #include "common/measured_tables.hpp"
-#include "ode_poses.hpp"
-#include "report/environment.hpp"
-#include "report/statistics.hpp"
+#include "measurement.hpp"
 #include "supernormal/supernormal.h"
 
 namespace accuracy_cost {
@@ -196,14 +194,12 @@ void write_ratios(const std::vector<Row>& rows, std::ostream& out) {
 }  // namespace
 
 void write_collider_costs(std::size_t poses, std::uint64_t seed, const Effort& effort, std::ostream& out) {
-  if (snInit() == 0) throw std::runtime_error(snLastError());
   common::Random random(seed);
   std::vector<Row> rows;
   for (const ColliderClass collider : kColliderClasses) {
     for (Row& row : Meeting(collider).measure(poses, random, effort)) rows.push_back(std::move(row));
   }
-  for (const auto& [name, value] : environment()) out << "* " << name << ": " << value << "\n";
-  out << "* ODE: " << dODE_VERSION << "\n* poses of each body at each collider: " << poses
+  out << "* poses of each body at each collider: " << poses
       << "\n\nMedian time of a dCollide, µs, and in brackets the mean number of contacts (at most " << kMaxContacts
       << "). Bodies have half-axes 0.5, 0.4, 0.3 m; overlap and apart: by 2 % of the smallest;\nrays hit half-way to the middle. "
          "Each query follows one of a pose 1e-3 (m and rad) away; \"–\": no such pair, or one that found no\n"
@@ -212,7 +208,6 @@ void write_collider_costs(std::size_t poses, std::uint64_t seed, const Effort& e
   write_times(rows, out);
   out << "\nRatios of the medians: our superellipsoid over ODE's body, below 1 where ours is faster.\n\n";
   write_ratios(rows, out);
-  snClose();
 }
 
 }  // namespace accuracy_cost

@@ -1,5 +1,3 @@
-#include "face_cost.hpp"
-
 #include <Eigen/Geometry>
 #include <array>
 #include <chrono>
@@ -9,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "../costs.hpp"
+#include "colliders.hpp"
 #include "common/measured_tables.hpp"
 #include "common/ode_geom.hpp"
-#include "ode_poses.hpp"
-#include "random_geometry.hpp"
-#include "report/environment.hpp"
-#include "report/statistics.hpp"
+#include "measurement.hpp"
+#include "pairs.hpp"
 #include "supernormal/supernormal.h"
 
 namespace accuracy_cost {
@@ -37,10 +35,6 @@ constexpr std::size_t kOverlaps = 8, kSteps = 32;
 constexpr double kFloorSize = 20;  // m
 constexpr int kBisections = 50;
 constexpr int kBatches = 15;  // per round
-
-enum class Floor { Plane, Box, Face, Bond, Trimesh };
-constexpr std::array kFloors = {Floor::Plane, Floor::Box, Floor::Face, Floor::Bond, Floor::Trimesh};
-constexpr std::array<const char*, kFloors.size()> kFloorNames = {"`dPlane`", "`dBox`", "face on face", "brick bond", "`dTriMesh`"};
 
 /// A body with the size of the brick: a superellipsoid with this exponent in both sections, or a dBox.
 struct Brick {
@@ -88,34 +82,32 @@ std::vector<Pose> resting_poses(double move, unsigned seed) {
   return poses;
 }
 
-/// The geoms under the brick: one, or two in a bond.
-std::vector<OdeGeom> make_floor(Floor floor, const Brick& brick) {
-  std::vector<OdeGeom> geoms;
-  const auto add_brick = [&](double x) {
-    geoms.push_back(brick.make());
-    dGeomSetPosition(geoms.back().id(), x, 0, -kBrick.z());
-  };
-  switch (floor) {
-    case Floor::Plane:
-      geoms.emplace_back(dCreatePlane(nullptr, 0, 0, 1, 0));
-      break;
-    case Floor::Box:
-      geoms.emplace_back(dCreateBox(nullptr, kFloorSize, kFloorSize, 1));
-      dGeomSetPosition(geoms.back().id(), 0, 0, -0.5);
-      break;
-    case Floor::Face:
-      add_brick(0);
-      break;
-    case Floor::Bond:
-      add_brick(-kBrick.x());
-      add_brick(kBrick.x());
-      break;
-    case Floor::Trimesh:
-      geoms.push_back(make_trimesh(terrain(1, kFloorSize, 0)));
-      break;
-  }
-  return geoms;
+OdeGeom brick_at(const Brick& brick, double x) {
+  OdeGeom geom = brick.make();
+  dGeomSetPosition(geom.id(), x, 0, -kBrick.z());
+  return geom;
 }
+
+OdeGeom box_floor() {
+  OdeGeom geom(dCreateBox(nullptr, kFloorSize, kFloorSize, 1));
+  dGeomSetPosition(geom.id(), 0, 0, -0.5);
+  return geom;
+}
+
+/// What is under the brick: one geom, or two in a bond.
+struct Floor {
+  const char* name;
+  void (*add)(const Brick& brick, std::vector<OdeGeom>& geoms);
+};
+constexpr std::array<Floor, 5> kFloors = {
+    {{"`dPlane`", [](const Brick&, auto& geoms) { geoms.emplace_back(dCreatePlane(nullptr, 0, 0, 1, 0)); }},
+     {"`dBox`", [](const Brick&, auto& geoms) { geoms.push_back(box_floor()); }},
+     {"face on face", [](const Brick& brick, auto& geoms) { geoms.push_back(brick_at(brick, 0)); }},
+     {"brick bond",
+      [](const Brick& brick, auto& geoms) {
+        for (const double x : {-kBrick.x(), kBrick.x()}) geoms.push_back(brick_at(brick, x));
+      }},
+     {"`dTriMesh`", [](const Brick&, auto& geoms) { geoms.push_back(make_trimesh(terrain(1, kFloorSize, 0))); }}}};
 
 /// The height at which a brick stops colliding with a floor whose top is at z = 0. Round bodies sink into a bond.
 double touching_height(const OdePair& pair) {
@@ -132,7 +124,8 @@ double touching_height(const OdePair& pair) {
 /// A brick on its floor, and the cost of a pair query there.
 class Rest {
  public:
-  Rest(Floor floor, const Brick& brick) : brick_(brick.make()), floor_(make_floor(floor, brick)) {
+  Rest(const Floor& floor, const Brick& brick) : brick_(brick.make()) {
+    floor.add(brick, floor_);
     height_ = touching_height({brick_.id(), floor_.front().id()});
   }
 
@@ -190,11 +183,11 @@ struct Row {
 
 std::vector<Row> measure_rows(const Effort& effort) {
   std::vector<Row> rows;
-  for (std::size_t f = 0; f < kFloors.size(); ++f) {
+  for (const Floor& floor : kFloors) {
     for (const int max_contacts : kRooms) {
       for (const Start& start : kStarts) {
-        Row row{std::string(kFloorNames[f]) + " | " + std::to_string(max_contacts) + " | " + start.name, {}};
-        for (const Brick& brick : bricks()) row.rests.emplace_back(kFloors[f], brick);
+        Row row{std::string(floor.name) + " | " + std::to_string(max_contacts) + " | " + start.name, {}};
+        for (const Brick& brick : bricks()) row.rests.emplace_back(floor, brick);
         for (int batch = 0; batch < kBatches * effort.rounds; ++batch) {
           const std::vector<Pose> poses = resting_poses(start.move, static_cast<unsigned>(batch + 1));
           for (Rest& rest : row.rests) rest.measure(poses, max_contacts, start.is_warm);
@@ -222,11 +215,8 @@ void write_rows(const std::vector<Row>& rows, const std::function<std::string(co
 }  // namespace
 
 void write_face_costs(const Effort& effort, std::ostream& out) {
-  if (snInit() == 0) throw std::runtime_error(snLastError());
   const std::vector<Row> rows = measure_rows(effort);
-  for (const auto& [name, value] : environment()) out << "* " << name << ": " << value << "\n";
-  out << "* ODE: " << dODE_VERSION
-      << "\n\nMedian time of a dCollide of superellipsoids by their exponent, half-axes 0.5, 0.25, 0.15 m, in times that of a dBox "
+  out << "\nMedian time of a dCollide of superellipsoids by their exponent, half-axes 0.5, 0.25, 0.15 m, in times that of a dBox "
          "in the\n"
          "same run, which is in µs. They rest: overlapped by 1e-5 … 1e-3 of the half-height, and moved since the last query by 1 % "
          "of\n"
@@ -246,7 +236,6 @@ void write_face_costs(const Effort& effort, std::ostream& out) {
         return text("%.1f", rest.contacts()) + ", " + text("%.1f", rest.evaluations());
       },
       out);
-  snClose();
 }
 
 }  // namespace accuracy_cost

@@ -1,5 +1,3 @@
-#include "pair_cost.hpp"
-
 #include <array>
 #include <memory>
 #include <stdexcept>
@@ -7,12 +5,12 @@
 #include <unordered_map>
 #include <vector>
 
+#include "../costs.hpp"
+#include "colliders.hpp"
 #include "common/measured_tables.hpp"
 #include "common/ode_geom.hpp"
+#include "measurement.hpp"
 #include "methods/method.hpp"
-#include "ode_poses.hpp"
-#include "report/environment.hpp"
-#include "report/statistics.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/supernormal.h"
 
@@ -83,8 +81,7 @@ void write_row(const Named& row, Situation situation, std::size_t count, std::ui
   methods.push_back(std::make_unique<DCollide>());
   methods.push_back(ccd_epa(kCcdEpa, kEpaTolerance));
   const auto samples = measure(methods, pairs, effort);
-  const auto all = [](const Pair&) { return true; };
-  const Statistics ours = statistics(samples[0], pairs, all), theirs = statistics(samples[1], pairs, all);
+  const Statistics ours = statistics(samples[0], pairs), theirs = statistics(samples[1], pairs);
   double our_sum = 0, their_sum = 0;
   for (std::size_t p = 0; p < pairs.size(); ++p) our_sum += samples[0][p].time, their_sum += samples[1][p].time;
   out << "| " << row.name << ", " << (situation == Situation::Shallow ? "1" : "30") << " % overlap | "
@@ -97,17 +94,13 @@ void write_row(const Named& row, Situation situation, std::size_t count, std::ui
 }  // namespace
 
 void write_pair_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort, std::ostream& out) {
-  if (snInit() == 0) throw std::runtime_error(snLastError());
   snSetWarmStart(0);
-  for (const auto& [name, value] : environment()) out << "* " << name << ": " << value << "\n";
   out << "* " << pairs
       << " pairs a row\n\n| pairs | dCollide, µs | libccd / dCollide, medians | means | worst gap error, dCollide / "
          "libccd | failures |\n|---|---:|---:|---:|---|---|\n";
   for (const Situation situation : {Situation::Shallow, Situation::Deep}) {
     for (const Named& row : kRows) write_row(row, situation, pairs, seed, effort, out);
   }
-  snSetWarmStart(1);
-  snClose();
 }
 
 }  // namespace accuracy_cost

@@ -1,18 +1,54 @@
-#include "ode_poses.hpp"
+#include "colliders.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "random_geometry.hpp"
+#include "pairs.hpp"
+#include "supernormal/supernormal.h"
 
 namespace accuracy_cost {
 
+namespace {
+
+using common::icosahedron;
+using common::make_convex;
+using common::make_trimesh;
+using common::MeshSize;
+using common::OdeGeom;
 using common::Random;
+using common::superellipsoid_mesh;
+using common::terrain;
 using supernormal::Matrix3;
 using supernormal::Pose;
 using supernormal::Vector3;
 
-namespace {
+constexpr double kA = 0.5, kB = 0.4, kC = kSmallestHalfAxis;
+constexpr double kExponent = 4;
+constexpr MeshSize kConvexSize{24, 20};  // 960 triangles, 482 vertices
+constexpr unsigned kTerrainCells = 40;   // 3200 triangles
+
+OdeGeom superellipsoid() { return OdeGeom(snCreateSuperellipsoid(nullptr, kA, kB, kC, kExponent, kExponent)); }
+OdeGeom ellipsoid() { return OdeGeom(snCreateEllipsoid(nullptr, kA, kB, kC)); }
+OdeGeom box() { return OdeGeom(dCreateBox(nullptr, 2 * kA, 2 * kB, 2 * kC)); }
+OdeGeom capsule() { return OdeGeom(dCreateCapsule(nullptr, kC, 2 * (kA - kC))); }
+OdeGeom convex() {
+  return make_convex(superellipsoid_mesh(supernormal::Vector3(kA, kB, kC), kExponent, kExponent, 0, kConvexSize));
+}
+
+struct Collider {
+  const char* name;
+  OdeGeom (*make)();
+};
+constexpr std::array<Collider, kColliderClasses.size()> kColliders = {
+    {{"dPlane", [] { return OdeGeom(dCreatePlane(nullptr, 0, 0, 1, 0)); }},
+     {"dSphere", [] { return OdeGeom(dCreateSphere(nullptr, 0.4)); }},
+     {"dBox", [] { return OdeGeom(dCreateBox(nullptr, 0.8, 0.6, 1.0)); }},
+     {"dCapsule", [] { return OdeGeom(dCreateCapsule(nullptr, 0.3, 0.5)); }},
+     {"dCylinder", [] { return OdeGeom(dCreateCylinder(nullptr, 0.35, 0.7)); }},
+     {"dConvex of 20 triangles", [] { return make_convex(icosahedron(0.5)); }},
+     {"dTriMesh of 3200 triangles", [] { return make_trimesh(terrain(kTerrainCells, 0.25, 0.05)); }},
+     {"dRay", [] { return OdeGeom(dCreateRay(nullptr, 4)); }},
+     {"another of the same", nullptr}}};
 
 constexpr double kNudge = 1e-3;       // m and rad
 constexpr double kTerrainReach = 2;   // m; bodies are scattered over this range
@@ -32,6 +68,22 @@ void set_rotation(dGeomID geom, const Matrix3& rotation) {
 bool stands_level(ColliderClass collider) { return collider == ColliderClass::Plane || collider == ColliderClass::Trimesh; }
 
 }  // namespace
+
+std::vector<OdeBody> ode_bodies() {
+  return {{"superellipsoid 4, cold", superellipsoid, false},
+          {"superellipsoid 4, warm", superellipsoid, true},
+          {"ellipsoid, cold", ellipsoid, false},
+          {"ellipsoid, warm", ellipsoid, true},
+          {"dBox", box, false},
+          {"dCapsule", capsule, false},
+          {"dConvex 960", convex, false}};
+}
+
+const char* name_of(ColliderClass collider) { return kColliders[static_cast<std::size_t>(collider)].name; }
+
+OdeGeom make_collider(ColliderClass collider, const OdeBody& body) {
+  return collider == ColliderClass::Itself ? body.make() : kColliders[static_cast<std::size_t>(collider)].make();
+}
 
 void OdePair::move_body(const Pose& pose) const {
   dGeomSetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());

@@ -1,4 +1,4 @@
-#include "tangents.hpp"
+#include "newton_step.hpp"
 
 #include <cmath>
 
