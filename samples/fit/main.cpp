@@ -14,10 +14,9 @@
 
 #include "kind/grain_kind.hpp"
 #include "kind/kind_text.hpp"
-#include "output/json.hpp"
-#include "output/paste.hpp"
 #include "output/picture.hpp"
 #include "output/report.hpp"
+#include "output/results.hpp"
 #include "program/options.hpp"
 #include "program/scan.hpp"
 
@@ -90,15 +89,13 @@ void write_results(const fit::Options& options, const Results& results, const st
   const std::string& name = results.name();
   const std::string toml = fit::toml_lines(fitted, name, options.density, source);
   const std::string c = fit::c_lines(fitted, name, source, error.body, options.density);
-  std::vector<fit::Body> bodies(fitted.size());
-  std::ranges::transform(fitted, bodies.begin(), &fit::FittedBody::body);
   fit::Provenance provenance = provenance_of(options, name, source);
   provenance.is_mesh = !scan.data.triangles.empty();
   provenance.open = scan.open;
   std::printf("\n%s\n%s", toml.c_str(), c.c_str());
   results.write(".toml", toml);
   results.write(".c", c);
-  results.write(".svg", fit::draw(bodies, scan.data.vertices, error.rms, file));
+  results.write(".svg", fit::draw(fit::bodies_of(fitted), scan.data.vertices, error.rms, file));
   results.write(".json", fit::json_text(fitted, error, doubts, provenance));
   results.write("_aligned.ply", fit::aligned_ply(scan.data, fitted));
   std::printf("\nwritten: %s.toml, .c, .svg and .json, and the data in the frame of the grain: %s_aligned.ply\n",

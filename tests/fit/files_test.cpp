@@ -23,13 +23,13 @@
 #include <supernormal/shapes/tessellation.hpp>
 #include <vector>
 
-#include "input/orientation.hpp"
 #include "input/read_data.hpp"
+#include "input/triangles.hpp"
 #include "model/fit_error.hpp"
 #include "model/fit_union.hpp"
-#include "output/paste.hpp"
 #include "output/picture.hpp"
 #include "output/report.hpp"
+#include "output/results.hpp"
 #include "study/truth.hpp"
 #include "support/refusal.hpp"
 #include "support/temporary_folder.hpp"
@@ -42,16 +42,17 @@ std::string complaint(const std::string& path) {
   return supernormal::test::refusal<InputError>([&] { read_data(path, 1); });
 }
 
+/// What the complaint says of the file, after its path.
+std::string complaint_about(const std::string& path) {
+  const std::string message = complaint(path);
+  REQUIRE(message.rfind(path, 0) == 0);
+  return message.substr(path.size());
+}
+
 FittedBody fitted_of(const Body& body) {
   FittedBody fitted;
   fitted.body = body;
   return fitted;
-}
-
-std::vector<Body> bodies_of(std::span<const FittedBody> fitted) {
-  std::vector<Body> bodies;
-  for (const FittedBody& each : fitted) bodies.push_back(each.body);
-  return bodies;
 }
 
 std::vector<double> numbers(const toml::table& table, std::string_view key) {
@@ -165,31 +166,27 @@ TEST_CASE("unusable files are refused with a reason") {
   const std::string pipe = (folder.path() / "pipe.stl").string();
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   CHECK(complaint(pipe) == pipe + ": a pipe or a socket, and no file");
-  const std::string text = folder.write("points.txt", "1 2 3\n");
-  CHECK(
-      complaint(text) ==
-      text +
-          ": unknown extension \".txt\"; allowed: .stl, .glb, .gltf (meshes), .obj, .off, .ply (meshes or points), .xyz (points)");
-  const std::string empty = folder.write("empty.xyz", "# nothing\n\n");
-  CHECK(complaint(empty) == empty + ": no points");
   const std::string directory = (folder.path() / "folder.ply").string();
   std::filesystem::create_directory(directory);
   CHECK(complaint(directory) == directory + ": a folder, and no file");
   for (const char* name : {"empty.stl", "empty.obj"}) {
     CHECK(complaint(folder.write(name, "")).find(std::string(name) + ": cannot be read: ") != std::string::npos);
   }
-  const std::string nan = folder.write("nan.xyz", "1 2 3\n1 nan 3\n");
-  CHECK(complaint(nan) == nan + ":2: a coordinate is not finite: \"1 nan 3\"");
-  const std::string infinite = folder.write("inf.xyz", "1 2 1e999\n");
-  CHECK(complaint(infinite) == infinite + ":1: a coordinate is not finite: \"1 2 1e999\"");
-  const std::string word = folder.write("word.xyz", "1 2 3\n1 two 3\n");
-  CHECK(complaint(word) == word + ":2: a line holds x y z, or x y z nx ny nz, not \"1 two 3\"");
+  for (const auto& [name, text, expected] : std::to_array<std::array<const char*, 3>>(
+           {{"points.txt", "1 2 3\n",
+             ": unknown extension \".txt\"; allowed: .stl, .glb, .gltf (meshes), .obj, .off, .ply (meshes or points), .xyz "
+             "(points)"},
+            {"empty.xyz", "# nothing\n\n", ": no points"},
+            {"nan.xyz", "1 2 3\n1 nan 3\n", ":2: a coordinate is not finite: \"1 nan 3\""},
+            {"inf.xyz", "1 2 1e999\n", ":1: a coordinate is not finite: \"1 2 1e999\""},
+            {"word.xyz", "1 2 3\n1 two 3\n", ":2: a line holds x y z, or x y z nx ny nz, not \"1 two 3\""},
+            {"mixed.xyz", "1 2 3\n1 2 3 0 0 1\n", ":2: either all points have normals or none"}})) {
+    CHECK(complaint_about(folder.write(name, text)) == expected);
+  }
   const std::string marked = folder.write("marked.xyz",
                                           "\xef\xbb\xbf"
                                           "1 2 3\n");
   CHECK(read_data(marked, 1).vertices.points.size() == 1);
-  const std::string mixed = folder.write("mixed.xyz", "1 2 3\n1 2 3 0 0 1\n");
-  CHECK(complaint(mixed) == mixed + ":2: either all points have normals or none");
 }
 
 TEST_CASE("decimal commas and colours in a file of points are refused") {
@@ -330,12 +327,7 @@ TEST_CASE("a broken .ply is refused with the place of the error") {
   const TemporaryFolder folder;
   const std::string start = "ply\nformat ascii 1.0\n", xyz = "property float x\nproperty float y\nproperty float z\n";
   const std::string two = start + "element vertex 2\n" + xyz + "end_header\n";
-  const auto refusal = [&](const std::string& text) {
-    const std::string path = folder.write("bad.ply", text);
-    const std::string message = complaint(path);
-    REQUIRE(message.rfind(path, 0) == 0);
-    return message.substr(path.size());
-  };
+  const auto refusal = [&](const std::string& text) { return complaint_about(folder.write("bad.ply", text)); };
   CHECK(refusal("") == ":1: the file ends within its header, which must end with end_header");
   CHECK(refusal("solid\n") == ":1: the first line of a .ply is \"ply\"");
   CHECK(refusal("ply\nformat ascii 2.0\n") ==
@@ -375,12 +367,7 @@ TEST_CASE("an .off is read in double precision, as a mesh or as points, with wha
 
 TEST_CASE("a broken .off is refused with the place of the error") {
   const TemporaryFolder folder;
-  const auto refusal = [&](const std::string& text) {
-    const std::string path = folder.write("bad.off", text);
-    const std::string message = complaint(path);
-    REQUIRE(message.rfind(path, 0) == 0);
-    return message.substr(path.size());
-  };
+  const auto refusal = [&](const std::string& text) { return complaint_about(folder.write("bad.off", text)); };
   const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
   CHECK(refusal("") == ": no points");
   CHECK(refusal("4OFF\n1 0 0\n") ==
@@ -487,20 +474,14 @@ TEST_CASE("points on a line or in a plane are refused") {
 TEST_CASE("points from .xyz, .obj and .ply are equal") {
   const TemporaryFolder folder;
   const Data xyz = read_data(folder.write("a.xyz", "# x y z and the normal\n1, 2, 3, 0, 0, 1.001\n4 5 6 1 0 0 # more\n"), 0.5);
-  REQUIRE(xyz.vertices.points.size() == 2);
-  CHECK(xyz.vertices.points[1] == Vector3(2, 2.5, 3));
+  CHECK(xyz.vertices.points == std::vector<Vector3>{{0.5, 1, 1.5}, {2, 2.5, 3}});
   CHECK(xyz.vertices.normals[0] == Vector3(0, 0, 1));
-  const Data obj = read_data(folder.write("a.obj", "v 1 2 3\nv 4 5 6\n"), 0.5);
-  REQUIRE(obj.vertices.points.size() == 2);
-  CHECK(obj.vertices.points[1] == Vector3(2, 2.5, 3));
-  const Data ply =
-      read_data(folder.write("a.ply",
-                             "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
-                             "end_header\n1 2 3\n4 5 6\n"),
-                0.5);
-  REQUIRE(ply.vertices.points.size() == 2);
-  CHECK(ply.vertices.points[1] == Vector3(2, 2.5, 3));
-  CHECK(ply.triangles.empty());
+  for (const std::string& other :
+       {folder.write("a.obj", "v 1 2 3\nv 4 5 6\n"), folder.write("a.ply", ply_of({{1, 2, 3}, {4, 5, 6}}, "ascii", "float"))}) {
+    const Data data = read_data(other, 0.5);
+    CHECK(data.vertices.points == xyz.vertices.points);
+    CHECK(data.triangles.empty());
+  }
 }
 
 TEST_CASE("a fit to a mesh of a body returns the body, with its volume and inertia") {

@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "model/distance.hpp"
-#include "model/noise_offset.hpp"
 
 using namespace fit;
 

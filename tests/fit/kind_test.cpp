@@ -9,8 +9,8 @@
 
 #include "kind/grain_kind.hpp"
 #include "kind/kind_text.hpp"
-#include "output/paste.hpp"
-#include "study/random_body.hpp"
+#include "output/results.hpp"
+#include "study/bodies.hpp"
 #include "study/truth.hpp"
 
 using namespace fit;

@@ -15,10 +15,9 @@
 #include "model/empty_space.hpp"
 #include "model/fit_error.hpp"
 #include "model/fit_union.hpp"
-#include "output/json.hpp"
 #include "output/report.hpp"
-#include "study/compounds.hpp"
-#include "study/random_body.hpp"
+#include "output/results.hpp"
+#include "study/bodies.hpp"
 #include "study/truth.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -29,6 +28,8 @@ namespace {
 Body oblong(Family family = Family::Superellipsoid) {
   return {family, {3, -2, 5}, Eigen::Quaterniond(0.7, 0.3, -0.2, 0.5).normalized(), {1.5, 1.1, 0.8}, 2.5, 4, 0};
 }
+
+const Body kSphere{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Ones()};
 
 /// A bent body, which no convex body fits: balls of radius 0.3 along a third of a circle of radius 1.
 std::vector<Body> banana() {
@@ -97,8 +98,7 @@ TEST_CASE("a body of the families enters no empty space, with and without normal
 }
 
 TEST_CASE("the empty space begins at a margin from a sphere and grows with its distance, also of a moved sphere") {
-  const Body sphere{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Ones()};
-  const EmptySpace space = find_empty_space(scatter(sphere, {.points = 20000, .has_normals = true}));
+  const EmptySpace space = find_empty_space(scatter(kSphere, {.points = 20000, .has_normals = true}));
   const EmptySpace larger = moved(space, 3, {1, 2, 0.5});
   double last = 0;
   for (const double radius : {0.3, 0.95, 1.01, 1.3, 1.6, 3.0}) {
@@ -117,10 +117,9 @@ TEST_CASE("the empty space begins at a margin from a sphere and grows with its d
 }
 
 TEST_CASE("within a bound a body costs nothing, and beyond it as much with fine directions as with rough ones") {
-  const Body sphere{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Ones()};
-  EmptySpace space = find_empty_space(scatter(sphere, {.points = 20000, .has_normals = true}));
+  EmptySpace space = find_empty_space(scatter(kSphere, {.points = 20000, .has_normals = true}));
   space.margin = 0.2;
-  const auto penalty_at = [&](double radius) { return penalty_of(moved(sphere, radius, Vector3::Zero()), space); };
+  const auto penalty_at = [&](double radius) { return penalty_of(moved(kSphere, radius, Vector3::Zero()), space); };
   CHECK(penalty_at(1.15) == 0);
   const double rough = penalty_at(1.3);
   // A square of a length of 0.1, to the error of the grid.
@@ -132,17 +131,15 @@ TEST_CASE("within a bound a body costs nothing, and beyond it as much with fine 
 }
 
 TEST_CASE("a thin body that extends beyond the data by its tips costs more than one of full width that is as large") {
-  const Body sphere{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Ones()};
-  const EmptySpace space = find_empty_space(scatter(sphere, {.points = 2000}));
-  Body spike = sphere;
+  const EmptySpace space = find_empty_space(scatter(kSphere, {.points = 2000}));
+  Body spike = kSphere;
   spike.half_axes = {1.5, 0.05, 0.05};
   CHECK(penalty_of(spike, space) > 0.1);
-  CHECK(penalty_of(sphere, space) == 0);
+  CHECK(penalty_of(kSphere, space) == 0);
 }
 
 TEST_CASE("the openness of a surface is the missing fraction of a sphere, and what is hidden is not outside") {
-  const Body sphere{Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Ones()};
-  Cloud whole = scatter(sphere, {.points = 4000, .has_normals = true}), cap;
+  Cloud whole = scatter(kSphere, {.points = 4000, .has_normals = true}), cap;
   for (const double height : {-1.1, -0.5, 0.0}) {  // of the plane that cuts the sphere
     cap = {};
     for (std::size_t i = 0; i < whole.points.size(); ++i) {

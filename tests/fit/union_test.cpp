@@ -7,9 +7,17 @@
 #include "model/empty_space.hpp"
 #include "model/fit_error.hpp"
 #include "model/fit_union.hpp"
-#include "study/compounds.hpp"
+#include "study/bodies.hpp"
 
 using namespace fit;
+
+namespace {
+
+Body ellipsoid(const Vector3& position, const Vector3& half_axes) {
+  return {Family::Ellipsoid, position, Eigen::Quaterniond::Identity(), half_axes};
+}
+
+}  // namespace
 
 TEST_CASE("a dumbbell is fitted by two bodies") {
   const std::vector<Body> truth = make_compound("dumbbell");
@@ -26,10 +34,8 @@ TEST_CASE("a dumbbell is fitted by two bodies") {
 }
 
 TEST_CASE("two ellipsoids that overlap are fitted by two, and one by one") {
-  const auto ellipsoid = [](double x, const Vector3& half_axes) {
-    return Body{Family::Ellipsoid, {x, 0, 0}, Eigen::Quaterniond::Identity(), half_axes};
-  };
-  const std::vector<Body> truth = {ellipsoid(-0.004, {0.009, 0.007, 0.006}), ellipsoid(0.01, {0.006, 0.005, 0.004})};
+  const std::vector<Body> truth = {ellipsoid({-0.004, 0, 0}, {0.009, 0.007, 0.006}),
+                                   ellipsoid({0.01, 0, 0}, {0.006, 0.005, 0.004})};
   const FitSettings settings{.family = Family::Ellipsoid};
   const std::vector<FittedBody> fitted = fit_union(scatter_union(truth, 250, 0, 1), 2, settings);
   REQUIRE(fitted.size() == 2);
@@ -40,9 +46,6 @@ TEST_CASE("two ellipsoids that overlap are fitted by two, and one by one") {
 }
 
 TEST_CASE("a union whose points hide a quarter of it is the whole union") {
-  const auto ellipsoid = [](const Vector3& position, const Vector3& half_axes) {
-    return Body{Family::Ellipsoid, position, Eigen::Quaterniond::Identity(), half_axes};
-  };
   const std::vector<Body> truth = {ellipsoid({-4, 0, 0}, {9, 7, 6}), ellipsoid({8, 1, 0}, {6, 5, 4})};
   Cloud seen;
   for (const Vector3& x : scatter_union(truth, 500, 0.04, 1).points) {
@@ -51,25 +54,20 @@ TEST_CASE("a union whose points hide a quarter of it is the whole union") {
   const std::vector<FittedBody> fitted = fit_union(seen, 2, {.family = Family::Ellipsoid});
   REQUIRE(fitted.size() == 2);
   CHECK_FALSE(fitted[0].is_bounded_by_data);
-  FitError error = find_error(std::vector{fitted[0].body, fitted[1].body}, {seen, {}, ""});
+  FitError error = find_error(bodies_of(fitted), {seen, {}, ""});
   add_uncertainty(error, fitted);
   CHECK(error.volume_error < 0.05 * error.body.volume);
   CHECK(std::abs(error.body.volume - integrate_union(truth).solid.volume) < 3 * error.volume_error);
 }
 
 TEST_CASE("the six bodies of an animal end with its points") {
-  const auto ball = [](const Vector3& position, const Vector3& half_axes) {
-    return Body{Family::Ellipsoid, position, Eigen::Quaterniond::Identity(), half_axes};
-  };
-  std::vector<Body> truth = {ball({0, 0, 0}, {1, 0.4, 0.45}), ball({1.2, 0, 0.3}, {0.35, 0.2, 0.25})};
+  std::vector<Body> truth = {ellipsoid({0, 0, 0}, {1, 0.4, 0.45}), ellipsoid({1.2, 0, 0.3}, {0.35, 0.2, 0.25})};
   for (const double x : {-0.7, 0.7}) {
-    for (const double y : {-0.25, 0.25}) truth.push_back(ball({x, y, -0.6}, {0.12, 0.1, 0.5}));
+    for (const double y : {-0.25, 0.25}) truth.push_back(ellipsoid({x, y, -0.6}, {0.12, 0.1, 0.5}));
   }
   const Data data{scatter_union(truth, 500, 2e-3, 1), {}, ""};
   const std::vector<FittedBody> fitted = fit_union(data.vertices, 6, {.family = Family::Ellipsoid});
-  std::vector<Body> bodies;
-  bodies.reserve(fitted.size());
-  for (const FittedBody& each : fitted) bodies.push_back(each.body);
+  const std::vector<Body> bodies = bodies_of(fitted);
   FitError error = find_error(bodies, data);
   add_uncertainty(error, fitted);
   CHECK(bodies.size() == 6);
@@ -103,8 +101,7 @@ TEST_CASE("the bound keeps a ball within the largest reach beyond a rounded cube
   const Cloud surface = sample_triangles(mesh.vertices.points, mesh.triangles, 20000, 1), cloud = thinned(surface, 3000);
   const Extent extent = extent_of(surface.points);
   FitSettings settings{.family = Family::Ellipsoid, .noise = Noise::AlongNormal, .rejects_outliers = false, .mesh = mesh};
-  const FittedBody ball =
-      refine_body({Family::Ellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), Vector3::Ones()}, cloud, settings);
+  const FittedBody ball = refine_body(ellipsoid(Vector3::Zero(), Vector3::Ones()), cloud, settings);
   const double before = find_distances(std::vector{ball.body}, mesh).reach;
   settings.empty = moved(find_empty_space(normalized(surface, extent)), extent.size, extent.centre);
   const Union fitted = bounded({ball}, cloud, settings);

@@ -20,9 +20,8 @@
 #include <utility>
 
 #include "common/read_file.hpp"
-#include "orientation.hpp"
-#include "read_off.hpp"
-#include "read_ply.hpp"
+#include "formats.hpp"
+#include "triangles.hpp"
 
 namespace fit {
 namespace {

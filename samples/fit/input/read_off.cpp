@@ -1,5 +1,3 @@
-#include "read_off.hpp"
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <cctype>
@@ -10,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "polygon.hpp"
+#include "formats.hpp"
+#include "triangles.hpp"
 
 namespace fit {
 namespace {

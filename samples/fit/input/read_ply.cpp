@@ -1,5 +1,3 @@
-#include "read_ply.hpp"
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -15,7 +13,8 @@
 #include <utility>
 
 #include "common/interval.hpp"
-#include "polygon.hpp"
+#include "formats.hpp"
+#include "triangles.hpp"
 
 namespace fit {
 namespace {

@@ -10,12 +10,6 @@
 #include <supernormal/shapes/tessellation.hpp>
 
 namespace fit {
-namespace {
-
-// The distributions of <random> differ between standard libraries.
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
-
-}  // namespace
 
 Cloud sample_triangles(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, std::size_t count,
                        std::uint64_t seed) {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "output/format.hpp"
+#include "output/report.hpp"
 
 namespace fit {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "grain_kind.hpp"
 #include "model/fit_error.hpp"
-#include "output/json.hpp"
+#include "output/results.hpp"
 
 namespace fit {
 

@@ -2,13 +2,64 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "point_tree.hpp"
 
 namespace fit {
+
+namespace {
+
+int nearest_of(const std::vector<Eigen::Vector3d>& centres, const Eigen::Vector3d& x, double& square) {
+  int nearest = 0;
+  square = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < centres.size(); ++k) {
+    const double candidate = (x - centres[k]).squaredNorm();
+    if (candidate < square) {
+      square = candidate;
+      nearest = static_cast<int>(k);
+    }
+  }
+  return nearest;
+}
+
+/// Random points as centres, each with a probability proportional to its squared distance from the previous centres.
+std::vector<Eigen::Vector3d> first_centres(std::span<const Eigen::Vector3d> points, int count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<Eigen::Vector3d> centres = {points[random() % points.size()]};
+  std::vector<double> sums(points.size());
+  while (static_cast<int>(centres.size()) < count) {
+    double sum = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      double square = 0;
+      nearest_of(centres, points[i], square);
+      sums[i] = sum += square;
+    }
+    const double chosen = sum * uniform(random);
+    const auto found = static_cast<std::size_t>(std::ranges::upper_bound(sums, chosen) - sums.begin());
+    centres.push_back(points[std::min(found, points.size() - 1)]);
+  }
+  return centres;
+}
+
+}  // namespace
+
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+double ranked(std::vector<double> values, std::size_t rank) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+double median(std::vector<double> values) {
+  const std::size_t middle = values.size() / 2;
+  return ranked(std::move(values), middle);
+}
 
 Extent extent_of(std::span<const Eigen::Vector3d> points) {
   Extent extent;
@@ -24,9 +75,8 @@ double radius_of(std::span<const Eigen::Vector3d> points) {
   const Eigen::Vector3d centre = extent_of(points).centre;
   std::vector<double> radii(points.size());
   std::ranges::transform(points, radii.begin(), [&](const Eigen::Vector3d& x) { return (x - centre).norm(); });
-  const auto at = radii.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(radii.size() - 1));
-  std::nth_element(radii.begin(), at, radii.end());
-  return *at;
+  const auto rank = static_cast<std::size_t>(0.99 * static_cast<double>(radii.size() - 1));
+  return ranked(std::move(radii), rank);
 }
 
 std::vector<std::size_t> cut_off(std::span<const Eigen::Vector3d> points, std::size_t most) {
@@ -35,11 +85,9 @@ std::vector<std::size_t> cut_off(std::span<const Eigen::Vector3d> points, std::s
   if (!is_finite || points.size() < 2) return {};
   Eigen::Vector3d middle;
   std::vector<double> values(points.size());
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   for (int i = 0; i < 3; ++i) {
     std::ranges::transform(points, values.begin(), [&](const Eigen::Vector3d& x) { return x[i]; });
-    std::nth_element(values.begin(), half, values.end());
-    middle[i] = *half;
+    middle[i] = median(values);
   }
   const auto radius_at = [&](std::size_t i) { return (points[i] - middle).norm(); };
   for (std::size_t i = 0; i < points.size(); ++i) values[i] = radius_at(i);
@@ -65,14 +113,12 @@ std::vector<std::size_t> isolated(std::span<const Eigen::Vector3d> points) {
     for (const std::uint32_t i : tree.nearest(x, kNeighbours + 1)) sum += (points[i] - x).norm();
     distances.push_back(sum / static_cast<double>(kNeighbours));
   }
-  std::vector<double> sorted = distances;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::ranges::nth_element(sorted, middle);
+  const double middle = median(distances);
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (distances[i] > kFarther * *middle) found.push_back(i);
+    if (distances[i] > kFarther * middle) found.push_back(i);
   }
-  return !(*middle > 0) || 4 * found.size() > points.size() ? std::vector<std::size_t>() : found;
+  return !(middle > 0) || 4 * found.size() > points.size() ? std::vector<std::size_t>() : found;
 }
 
 std::vector<Eigen::Vector3d> spread_directions(int count) {
@@ -100,6 +146,20 @@ Cloud selected(const Cloud& cloud, std::span<const std::size_t> indices) {
   return result;
 }
 
+std::vector<std::size_t> others_than(std::span<const std::size_t> indices, std::size_t count) {
+  std::vector<bool> is_other(count, true);
+  for (const std::size_t i : indices) is_other[i] = false;
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (is_other[i]) others.push_back(i);
+  }
+  return others;
+}
+
+Cloud without(const Cloud& cloud, std::span<const std::size_t> indices) {
+  return indices.empty() ? cloud : selected(cloud, others_than(indices, cloud.points.size()));
+}
+
 Cloud thinned(const Cloud& cloud, std::size_t count) {
   if (cloud.points.size() <= count) return cloud;
   std::vector<std::size_t> order(cloud.points.size());
@@ -109,6 +169,30 @@ Cloud thinned(const Cloud& cloud, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) std::swap(order[i], order[i + random() % (order.size() - i)]);
   order.resize(count);
   return selected(cloud, order);
+}
+
+std::vector<int> find_clusters(std::span<const Eigen::Vector3d> points, int count, std::uint64_t seed) {
+  constexpr int kRounds = 30;
+  std::vector<Eigen::Vector3d> centres = first_centres(points, count, seed);
+  std::vector<int> cluster(points.size(), -1);
+  for (int round = 0; round < kRounds; ++round) {
+    bool has_changed = false;
+    std::vector<Eigen::Vector3d> sums(centres.size(), Eigen::Vector3d::Zero());
+    std::vector<double> counts(centres.size(), 0.0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      double square = 0;
+      const int nearest = nearest_of(centres, points[i], square);
+      has_changed = has_changed || nearest != cluster[i];
+      cluster[i] = nearest;
+      sums[static_cast<std::size_t>(nearest)] += points[i];
+      counts[static_cast<std::size_t>(nearest)] += 1;
+    }
+    for (std::size_t k = 0; k < centres.size(); ++k) {
+      if (counts[k] > 0) centres[k] = sums[k] / counts[k];
+    }
+    if (!has_changed) break;
+  }
+  return cluster;
 }
 
 }  // namespace fit

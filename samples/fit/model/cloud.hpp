@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -18,6 +20,13 @@ struct Extent {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< the mean
   double size = 1;                                   ///< root mean square distance from the centre
 };
+
+/// Uniform in [0, 1), the same with every standard library.
+double uniform(std::mt19937_64& random);
+
+/// The value that `rank` others precede in ascending order, and the one in the middle.
+double ranked(std::vector<double> values, std::size_t rank);
+double median(std::vector<double> values);
 
 Extent extent_of(std::span<const Eigen::Vector3d> points);
 
@@ -44,7 +53,14 @@ Cloud thinned(const Cloud& cloud, std::size_t count);
 /// Uniformly spread unit vectors, always the same (Gonzalez, Mathematical Geosciences 42, 2010).
 std::vector<Eigen::Vector3d> spread_directions(int count);
 
-/// The points with these indices.
+/// The points with these indices, and all others.
 Cloud selected(const Cloud& cloud, std::span<const std::size_t> indices);
+Cloud without(const Cloud& cloud, std::span<const std::size_t> indices);
+
+/// The indices below `count` that are none of these.
+std::vector<std::size_t> others_than(std::span<const std::size_t> indices, std::size_t count);
+
+/// The cluster index of each point: Lloyd's k-means with k-means++ starts (Arthur and Vassilvitskii 2007).
+std::vector<int> find_clusters(std::span<const Eigen::Vector3d> points, int count, std::uint64_t seed);
 
 }  // namespace fit

@@ -11,18 +11,34 @@
 #include "point_tree.hpp"
 
 namespace fit {
+
+constexpr double kCell = 0.06;  // edge of a cell of the grid, for data of extent 1
+
+/// The signed distance from the data, and from the points that close their holes, at the vertices of cubes; positive outside.
+struct DistanceGrid {
+  Vector3 low;                 // the first vertex
+  std::array<int, 3> counts;   // of vertices
+  std::vector<double> values;  // x varies fastest
+
+  std::size_t index(int i, int j, int k) const {
+    const auto nx = static_cast<std::size_t>(counts[0]), ny = static_cast<std::size_t>(counts[1]);
+    return static_cast<std::size_t>(i) + nx * (static_cast<std::size_t>(j) + ny * static_cast<std::size_t>(k));
+  }
+
+  void for_each_vertex(const auto& visit) const {
+    for (int k = 0; k < counts[2]; ++k) {
+      for (int j = 0; j < counts[1]; ++j) {
+        for (int i = 0; i < counts[0]; ++i) visit(std::array<int, 3>{i, j, k}, Vector3(low + kCell * Vector3(i, j, k)));
+      }
+    }
+  }
+};
+
 namespace {
 
 constexpr std::size_t kSurfacePoints = 2000;  // of the winding number
 constexpr std::size_t kNeighbours = 12;       // of a plane through neighbours
 constexpr int kSightDirections = 60;
-constexpr double kCell = 0.06;  // edge of a cell of the grid, for data of extent 1
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The normal of the plane through points, of either sign.
 Vector3 plane_normal(const std::vector<Vector3>& points, const std::vector<std::uint32_t>& chosen) {
@@ -53,30 +69,6 @@ Vector3 open_side(const std::vector<Vector3>& points, const Vector3& x, double s
   return sum;
 }
 
-}  // namespace
-
-/// The signed distance from the data, and from the points that close their holes, at the vertices of cubes; positive outside.
-struct DistanceGrid {
-  Vector3 low;                 // the first vertex
-  std::array<int, 3> counts;   // of vertices
-  std::vector<double> values;  // x varies fastest
-
-  std::size_t index(int i, int j, int k) const {
-    const auto nx = static_cast<std::size_t>(counts[0]), ny = static_cast<std::size_t>(counts[1]);
-    return static_cast<std::size_t>(i) + nx * (static_cast<std::size_t>(j) + ny * static_cast<std::size_t>(k));
-  }
-
-  void for_each_vertex(const auto& visit) const {
-    for (int k = 0; k < counts[2]; ++k) {
-      for (int j = 0; j < counts[1]; ++j) {
-        for (int i = 0; i < counts[0]; ++i) visit(std::array<int, 3>{i, j, k}, Vector3(low + kCell * Vector3(i, j, k)));
-      }
-    }
-  }
-};
-
-namespace {
-
 Surface surface_of(const Cloud& cloud) {
   const Cloud data = thinned(cloud, kSurfacePoints);
   const PointTree tree(data.points);
@@ -92,42 +84,14 @@ Surface surface_of(const Cloud& cloud) {
   }
   if (!surface.normals.empty()) return surface;
   surface.normals = planes;
-  const double size = median_of(sizes) / 2;
+  const double size = median(sizes) / 2;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     if (open_side(data.points, data.points[i], size).dot(planes[i]) < 0) surface.normals[i] *= -1;
   }
   return surface;
 }
 
-}  // namespace
-
-Surface make_surface(const Cloud& cloud) {
-  Surface surface = surface_of(cloud);
-  Vector3 sum = Vector3::Zero();
-  for (std::size_t i = 0; i < surface.areas.size(); ++i) sum += surface.areas[i] * surface.normals[i];
-  surface.openness = sum.norm() / std::accumulate(surface.areas.begin(), surface.areas.end(), 0.0);
-  return surface;
-}
-
-double winding_number(const Surface& surface, const Vector3& x) {
-  double sum = 0;
-  for (std::size_t i = 0; i < surface.points.size(); ++i) {
-    const Vector3 way = surface.points[i] - x;
-    const double square = way.squaredNorm();
-    sum += surface.areas[i] * surface.normals[i].dot(way) / (square * std::sqrt(square));
-  }
-  return sum / (4 * std::numbers::pi);
-}
-
-namespace {
-
 double threshold_of(const Surface& surface) { return (1 - surface.openness) / 2; }
-
-}  // namespace
-
-bool is_outside(const Surface& surface, const Vector3& x) { return winding_number(surface, x) < threshold_of(surface); }
-
-namespace {
 
 /// The median distance of points from the plane through their neighbours.
 double noise_of(const std::vector<Vector3>& points, const PointTree& tree) {
@@ -140,7 +104,7 @@ double noise_of(const std::vector<Vector3>& points, const PointTree& tree) {
     for (const std::uint32_t k : near) square += std::pow(normal.dot(points[k] - points[i]), 2);
     heights.push_back(std::sqrt(square / static_cast<double>(near.size())));
   }
-  return median_of(heights);
+  return median(heights);
 }
 
 /// A grid around points. Its values are the winding number less its threshold.
@@ -173,6 +137,26 @@ std::vector<Vector3> crossings(const DistanceGrid& grid, const PointTree& tree) 
 }
 
 }  // namespace
+
+Surface make_surface(const Cloud& cloud) {
+  Surface surface = surface_of(cloud);
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t i = 0; i < surface.areas.size(); ++i) sum += surface.areas[i] * surface.normals[i];
+  surface.openness = sum.norm() / std::accumulate(surface.areas.begin(), surface.areas.end(), 0.0);
+  return surface;
+}
+
+double winding_number(const Surface& surface, const Vector3& x) {
+  double sum = 0;
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    const Vector3 way = surface.points[i] - x;
+    const double square = way.squaredNorm();
+    sum += surface.areas[i] * surface.normals[i].dot(way) / (square * std::sqrt(square));
+  }
+  return sum / (4 * std::numbers::pi);
+}
+
+bool is_outside(const Surface& surface, const Vector3& x) { return winding_number(surface, x) < threshold_of(surface); }
 
 std::vector<Vector3> closing_points(const Cloud& data) {
   return crossings(winding_grid(data.points, make_surface(data)), PointTree(data.points));

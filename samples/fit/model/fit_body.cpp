@@ -9,11 +9,13 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
-#include "noise_offset.hpp"
+#include "distance.hpp"
 #include "starts.hpp"
 
 namespace fit {
+
 namespace {
 
 // The lengths below are for data of extent 1.
@@ -22,16 +24,12 @@ constexpr double kUnsettled = 2e-3;    // noise allowed until a descent has ende
 constexpr std::size_t kLarge = 10000;  // of more points, some find the body, and all are used only for its last digits
 constexpr double kHuber = 1.345;       // standard deviations: 95 % efficiency for normal noise
 
-double median_size(std::span<const double> values) {
-  std::vector<double> sizes(values.size());
-  std::ranges::transform(values, sizes.begin(), [](double value) { return std::abs(value); });
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle;
-}
-
 /// The standard deviation of normal noise with this median absolute value.
-double robust_sigma(std::span<const double> residuals) { return std::max(1.4826 * median_size(residuals), kRounding); }
+double robust_sigma(std::span<const double> residuals) {
+  std::vector<double> sizes(residuals.size());
+  std::ranges::transform(residuals, sizes.begin(), [](double residual) { return std::abs(residual); });
+  return std::max(1.4826 * median(std::move(sizes)), kRounding);
+}
 
 struct Measured {
   std::vector<Witness> witnesses;
@@ -211,11 +209,7 @@ Descent descend_on_all(const Candidate& start, const Cloud& cloud, const FitSett
 /// The result in the original frame of the data, which were normalized by `extent`.
 FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& cloud, const FitSettings& settings) {
   FittedBody fitted;
-  std::vector<bool> is_inlier(cloud.points.size(), false);
-  for (const std::size_t i : descent.inliers) is_inlier[i] = true;
-  for (std::size_t i = 0; i < is_inlier.size(); ++i) {
-    if (!is_inlier[i]) fitted.outliers.push_back(i);
-  }
+  fitted.outliers = others_than(descent.inliers, cloud.points.size());
   fitted.inliers = descent.inliers.size();
   fitted.uncertainty = find_uncertainty(descent.body, inlier_witnesses(descent), residuals_of(descent), settings.limits);
   const double sharpest = make_shape(descent.body)->min_curvature_radius_estimate();
@@ -332,6 +326,39 @@ void require_three_dimensions(const Cloud& data) {
   throw std::invalid_argument(std::string("the points lie ") + where + ", to a millionth of their extent, and bound no body");
 }
 
+FittedBody fit_normalized(const Cloud& data, const Extent& extent, FitSettings settings) {
+  if (settings.is_whole) settings.largest_over_radius = kLargestOverRadiusOfWhole;
+  const Candidate best = best_family(thinned(data, 3000), settings);
+  if (!std::isfinite(best.mean_square)) {
+    throw std::runtime_error(
+        data.normals.empty()
+            ? "no body fits: every descent failed"
+            : "no body fits: every descent failed or ended with its normals against those of the data, which must point outwards");
+  }
+  if (data.points.size() <= kLarge)
+    return finish(descend_on_all({in_customary_order(best.body), best.mean_square}, data, settings, 4), extent, data, settings);
+  // Most of the search uses only some of the points. If the error of an estimate decreases with their number, one Newton step on
+  // all points is as good as the minimum (Le Cam's one-step estimator; van der Vaart, Asymptotic Statistics, section 5.7).
+  const Body near = descend_on_all(best, thinned(data, kLarge), settings, 4).body;
+  return finish(descend_on_all({in_customary_order(near), best.mean_square}, data, settings, 2, 2), extent, data, settings);
+}
+
+FittedBody fit_kept(const Cloud& cloud, const FitSettings& settings) {
+  require_points(cloud, least_points(settings.family.value_or(Family::Ellipsoid)));
+  const Extent extent = extent_of(cloud.points);
+  const Cloud data = normalized(cloud, extent);
+  FitSettings of_data = moved(settings, 1 / extent.size, -extent.centre / extent.size);
+  if (settings.sides != Sides::All) {
+    // Half of a body's surface determines the rest, but only if it is a body of the families.
+    const FittedBody fitted = fit_normalized(data, extent, of_data);
+    if (settings.sides == Sides::Some || is_within_noise(fitted.uncertainty, extent.size)) return fitted;
+    if (settings.progress) settings.progress("no body fits within the noise: searching for one that ends with the data");
+  }
+  of_data.is_whole = true;
+  of_data.empty = find_empty_space(settings.surface.points.empty() ? data : normalized(settings.surface, extent));
+  return fit_normalized(data, extent, of_data);
+}
+
 }  // namespace
 
 bool is_within_noise(const Uncertainty& uncertainty, double size) {
@@ -379,23 +406,21 @@ std::vector<std::size_t> gross_outliers(const Cloud& cloud, const FitSettings& s
   return outliers;
 }
 
-Cloud without(const Cloud& cloud, std::span<const std::size_t> indices) {
-  if (indices.empty()) return cloud;
-  std::vector<bool> is_left_out(cloud.points.size(), false);
-  for (const std::size_t i : indices) is_left_out[i] = true;
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < is_left_out.size(); ++i) {
-    if (!is_left_out[i]) kept.push_back(i);
-  }
-  return selected(cloud, kept);
+std::vector<Body> bodies_of(std::span<const FittedBody> fitted) {
+  std::vector<Body> bodies(fitted.size());
+  std::ranges::transform(fitted, bodies.begin(), &FittedBody::body);
+  return bodies;
+}
+
+std::vector<std::size_t> outliers_of(std::span<const FittedBody> fitted) {
+  std::vector<std::size_t> outliers;
+  for (const FittedBody& each : fitted) outliers.insert(outliers.end(), each.outliers.begin(), each.outliers.end());
+  return outliers;
 }
 
 void add_gross_outliers(std::vector<FittedBody>& fitted, std::span<const std::size_t> gross, std::size_t points) {
   if (gross.empty()) return;
-  std::vector<std::size_t> kept;  // the indices kept by without()
-  for (std::size_t i = 0; i < points; ++i) {
-    if (!std::ranges::binary_search(gross, i)) kept.push_back(i);
-  }
+  const std::vector<std::size_t> kept = others_than(gross, points);
   for (FittedBody& each : fitted) {
     for (std::size_t& outlier : each.outliers) outlier = kept[outlier];
   }
@@ -423,43 +448,6 @@ FittedBody refine_body(const Body& start, const Cloud& cloud, const FitSettings&
   const Body body = moved(start, 1 / extent.size, offset);
   return finish(descend_on_all({body, 0}, data, moved(settings, 1 / extent.size, offset), 4), extent, data, settings);
 }
-
-namespace {
-
-FittedBody fit_normalized(const Cloud& data, const Extent& extent, FitSettings settings) {
-  if (settings.is_whole) settings.largest_over_radius = kLargestOverRadiusOfWhole;
-  const Candidate best = best_family(thinned(data, 3000), settings);
-  if (!std::isfinite(best.mean_square)) {
-    throw std::runtime_error(
-        data.normals.empty()
-            ? "no body fits: every descent failed"
-            : "no body fits: every descent failed or ended with its normals against those of the data, which must point outwards");
-  }
-  if (data.points.size() <= kLarge)
-    return finish(descend_on_all({in_customary_order(best.body), best.mean_square}, data, settings, 4), extent, data, settings);
-  // Most of the search uses only some of the points. If the error of an estimate decreases with their number, one Newton step on
-  // all points is as good as the minimum (Le Cam's one-step estimator; van der Vaart, Asymptotic Statistics, section 5.7).
-  const Body near = descend_on_all(best, thinned(data, kLarge), settings, 4).body;
-  return finish(descend_on_all({in_customary_order(near), best.mean_square}, data, settings, 2, 2), extent, data, settings);
-}
-
-FittedBody fit_kept(const Cloud& cloud, const FitSettings& settings) {
-  require_points(cloud, least_points(settings.family.value_or(Family::Ellipsoid)));
-  const Extent extent = extent_of(cloud.points);
-  const Cloud data = normalized(cloud, extent);
-  FitSettings of_data = moved(settings, 1 / extent.size, -extent.centre / extent.size);
-  if (settings.sides != Sides::All) {
-    // Half of a body's surface determines the rest, but only if it is a body of the families.
-    const FittedBody fitted = fit_normalized(data, extent, of_data);
-    if (settings.sides == Sides::Some || is_within_noise(fitted.uncertainty, extent.size)) return fitted;
-    if (settings.progress) settings.progress("no body fits within the noise: searching for one that ends with the data");
-  }
-  of_data.is_whole = true;
-  of_data.empty = find_empty_space(settings.surface.points.empty() ? data : normalized(settings.surface, extent));
-  return fit_normalized(data, extent, of_data);
-}
-
-}  // namespace
 
 FittedBody fit_body(const Cloud& cloud, const FitSettings& settings) {
   const std::vector<std::size_t> gross = gross_outliers(cloud, settings, false);

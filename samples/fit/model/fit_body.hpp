@@ -78,6 +78,10 @@ struct FittedBody {
   bool is_bounded_by_data = false;
 };
 
+/// The bodies of fits, and all points that these ignore.
+std::vector<Body> bodies_of(std::span<const FittedBody> fitted);
+std::vector<std::size_t> outliers_of(std::span<const FittedBody> fitted);
+
 /// Whether a body fits data of the extent `size` within their noise.
 bool is_within_noise(const Uncertainty& uncertainty, double size);
 
@@ -95,9 +99,7 @@ FittedBody fit_body(const Cloud& cloud, const FitSettings& settings = {});
 /// points. For a union the limit is also below the number of points that bounds a body.
 std::vector<std::size_t> gross_outliers(const Cloud& cloud, const FitSettings& settings, bool is_union);
 
-/// without(): the cloud without these points. add_gross_outliers(): adds the gross outliers to the outliers of a fit to the rest,
-/// and converts the indices to the whole cloud.
-Cloud without(const Cloud& cloud, std::span<const std::size_t> indices);
+/// Adds the gross outliers to the outliers of a fit to the rest, and converts the indices to the whole cloud.
 void add_gross_outliers(std::vector<FittedBody>& fitted, std::span<const std::size_t> gross, std::size_t points);
 
 /// Only descends from `start` on all points. Use it for a start near the solution.

@@ -12,10 +12,11 @@
 #include <utility>
 
 #include "empty_space.hpp"
-#include "input/orientation.hpp"
+#include "input/triangles.hpp"
 #include "point_tree.hpp"
 
 namespace fit {
+
 namespace {
 
 constexpr std::size_t kSamples = 20000;         // points on a surface
@@ -147,75 +148,6 @@ class DataDistance {
   PointTree tree_;
 };
 
-}  // namespace
-
-bool is_closed(const Data& data) {
-  if (is_closed(std::span<const Triangle>(data.triangles))) return true;
-  // Degenerate triangles enclose no volume. They may close a gap between long and short edges, or lie on a closed edge.
-  std::vector<Triangle> solid = data.triangles;
-  std::erase_if(solid, [&](const Triangle& t) { return is_flat(data, t); });
-  return solid.size() < data.triangles.size() && is_closed(std::span<const Triangle>(solid));
-}
-
-VolumeTarget volume_target(const Data& data) {
-  VolumeTarget target{solid_of_mesh(data).volume, 0};
-  for (const auto& [a, b, c] : data.triangles) {
-    const std::vector<Eigen::Vector3d>& x = data.vertices.points;
-    target.area += (x[b] - x[a]).cross(x[c] - x[a]).norm() / 2;
-  }
-  return target;
-}
-
-std::vector<Vector3> free_surface(std::span<const DistanceFunction> functions, std::size_t count) {
-  std::vector<Vector3> points;
-  for (const DistanceFunction& function : functions) {
-    const Matrix3 R = function.body().rotation();
-    for (const Eigen::Vector3d& r : sample_boundary(function.shape(), count, 1).points) {
-      const Vector3 x = function.body().position + R * r;
-      const bool is_covered =
-          std::ranges::any_of(functions, [&](const DistanceFunction& other) { return &other != &function && other.contains(x); });
-      if (!is_covered) points.push_back(x);
-    }
-  }
-  return points;
-}
-
-VolumeIntegral integrate_union(std::span<const Body> bodies) {
-  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  std::vector<DistanceFunction> functions;
-  for (const Body& body : bodies) {
-    functions.emplace_back(body);
-    for (int i = 0; i < 3; ++i) {
-      const Vector3 up = Vector3::Unit(i);
-      high[i] = std::max(high[i], body.position[i] + functions.back().shape().support(functions.back().to_body(up)));
-      low[i] = std::min(low[i], body.position[i] - functions.back().shape().support(functions.back().to_body(-up)));
-    }
-  }
-  std::mt19937_64 random(1);
-  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  const double box = (high - low).prod();
-  const Vector3 middle = (low + high) / 2;
-  double inside = 0;
-  Vector3 first = Vector3::Zero();
-  Matrix3 second = Matrix3::Zero();
-  for (std::size_t i = 0; i < kVolumeSamples; ++i) {
-    const Vector3 x = (Vector3(uniform(), uniform(), uniform()).array() - 0.5).matrix().cwiseProduct(high - low);
-    const bool is_inside = std::ranges::any_of(functions, [&](const DistanceFunction& f) { return f.contains(middle + x); });
-    if (!is_inside) continue;
-    inside += 1;
-    first += x;
-    second += x * x.transpose();
-  }
-  const auto all = static_cast<double>(kVolumeSamples);
-  const double share = inside / all;
-  VolumeIntegral result{about_centroid(box * share, first / inside, box / all * second),
-                        box * std::sqrt(share * (1 - share) / all)};
-  result.solid.centroid += middle;
-  return result;
-}
-
-namespace {
-
 /// The distance from discs around the points of a cloud: its surface runs between them, in their tangent planes.
 class DiscDistance {
  public:
@@ -267,6 +199,70 @@ void measure_surface(std::span<const DistanceFunction> functions, const Data& da
 }
 
 }  // namespace
+
+bool is_closed(const Data& data) {
+  if (is_closed(std::span<const Triangle>(data.triangles))) return true;
+  // Degenerate triangles enclose no volume. They may close a gap between long and short edges, or lie on a closed edge.
+  std::vector<Triangle> solid = data.triangles;
+  std::erase_if(solid, [&](const Triangle& t) { return is_flat(data, t); });
+  return solid.size() < data.triangles.size() && is_closed(std::span<const Triangle>(solid));
+}
+
+VolumeTarget volume_target(const Data& data) {
+  VolumeTarget target{solid_of_mesh(data).volume, 0};
+  for (const auto& [a, b, c] : data.triangles) {
+    const std::vector<Eigen::Vector3d>& x = data.vertices.points;
+    target.area += (x[b] - x[a]).cross(x[c] - x[a]).norm() / 2;
+  }
+  return target;
+}
+
+std::vector<Vector3> free_surface(std::span<const DistanceFunction> functions, std::size_t count) {
+  std::vector<Vector3> points;
+  for (const DistanceFunction& function : functions) {
+    const Matrix3 R = function.body().rotation();
+    for (const Eigen::Vector3d& r : sample_boundary(function.shape(), count, 1).points) {
+      const Vector3 x = function.body().position + R * r;
+      const bool is_covered =
+          std::ranges::any_of(functions, [&](const DistanceFunction& other) { return &other != &function && other.contains(x); });
+      if (!is_covered) points.push_back(x);
+    }
+  }
+  return points;
+}
+
+VolumeIntegral integrate_union(std::span<const Body> bodies) {
+  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  std::vector<DistanceFunction> functions;
+  for (const Body& body : bodies) {
+    functions.emplace_back(body);
+    for (int i = 0; i < 3; ++i) {
+      const Vector3 up = Vector3::Unit(i);
+      high[i] = std::max(high[i], body.position[i] + functions.back().shape().support(functions.back().to_body(up)));
+      low[i] = std::min(low[i], body.position[i] - functions.back().shape().support(functions.back().to_body(-up)));
+    }
+  }
+  std::mt19937_64 random(1);
+  const double box = (high - low).prod();
+  const Vector3 middle = (low + high) / 2;
+  double inside = 0;
+  Vector3 first = Vector3::Zero();
+  Matrix3 second = Matrix3::Zero();
+  for (std::size_t i = 0; i < kVolumeSamples; ++i) {
+    const Vector3 x = (Vector3(uniform(random), uniform(random), uniform(random)).array() - 0.5).matrix().cwiseProduct(high - low);
+    const bool is_inside = std::ranges::any_of(functions, [&](const DistanceFunction& f) { return f.contains(middle + x); });
+    if (!is_inside) continue;
+    inside += 1;
+    first += x;
+    second += x * x.transpose();
+  }
+  const auto all = static_cast<double>(kVolumeSamples);
+  const double share = inside / all;
+  VolumeIntegral result{about_centroid(box * share, first / inside, box / all * second),
+                        box * std::sqrt(share * (1 - share) / all)};
+  result.solid.centroid += middle;
+  return result;
+}
 
 void add_uncertainty(FitError& error, std::span<const FittedBody> fitted) {
   std::vector<DistanceFunction> functions;

@@ -7,11 +7,12 @@
 #include <string>
 #include <utility>
 
+#include "cloud.hpp"
 #include "fit_error.hpp"
-#include "kmeans.hpp"
 #include "least_squares.hpp"
 
 namespace fit {
+
 namespace {
 
 // The lengths below are for data of extent 1.
@@ -380,55 +381,10 @@ std::vector<FittedBody> finish(std::vector<Body> bodies, const Cloud& cloud, Fit
   return fitted;
 }
 
-std::vector<Body> bodies_of(const std::vector<FittedBody>& fitted) {
-  std::vector<Body> bodies(fitted.size());
-  std::ranges::transform(fitted, bodies.begin(), &FittedBody::body);
-  return bodies;
-}
-
 /// Whether each body fits its points within the noise. Then the data bound the union, as in fit_body().
 bool are_well_fitted(const std::vector<FittedBody>& fitted, double size) {
   return std::ranges::all_of(fitted, [&](const FittedBody& each) { return is_within_noise(each.uncertainty, size); });
 }
-
-}  // namespace
-
-Union bounded(std::vector<FittedBody> fitted, const Cloud& cloud, FitSettings settings) {
-  constexpr int kMostRounds = 8;                       // constants.md has examples
-  constexpr double kBoundWeight = 100 * kEmptyWeight;  // constants.md has others
-  const double size = 1 / settings.empty.scale;        // of the data: the grid is for extent 1
-  if (!settings.empty.grid || are_well_fitted(fitted, size)) return {fitted, {}};
-  const auto error_of = [&](const std::vector<FittedBody>& each) {
-    std::vector<std::size_t> outliers;
-    for (const FittedBody& body : each) outliers.insert(outliers.end(), body.outliers.begin(), body.outliers.end());
-    return find_distances(bodies_of(each),
-                          settings.mesh.triangles.empty() ? Data{without(cloud, outliers), {}, ""} : settings.mesh);
-  };
-  FitError error = error_of(fitted);
-  const double most = std::max(kMostReach * error.radius, settings.empty.margin * size);
-  Excess least(error, most);
-  std::vector<Body> bodies = bodies_of(fitted);
-  double bound = most;
-  settings.empty.is_fine = true;
-  settings.empty.weight = kBoundWeight;
-  for (int round = 0; round < kMostRounds && !least.is_within(); ++round) {
-    if (settings.progress && round == 0) settings.progress("descending with a bound on the reach beyond the data");
-    if (round > 0) bound -= std::max(0.0, error.reach - most);  // the first descent leaves what the search did
-    if (!(bound > 0)) break;
-    settings.empty.margin = bound / size;
-    const std::vector<FittedBody> next = finish(bodies, cloud, settings);
-    bodies = bodies_of(next);
-    error = error_of(next);
-    const Excess excess(error, most);
-    if (excess < least) {
-      least = excess;
-      fitted = next;
-    }
-  }
-  return {fitted, least};
-}
-
-namespace {
 
 /// The union without the bounds of the empty space, if it then fits within the noise. Half of a body's surface determines the rest,
 /// but which points are a body's is known only after the search, which no body without bounds would survive.
@@ -491,6 +447,39 @@ std::vector<FittedBody> unite(const Cloud& cloud, int largest_count, const FitSe
 }
 
 }  // namespace
+
+Union bounded(std::vector<FittedBody> fitted, const Cloud& cloud, FitSettings settings) {
+  constexpr int kMostRounds = 8;                       // constants.md has examples
+  constexpr double kBoundWeight = 100 * kEmptyWeight;  // constants.md has others
+  const double size = 1 / settings.empty.scale;        // of the data: the grid is for extent 1
+  if (!settings.empty.grid || are_well_fitted(fitted, size)) return {fitted, {}};
+  const auto error_of = [&](const std::vector<FittedBody>& each) {
+    return find_distances(bodies_of(each),
+                          settings.mesh.triangles.empty() ? Data{without(cloud, outliers_of(each)), {}, ""} : settings.mesh);
+  };
+  FitError error = error_of(fitted);
+  const double most = std::max(kMostReach * error.radius, settings.empty.margin * size);
+  Excess least(error, most);
+  std::vector<Body> bodies = bodies_of(fitted);
+  double bound = most;
+  settings.empty.is_fine = true;
+  settings.empty.weight = kBoundWeight;
+  for (int round = 0; round < kMostRounds && !least.is_within(); ++round) {
+    if (settings.progress && round == 0) settings.progress("descending with a bound on the reach beyond the data");
+    if (round > 0) bound -= std::max(0.0, error.reach - most);  // the first descent leaves what the search did
+    if (!(bound > 0)) break;
+    settings.empty.margin = bound / size;
+    const std::vector<FittedBody> next = finish(bodies, cloud, settings);
+    bodies = bodies_of(next);
+    error = error_of(next);
+    const Excess excess(error, most);
+    if (excess < least) {
+      least = excess;
+      fitted = next;
+    }
+  }
+  return {fitted, least};
+}
 
 std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const FitSettings& settings, const Progress& progress) {
   constexpr int kLargestCount = 16;

@@ -62,9 +62,8 @@ std::vector<Matrix3> make_rotations(const Vector3& moments) {
   std::vector<Matrix3> more;
   if (first_two && last_two) {
     std::mt19937_64 random(1);
-    const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
     for (int i = 0; i < 10; ++i) {  // uniform over rotations (Shoemake 1992)
-      const double u = uniform(), v = 2 * kHalfTurn * uniform(), w = 2 * kHalfTurn * uniform();
+      const double u = uniform(random), v = 2 * kHalfTurn * uniform(random), w = 2 * kHalfTurn * uniform(random);
       const double s = std::sqrt(1 - u), t = std::sqrt(u);
       more.push_back(Eigen::Quaterniond(t * std::cos(w), s * std::sin(v), s * std::cos(v), t * std::sin(w)).toRotationMatrix());
     }
@@ -84,9 +83,7 @@ std::pair<double, double> range_along(const Cloud& cloud, const Vector3& axis) {
   std::vector<double> heights;
   for (const Vector3& x : cloud.points) heights.push_back(axis.dot(x));
   const auto quantile = [&](double share) {
-    const auto at = heights.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(heights.size() - 1));
-    std::nth_element(heights.begin(), at, heights.end());
-    return *at;
+    return ranked(heights, static_cast<std::size_t>(share * static_cast<double>(heights.size() - 1)));
   };
   const double low = quantile(0.01), high = quantile(0.99);
   return {(high - low) / 2, (high + low) / 2};

@@ -8,9 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "format.hpp"
 #include "model/distance.hpp"
-#include "paste.hpp"
+#include "results.hpp"
 
 namespace fit {
 namespace {

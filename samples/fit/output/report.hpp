@@ -1,6 +1,8 @@
-// The result of a fit as text.
+// The result of a fit as text, and text by patterns of printf.
 #pragma once
 
+#include <cstdarg>
+#include <cstdio>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +11,16 @@
 #include "model/fit_error.hpp"
 
 namespace fit {
+
+/// At most 511 characters.
+[[gnu::format(printf, 1, 2)]] inline std::string format(const char* pattern, ...) {
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vector<char> text(512);
+  std::vsnprintf(text.data(), text.size(), pattern, arguments);
+  va_end(arguments);
+  return text.data();
+}
 
 /// The parameters of a body, each with one standard error, or the reason why it has none.
 std::string describe(const FittedBody& fitted);

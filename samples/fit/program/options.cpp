@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <supernormal/shapes/superellipsoid.hpp>
 
-#include "output/paste.hpp"
+#include "output/results.hpp"
 
 namespace fit {
 namespace {

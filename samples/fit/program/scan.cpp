@@ -22,18 +22,6 @@ Cloud points_of(const Data& data, bool uses_vertices) {
   return sample_triangles(data.vertices.points, data.triangles, count, 1);
 }
 
-std::vector<std::size_t> outliers_of(const std::vector<FittedBody>& fitted) {
-  std::vector<std::size_t> outliers;
-  for (const FittedBody& each : fitted) outliers.insert(outliers.end(), each.outliers.begin(), each.outliers.end());
-  return outliers;
-}
-
-std::vector<Body> bodies_of(const std::vector<FittedBody>& fitted) {
-  std::vector<Body> bodies(fitted.size());
-  std::ranges::transform(fitted, bodies.begin(), &FittedBody::body);
-  return bodies;
-}
-
 }  // namespace
 
 Scan read_scan(const std::string& path, const Options& options) {

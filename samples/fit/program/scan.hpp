@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "input/orientation.hpp"
 #include "input/read_data.hpp"
+#include "input/triangles.hpp"
 #include "model/fit_error.hpp"
 #include "model/fit_union.hpp"
 #include "options.hpp"

@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "compounds.hpp"
+#include "bodies.hpp"
 #include "kind/kind_text.hpp"
-#include "stones.hpp"
 #include "studies.hpp"
 #include "truth.hpp"
 

@@ -1,11 +1,13 @@
 // Known bodies, data sampled from them, and fits to these data.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <random>
 
 #include "model/body.hpp"
 #include "model/cloud.hpp"
+#include "model/fit_body.hpp"
 
 namespace fit {
 
@@ -38,5 +40,22 @@ Body aligned(const Body& fitted, const Body& truth, Eigen::Matrix3d& axes);
 
 /// The parameters of `fitted` minus those in `truth`, in the order of kPosition to kTaper; exponents and half-axes as such.
 Eigen::Matrix<double, kParameters, 1> deviation(const Body& fitted, const Body& truth);
+
+/// A fit in the frame of the truth, with its standard errors in that frame.
+struct Compared {
+  Body body;
+  Gradient deviation = Gradient::Zero();       ///< of `body` from the truth, as in fit::deviation
+  Gradient standard_error = Gradient::Zero();  ///< as in Uncertainty::standard_error
+  std::array<bool, kParameters> is_determined{};
+  bool is_edge_below_noise = false;
+  /// Whether the fit has another axis as z, or the section rotated by 45 degrees. For nearly equal exponents noise may favour such
+  /// a body. Its parameters then cannot be compared with the truth.
+  bool has_other_axes = false;
+};
+
+Compared compare(const FittedBody& fitted, const Body& truth);
+
+/// Fits data of the truth within its own family.
+Compared fit_and_compare(const Body& truth, const Scatter& scatter);
 
 }  // namespace fit

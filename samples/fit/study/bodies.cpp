@@ -1,20 +1,23 @@
-#include "compounds.hpp"
+#include "bodies.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 #include <stdexcept>
 #include <supernormal/proximity/solve.hpp>
 
+#include "kind/grain_kind.hpp"
 #include "model/distance.hpp"
 #include "truth.hpp"
 
 namespace fit {
+
 namespace {
 
 Body make_part(Family family, const Vector3& half_axes, double delta, double epsilon, double taper, const Vector3& position,
                double angle) {
-  Body body{family, position, Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3::UnitX())), half_axes, delta, epsilon, taper};
-  return body;
+  return {family, position, Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3::UnitX())), half_axes, delta, epsilon, taper};
 }
 
 std::vector<Body> make_dumbbell() {
@@ -42,6 +45,28 @@ std::vector<Body> make_molar() {
 
 }  // namespace
 
+Body random_superellipsoid(std::mt19937_64& random) {
+  const auto exponent = [&] { return 1 + std::exp(std::log(0.3) + std::log(7 / 0.3) * uniform(random)); };
+  const double a = 1.2 + 0.4 * uniform(random), b = 0.8 + 0.3 * uniform(random), c = 0.4 + 0.3 * uniform(random);
+  const std::array<Vector3, 3> orders = {Vector3(a, b, c), Vector3(c, a, b), Vector3(b, c, a)};
+  Body body;
+  body.family = Family::Superellipsoid;
+  body.position = {3, -2, 5};
+  body.half_axes = orders[random() % orders.size()];
+  body.delta = exponent();
+  body.epsilon = exponent();
+  const double w = uniform(random) - 0.5, x = uniform(random) - 0.5, y = uniform(random) - 0.5, z = uniform(random) - 0.5;
+  body.orientation = Eigen::Quaterniond(w, x, y, z).normalized();
+  return body;
+}
+
+Body random_superovoid(std::mt19937_64& random, double share) {
+  Body body = random_superellipsoid(random);
+  body.family = Family::Superovoid;
+  body.taper = (random() % 2 == 0 ? share : -share) * taper_limit(body.epsilon);
+  return body;
+}
+
 std::vector<Body> make_compound(const std::string& name) {
   if (name == "dumbbell") return make_dumbbell();
   if (name == "molar") return make_molar();
@@ -63,6 +88,22 @@ Cloud scatter_union(const std::vector<Body>& bodies, std::size_t count, double s
     }
   }
   return cloud;
+}
+
+std::vector<Body> make_stones(std::size_t count, std::uint64_t seed) {
+  NormalNumbers normal(seed);
+  std::mt19937_64 random(seed);
+  std::vector<Body> stones;
+  for (std::size_t i = 0; i < count; ++i) {
+    Body stone = random_superellipsoid(random);
+    const double b = normal(), c = normal(), delta = normal(), epsilon = normal(), size = normal();
+    stone.half_axes = {1, 0.8 + 0.05 * b, 0.6 + 0.04 * c};
+    stone.delta = 1 + 1.4 * std::exp(0.1 * delta);
+    stone.epsilon = 1 + 1.8 * std::exp(0.1 * epsilon);
+    stone.half_axes *= 0.01 * std::pow(1.25, size) / size_of(stone);
+    stones.push_back(stone);
+  }
+  return stones;
 }
 
 }  // namespace fit
