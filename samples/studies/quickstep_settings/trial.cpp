@@ -5,7 +5,6 @@
 #include <cmath>
 #include <random>
 
-
 namespace quickstep_settings {
 
 namespace {
