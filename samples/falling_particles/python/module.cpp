@@ -8,8 +8,8 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
-#include <ranges>
 #include <stdexcept>
 #include <string>
 #include <supernormal/shapes/description.hpp>
@@ -124,7 +124,8 @@ py::dict contacts_of(const StepwiseRun& run) {
 
 py::dict walls_of(const StepwiseRun& run) {
   const WallBodies& walls = run.simulation().world.walls();
-  const auto indices = std::views::iota(std::size_t{0}, walls.count());
+  std::vector<std::size_t> indices(walls.count());
+  std::iota(indices.begin(), indices.end(), std::size_t{0});
   const auto normal_of = [&](std::size_t i) {
     const auto* const plane = std::get_if<PlaneShape>(&walls.wall(i).shape);
     return plane == nullptr ? kNone : to_point(walls.state(i).pose.rotation * plane->normal);

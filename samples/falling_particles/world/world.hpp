@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <ranges>
+#include <span>
 #include <supernormal/effects.hpp>
 #include <supernormal/stepper.hpp>
 #include <vector>
@@ -51,6 +51,34 @@ struct WorldState {
   void serialize(auto& archive) { archive(seed, grains, has_lid, periods, walls, bonds, stepper); }
 };
 
+/// The present grains of a list, in its order. Removed grains cost no time.
+class PresentGrains {
+ public:
+  class Iterator {
+   public:
+    Iterator(const Grain* grains, const std::size_t* index) : grains_(grains), index_(index) {}
+    const Grain& operator*() const { return grains_[*index_]; }
+    Iterator& operator++() {
+      ++index_;
+      return *this;
+    }
+    bool operator==(const Iterator& other) const { return index_ == other.index_; }
+
+   private:
+    const Grain* grains_;
+    const std::size_t* index_;
+  };
+
+  PresentGrains(const Grain* grains, std::span<const std::size_t> indices) : grains_(grains), indices_(indices) {}
+  Iterator begin() const { return {grains_, indices_.data()}; }
+  Iterator end() const { return {grains_, indices_.data() + indices_.size()}; }
+  std::size_t size() const { return indices_.size(); }
+
+ private:
+  const Grain* grains_;
+  std::span<const std::size_t> indices_;
+};
+
 /// Sets the library's defaults for queries, which hold for the process. The end of its lifetime resets them. Without a section
 /// [query] it does nothing. Throws std::runtime_error when the library refuses the values.
 class QueryDefaults {
@@ -83,10 +111,8 @@ class World {
   SweepSpace& sweep() const { return *sweep_; }
   /// All grains so far, removed ones included.
   const std::vector<Grain>& grains() const { return grains_; }
-  /// The present ones of grains(), in their order. Removed grains cost no time.
-  auto present() const {
-    return std::views::transform(present_, [this](std::size_t index) -> const Grain& { return grains_[index]; });
-  }
+  /// The present ones of grains().
+  PresentGrains present() const { return {grains_.data(), present_}; }
   /// Calls visit(geom) for the geoms of all present grains, and of their images in a periodic world.
   void for_each_grain_geom(const auto& visit) const {
     if (cell_ == nullptr) {
