@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "ode/collider_fixture.hpp"
-#include "supernormal/proximity/pose.hpp"
+#include "supernormal/shapes/shape.hpp"
 #include "support/ode_fixture.hpp"
 
 using namespace supernormal::test;
