@@ -126,26 +126,27 @@ OfBoth solve_impulses(std::span<Push> pushes) {
   for (const Push& push : pushes) most = std::max(most, push.lacking);
   OfBoth change = OfBoth::Zero();
   std::size_t count = 0;  // the first ones act
+  const auto at = [](std::size_t k) { return static_cast<Eigen::Index>(k); };
   for (std::size_t turn = 0; turn < 3 * pushes.size() && count < kMost; ++turn) {
     const auto left = [&](const Push& push) { return push.lacking - push.impulse.dot(change); };
     const auto next = std::ranges::max_element(pushes.subspan(count), {}, left);
     if (next == pushes.end() || !(left(*next) > kRounding * most)) break;
     std::swap(pushes[count++], *next);
     for (bool is_solved = false; !is_solved;) {
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost> responses(count, count);
-      Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1> lacking(count);
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost> responses(at(count), at(count));
+      Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1> lacking(at(count));
       for (std::size_t k = 0; k < count; ++k) {
-        lacking(k) = pushes[k].lacking;
-        for (std::size_t j = 0; j < count; ++j) responses(k, j) = pushes[k].impulse.dot(pushes[j].change);
+        lacking(at(k)) = pushes[k].lacking;
+        for (std::size_t j = 0; j < count; ++j) responses(at(k), at(j)) = pushes[k].impulse.dot(pushes[j].change);
       }
       const auto solved = responses.ldlt().solve(lacking).eval();
       double part = 1;
       std::size_t first = count;  // whose impulse becomes 0 first on the way to `solved`
       for (std::size_t k = 0; k < count; ++k) {
         const double total = pushes[k].total;
-        if (total + part * (solved(k) - total) < 0) part = total / (total - solved(k)), first = k;
+        if (total + part * (solved(at(k)) - total) < 0) part = total / (total - solved(at(k))), first = k;
       }
-      for (std::size_t k = 0; k < count; ++k) pushes[k].total += part * (solved(k) - pushes[k].total);
+      for (std::size_t k = 0; k < count; ++k) pushes[k].total += part * (solved(at(k)) - pushes[k].total);
       is_solved = first == count;
       if (!is_solved) pushes[first].total = 0, std::swap(pushes[first], pushes[--count]);
     }
