@@ -16,7 +16,6 @@ void bind_proximity(pybind11::module_& m);
 void bind_contact(pybind11::module_& m);
 void bind_raycast(pybind11::module_& m);
 void bind_impact(pybind11::module_& m);
-void bind_batch(pybind11::module_& m);
 void bind_derivatives(pybind11::module_& m);
 
 }  // namespace supernormal::python

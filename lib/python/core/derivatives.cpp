@@ -94,8 +94,8 @@ std::unique_ptr<Derivatives> derivatives_for(std::ptrdiff_t pairs, const Derivat
   return std::make_unique<Derivatives>(pairs, left_out);
 }
 
-template <typename Found>
-const Found& require_finite(const Found& found) {
+template <typename Answer>
+const Answer& require_finite(const Answer& found) {
   if (found.status == DerivativeStatus::InvalidInput) throw std::invalid_argument(kNotFinite);
   return found;
 }

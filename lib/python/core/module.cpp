@@ -50,7 +50,6 @@ PYBIND11_MODULE(_core, m) {
   bind_contact(m);
   bind_raycast(m);
   bind_impact(m);
-  bind_batch(m);
   bind_derivatives(m);
   guard_classes(m);
   guard(m);

@@ -1,7 +1,11 @@
-// Settings, and the proximity of two bodies or of a body and a plane.
+// Settings, and the proximity of two bodies, of N pairs on all cores, and of a body and a plane.
 #include <pybind11/stl.h>
 
+#include <array>
+#include <cmath>
+#include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -10,10 +14,13 @@
 #include "arrays.hpp"
 #include "base/validation.hpp"
 #include "bindings.hpp"
+#include "columns.hpp"
 #include "enums.hpp"
+#include "pairs.hpp"
 #include "parallel_for.hpp"
 #include "proximity/gap/usable_settings.hpp"
 #include "recording_shape.hpp"
+#include "supernormal/proximity/batch.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/python/interpreter_lock.hpp"
@@ -70,6 +77,24 @@ void bind_setting(py::class_<Settings>& type, const char* name, Value Settings::
       doc);
 }
 
+std::unique_ptr<Proximities> proximities(const py::object& shapes1, const py::object& poses1, const py::object& shapes2,
+                                         const py::object& poses2, const Settings& settings,
+                                         const std::optional<Doubles>& first_normals, int threads) {
+  const Pairs pairs(shapes1, poses1, shapes2, poses2, first_normals);
+  auto out = std::make_unique<Proximities>(pairs.count());
+  const auto set = [&out](std::ptrdiff_t i, const Proximity& result) { out->set(i, require_answer(result)); };
+  parallel_for_ranges(pairs.count(), threads, [&](std::ptrdiff_t& i, std::ptrdiff_t end) {
+    std::array<Proximity, Pairs::kAtOnce> results;
+    const auto many = [&](std::span<const ProximityQuery> queries, std::span<const std::ptrdiff_t> which) {
+      find_proximities(queries, settings, {results.data(), queries.size()});
+      for (std::size_t k = 0; k < queries.size(); ++k) set(which[k], results[k]);
+    };
+    pairs.for_batches(i, end, many,
+                      [&](const ProximityQuery& query, std::ptrdiff_t k) { set(k, find_proximity(query, settings)); });
+  });
+  return out;
+}
+
 constexpr const char* kSettingsDoc =
     R"(The solver of a query, and when it stops. Raises ValueError when a setting is out of range, also when it is changed.
 
@@ -109,6 +134,19 @@ plane_normal: (3,), world frame, out of the half-space, any length but 0; it is 
 plane_offset: m.
 
 Raises ValueError when an argument is out of range.)";
+
+constexpr const char* kProximitiesDoc =
+    R"(The results of find_proximities(), as arrays with one entry for each of the N pairs. Frame: world.)";
+
+constexpr const char* kFindProximitiesDoc =
+    R"(find_proximity() of N pairs on all cores, without the interpreter's lock. The results are bit for bit the same.
+
+shapes1, shapes2: one Shape for all pairs, or Shapes, or a sequence of N Shape.
+poses1, poses2: one Pose for all pairs, or Poses.
+first_normals: (N, 3) or (3,), in the frame of body 1, any length but 0; or None.
+threads: in [0, 256]; 0: up to one for each core, each with at least 256 of the N.
+
+Raises the errors of find_proximity(), with the index of the pair. Raises ValueError when the arguments differ in length.)";
 
 }  // namespace
 
@@ -162,6 +200,15 @@ void bind_proximity(py::module_& m) {
         py::arg("settings") = Settings(), py::arg("first_normal") = py::none());
   m.def("find_plane_proximity", &plane_proximity, kPlaneDoc, py::arg("shape"), py::arg("pose"), py::arg("plane_normal"),
         py::arg("plane_offset"));
+
+  py::class_<Proximities> pairs(m, "Proximities", kProximitiesDoc);
+  pairs.def("__getitem__", [](const Proximities& self, std::ptrdiff_t i) {
+    return self[static_cast<std::ptrdiff_t>(require_index("proximities", i, static_cast<std::size_t>(self.count())))];
+  });
+  bind_iteration(pairs);
+  Proximities::bind(pairs, "pairs");
+  m.def("find_proximities", &proximities, kFindProximitiesDoc, py::arg("shapes1"), py::arg("poses1"), py::arg("shapes2"),
+        py::arg("poses2"), py::arg("settings") = Settings(), py::arg("first_normals") = py::none(), py::arg("threads") = 0);
 }
 
 }  // namespace supernormal::python

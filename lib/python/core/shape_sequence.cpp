@@ -1,13 +1,14 @@
 // Sequences of shapes, from arrays of parameters or from a list.
-#include "shape_sequence.hpp"
-
 #include <pybind11/stl.h>
 
-#include <optional>
+#include <memory>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "pairs.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
