@@ -110,6 +110,7 @@ TEST_CASE("shapes: no point of the boundary lies outside a supporting plane") {
   const std::vector<Vector3> normals = all_normals(40, 4), planes = random_normals(20, 5);
   for (const Sample& sample : samples()) {
     std::vector<Vector3> points;
+    points.reserve(normals.size());
     for (const Vector3& n : normals) points.push_back(sample.shape->point(n));
     for (const Vector3& n : planes) {
       double highest = -1e300;
