@@ -14,9 +14,7 @@
 #include <string>
 
 #include "common/measured_tables.hpp"
-#include "common/number_text.hpp"
 #include "common/ode_world.hpp"
-#include "common/python_script.hpp"
 #include "common/random.hpp"
 #include "grain_world.hpp"
 #include "model/container.hpp"
