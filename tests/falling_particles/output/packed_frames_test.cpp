@@ -9,7 +9,6 @@
 #include <limits>
 #include <string_view>
 
-
 using namespace falling_particles;
 
 namespace {
