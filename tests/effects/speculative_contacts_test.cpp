@@ -627,7 +627,8 @@ TEST_CASE(
     "speculative contacts: a ball joint with ERP 0 ties velocities only: its bodies are moved to touch. A spring or another one "
     "holds them") {
   constexpr double kSoft = 1e-3;  // CFM of a spring
-  for (const auto [erp, cfm] : {std::array{0.0, 0.0}, {0.0, kSoft}, {0.2, 0.0}}) {
+  for (const auto& tie : {std::array{0.0, 0.0}, {0.0, kSoft}, {0.2, 0.0}}) {
+    const double erp = tie[0], cfm = tie[1];
     CAPTURE(erp);
     CAPTURE(cfm);
     const double step = 10e-3;
