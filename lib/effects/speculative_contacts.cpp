@@ -188,11 +188,13 @@ void SpeculativeSetup::move_bodies() const {
 
 Side SpeculativeSetup::side_of(dGeomID geom) const {
   const auto known = sides_.find(geom);
-  if (known == sides_.end()) return {-1, dGeomGetBody(geom)};
+  const dBodyID present = dGeomGetBody(geom);
+  // A geom may have got a body since, or be another one at the address.
+  if (known == sides_.end() || (known->second.body == nullptr && present != nullptr)) return {-1, present};
   // A body of an earlier step may be gone.
   const std::size_t index = indices_.at(known->second.body);
   const bool is_here = index < bodies_.size() && bodies_[index].id == known->second.body;
-  return {known->second.material, is_here ? known->second.body : dGeomGetBody(geom)};
+  return {known->second.material, is_here ? known->second.body : present};
 }
 
 /// Adds a record of contacts with a wall, a geom without a body or of a kinematic one.

@@ -28,6 +28,21 @@ NormalForce elastic_force(const ContactMaterial& material, const ParticleShape& 
   return hertz_force(material, depth, supernormal::find_contact_curvature(sum, n), shape.width);
 }
 
+/// The force of one of the contacts. A minimum has the weaker of the springs beside it: its own curvature is no contact's, and with
+/// a stiffer spring it would pull.
+NormalForce elastic_force_at(std::span<const WallContact> contacts, std::size_t which, const Matrix3& rotation,
+                             const ContactMaterial& material, const ParticleShape& shape, const Body& particle) {
+  const auto force_of = [&](const WallContact& spring) {
+    const Matrix3 curvature = rotation * spring.curvature * rotation.transpose();
+    return elastic_force(material, shape, particle, rotation * spring.normal, contacts[which].depth, curvature);
+  };
+  if (!contacts[which].is_between) return force_of(contacts[which]);
+  if (contacts.size() < 2) return {};
+  const NormalForce before = force_of(contacts[which > 0 ? which - 1 : which + 1]);
+  const NormalForce after = force_of(contacts[which + 1 < contacts.size() ? which + 1 : which - 1]);
+  return before.force < after.force ? before : after;
+}
+
 /// The faces or sides at one of the contacts.
 std::optional<FaceContact> find_faces(std::span<const WallContact> contacts, std::size_t which, const supernormal::Pose& wall,
                                       const Body& particle) {
@@ -73,8 +88,7 @@ WallForce find_wall_force(Wall& wall, const Body& wall_body, const ParticleShape
     const std::optional<FaceContact> faces = find_faces(contacts, k, wall_body.pose, particle);
     const bool do_faces_touch = faces && faces->count > 0;
     if (found.depth <= 0 && !do_faces_touch) continue;
-    const NormalForce elastic =
-        elastic_force(material, shape, particle, contact.normal, found.depth, rotation * found.curvature * rotation.transpose());
+    const NormalForce elastic = elastic_force_at(contacts, k, rotation, material, shape, particle);
     ContactHistory one = take_nearest(old, contact.normal);
     if (!faces && particle.is_flat()) one.release_twist();
     const ContactForce force = faces ? face_contact_force(*faces, face_stiffness(material, shape.width), elastic, material,
