@@ -402,6 +402,7 @@ TEST_CASE_FIXTURE(
       const dReal* const place = found[static_cast<std::size_t>(k)].pos;
       return std::abs(double{snGeomPointDepth(geom, place[0], place[1], place[2])});
     };
+    off.reserve(static_cast<std::size_t>(count));
     for (int k = 0; k < count; ++k) off.push_back(look(k));
     dWorldQuickStep(world.id(), dReal(kStep));
     for (int k = 0; k < count; ++k) {
