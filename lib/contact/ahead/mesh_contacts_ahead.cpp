@@ -33,6 +33,9 @@ constexpr double kAlong = 1e-9;
 constexpr double kSameNormal = 1e-6;
 constexpr double kSameGap = 1e-3;
 
+// A body that approaches a face by less than this fraction of its smallest half-extent in the step does not pass it.
+constexpr double kSliding = 0.5;
+
 /// Whether the contact with a lone triangle is one with the surface. The edges of the triangle need not be edges of the surface.
 bool is_of_surface(const Proximity& there, const MeshContacts& surface) { return surface.has_normal(-there.normal, there.point2); }
 
@@ -153,11 +156,12 @@ struct MeshContactsAhead::Search {
   double time;  // s
   std::span<const MeshTriangle> triangles;
   const Settings& settings;
-  double near;      // m; a gap up to this is a contact
-  double share;     // the body's share of the mobilities
-  double size;      // m; the smallest half-extent of the body
-  double graze;     // m; a deeper overlap is an impact
-  double rounding;  // m; of the vertices
+  double near;                        // m; a gap up to this is a contact
+  double share;                       // the body's share of the mobilities
+  double size;                        // m; the smallest half-extent of the body
+  double graze;                       // m; a deeper overlap is an impact
+  double rounding;                    // m; of the vertices
+  const FreeMotion* slide = nullptr;  // to the place of the body, with its rotation; null: without
 
   /// The largest gap of a contact with this normal: what the body approaches in the step or on its way there may be no farther.
   double reach_along(const Vector3& normal, const Vector3& way) const {
@@ -181,6 +185,16 @@ struct MeshContactsAhead::SurfaceFrame {
   Pose pose_at_end(const FreeMotion& free) const {
     const Pose pose = free.end1();
     return {end.rotation.transpose() * (pose.position - end.position), end.rotation.transpose() * pose.rotation};
+  }
+
+  /// Moves contacts at the end, in the frame of the surface, back to the present poses.
+  void take_back(const FreeMotion& free, double share, ContactManifold& contacts) const {
+    const auto to_end = [&](Vector3& place) { place = end.rotation * place + end.position; };
+    contacts.deepest.normal = end.rotation * contacts.deepest.normal;
+    for (Vector3* place : {&contacts.deepest.point1, &contacts.deepest.point2, &contacts.deepest.contact}) to_end(*place);
+    for (ManifoldCorner& corner : contacts.corners) to_end(corner.point);
+    if (contacts.placed_on) contacts.placed_on = {contacts.placed_on->shape, free.end1(), contacts.deepest.normal};
+    free.take_back(share, contacts);
   }
 
   Motion motion;
@@ -220,6 +234,10 @@ std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, con
     left -= first.time;
     there.pose.position += first.time * there.motion.velocity;
     const Vector3 way = there.pose.position - body.pose.position;
+    if (!first.hits && slides(search)) {
+      add_contacts_at_end(search, there, way);
+      break;
+    }
     add_contacts(search, way);
     if (!first.hits) break;
     if (!holds_back(there.motion.velocity)) add_continued(search, way);
@@ -293,12 +311,7 @@ std::optional<MeshManifold> MeshContactsAhead::find_after(const Search& search, 
   }
   nearest.proximity.contact += (0.5 - search.share) * nearest.proximity.gap * nearest.proximity.normal;
   ContactManifold manifold = manifold_of(search, there, nearest.proximity, 0);
-  const auto to_end = [&](Vector3& place) { place = frame.end.rotation * place + frame.end.position; };
-  manifold.deepest.normal = frame.end.rotation * manifold.deepest.normal;
-  for (Vector3* place : {&manifold.deepest.point1, &manifold.deepest.point2, &manifold.deepest.contact}) to_end(*place);
-  for (ManifoldCorner& corner : manifold.corners) to_end(corner.point);
-  if (manifold.placed_on) manifold.placed_on = {&shape, motion.end1(), manifold.deepest.normal};
-  motion.take_back(search.share, manifold);
+  frame.take_back(motion, search.share, manifold);
   manifold.reach = search.reach_along(manifold.deepest.normal, Vector3::Zero());
   return MeshManifold{manifold, nearest.triangle};
 }
@@ -375,6 +388,28 @@ void MeshContactsAhead::add_contacts(const Search& search, const Vector3& way) {
   }
 }
 
+/// Whether the body passes no face in the step: it slides on those that it meets on its way.
+bool MeshContactsAhead::slides(const Search& search) const {
+  const double most = kSliding * search.size;
+  return shift_by_rotation(search.now.motion, search.time) < most && std::ranges::all_of(found_, [&](const MeshManifold& found) {
+           const Proximity& contact = found.manifold.deepest;
+           return approach_of(search.now.motion, search.surface, search.time, contact.normal, std::min(0.0, contact.gap)) < most;
+         });
+}
+
+/// Replaces the contacts of a body that slides by those at the end of its way, for its orientation there.
+void MeshContactsAhead::add_contacts_at_end(const Search& search, BodyAhead& there, const Vector3& way) {
+  BodyAhead along = search.now;
+  along.motion.velocity = search.surface.velocity + way / search.time;
+  along.motion.acceleration.setZero();
+  const FreeMotion slide(along, without_forces({search.now.shape, search.now.pose, search.surface}), search.time);
+  Search at_end = search;
+  at_end.slide = &slide;
+  there.pose = SurfaceFrame(search, slide).pose_at_end(slide);
+  found_.clear();
+  add_contacts(at_end, way);
+}
+
 /// In a valley the body overlaps one side, but the face at the other side holds it back.
 void MeshContactsAhead::add_continued(const Search& search, const Vector3& way) {
   const Vector3& velocity = search.body.motion.velocity;
@@ -401,27 +436,6 @@ bool MeshContactsAhead::is_apart_now(const Search& search, std::span<const MeshC
   return nearest.status != Status::InvalidInput && nearest.gap > 0;
 }
 
-/// How much more a point of the body at the border of a sheet approaches by the rotation of a step than the body does, m. The
-/// contact is no support point there, and its normal is not that of the body. So the points of a ball that rolls come down on the
-/// border, but the ball does not.
-double MeshContactsAhead::approach_in_excess(const Search& search, const Proximity& there) {
-  const Vector3 rotation = search.time * (search.body.motion.angular_velocity - search.surface.angular_velocity);
-  if (rotation.isZero(0)) return 0;
-  const Shape& shape = search.body.shape;
-  const Pose& pose = search.body.pose;
-  const Vector3& normal = there.normal;
-  ++evaluations_;
-  const double extent = shape.support(pose.rotation.transpose() * normal) + normal.dot(pose.position);
-  const double above = extent - normal.dot(there.contact);
-  if (above <= search.settings.tolerance * search.size) return 0;
-  const RayHit hit = find_ray_hit(shape, pose, there.contact + above * normal, -normal, above + search.size, search.settings);
-  evaluations_ += hit.evaluations;
-  const double cosine = hit.normal.dot(normal);
-  if (!hit.hit || !(cosine > 0)) return 0;
-  const Vector3 arm = there.contact - pose.position + search.now.pose.position - search.now.motion.centre;
-  return std::max(0.0, rotation.dot(arm.cross(normal - hit.normal / cosine)));
-}
-
 /// The manifold of a contact with a face. Points that move in to a border stay on the body.
 ContactManifold MeshContactsAhead::manifold_of(const Search& search, const Pose& pose, const Proximity& there, double approach) {
   const Shape& shape = search.body.shape;
@@ -435,13 +449,16 @@ ContactManifold MeshContactsAhead::manifold_of(const Search& search, const Pose&
   return manifold;
 }
 
-void MeshContactsAhead::add(const Search& search, Proximity there, int triangle, const Vector3& way) {
-  there.gap += approach_in_excess(search, there);
+void MeshContactsAhead::add(const Search& search, const Proximity& there, int triangle, const Vector3& way) {
   const MotionAhead& motion = search.now.motion;
   const double overlap = approach_of(motion, search.surface, search.time, there.normal, there.gap + there.normal.dot(way)) +
                          growth_by_rotation(search.body, there.normal, there.point1, search.time);
   ContactManifold manifold = manifold_of(search, search.body.pose, there, overlap);
-  take_back(manifold, way, Vector3::Zero(), search.share, manifold.deepest.gap);
+  if (search.slide != nullptr) {
+    SurfaceFrame(search, *search.slide).take_back(*search.slide, search.share, manifold);
+  } else {
+    take_back(manifold, way, Vector3::Zero(), search.share, manifold.deepest.gap);
+  }
   manifold.reach = search.reach_along(there.normal, way);
   limit_rotation(search.now, {search.now.shape, search.now.pose, search.surface}, search.time, search.share, manifold);
   const auto same = std::find_if(found_.begin(), found_.end(), [&](const MeshManifold& other) {
