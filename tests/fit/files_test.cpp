@@ -367,24 +367,24 @@ TEST_CASE("an .off is read in double precision, as a mesh or as points, with wha
 
 TEST_CASE("a broken .off is refused with the place of the error") {
   const TemporaryFolder folder;
-  const auto refusal = [&](const std::string& text) { return complaint_about(folder.write("bad.off", text)); };
   const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
-  CHECK(refusal("") == ": no points");
-  CHECK(refusal("4OFF\n1 0 0\n") ==
-        ":1: the file begins with \"4OFF\"; allowed: OFF, with ST, C or N before it, in three dimensions");
-  CHECK(refusal("OFF BINARY\n") == ":1: the number of vertices is \"BINARY\"; allowed: 0 to 1e18 - 1");
-  CHECK(refusal("OFF\n") == ":1: the file ends before the numbers of vertices and faces");
-  CHECK(refusal("OFF\n30 10 0\n" + three) ==
-        ": the header says 30 vertices and 10 faces, but the file has 3 vertices and 0 faces: is it truncated?");
-  CHECK(refusal("OFF\n3 2 0\n" + three + "3 0 1 2\n") ==
-        ": the header says 3 vertices and 2 faces, but the file has 3 vertices and 1 faces: is it truncated?");
-  CHECK(refusal("OFF\n3 1 0\n" + three + "3 0 1 2\n3 0 2 1\n") ==
-        ":7: the header says 3 vertices and 1 faces, but the file goes on");
-  CHECK(refusal("OFF\n3 1 0\n" + three + "3 0 1 9999\n") == ":6: there is no vertex 9999; allowed: 0 to 2");
-  CHECK(refusal("OFF\n3 1 0\n" + three + "3 0 1 -1\n") == ":6: there is no vertex -1; allowed: 0 to 2");
-  CHECK(refusal("OFF\n3 1 0\n" + three + "4 0 1 2\n") == ":6: the line ends before vertex 4 of 4 of the face");
-  CHECK(refusal("OFF\n1 0 0\n1,5 2,5 3,5\n") == ":3: x is \"1,5\", which is no number");
-  CHECK(refusal("OFF\n1 0 0\n1 2 nan\n") == ":3: a coordinate is not finite");
+  for (const auto& [text, expected] : std::to_array<std::array<std::string, 2>>(
+           {{"", ": the file ends before the numbers of vertices and faces"},
+            {"OFF\n", ": the file ends before the numbers of vertices and faces"},
+            {"4OFF\n1 0 0\n", ":1: the file begins with \"4OFF\"; allowed: OFF, with ST, C or N before it, in three dimensions"},
+            {"OFF BINARY\n", ":1: element vertex has the count \"BINARY\"; allowed: 0 to 1e18 - 1"},
+            {"OFF\n30 10 0\n" + three,
+             ": the header says 30 of element vertex, but the file has room for 4 at most: is it truncated?"},
+            {"OFF\n3 2 0\n" + three + "3 0 1 2\n", ":7: face 2 of 2: the file ends here"},
+            {"OFF\n3 1 0\n" + three + "3 0 1 2\n3 0 2 1\n", ":7: the file goes on after all that its header says"},
+            {"OFF\n3 1 0\n" + three + "3 0 1 9999\n", ":6: face 1 of 1: there is no vertex 9999; allowed: 0 to 2"},
+            {"OFF\n3 1 0\n" + three + "3 0 1 -1\n", ":6: face 1 of 1: there is no vertex -1; allowed: 0 to 2"},
+            {"OFF\n3 1 0\n" + three + "4 0 1 2\n", ":7: face 1 of 1: the file ends here"},
+            {"OFF\n3 1 0\n" + three + "-1 0 1 2\n", ":7: face 1 of 1: the file ends here"},
+            {"OFF\n1 0 0\n1,5 2,5 3,5\n", ":3: vertex 1 of 1: \"1,5\" is no number"},
+            {"OFF\n1 0 0\n1 2 nan\n", ":3: vertex 1 of 1: z is nan, but must be finite"}})) {
+    CHECK(complaint_about(folder.write("bad.off", text)) == expected);
+  }
 }
 
 TEST_CASE("a mesh with a face whose vertex does not exist is refused in every format") {

@@ -283,13 +283,8 @@ void read_faces(Numbers& numbers, const Element& element, Data& data) {
   }
 }
 
-}  // namespace
-
-Data read_ply(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path + ": cannot be opened");
-  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  Header header = read_header(path, bytes);
+/// All elements, from where the header ends.
+Data read_elements(const std::string& path, const std::string& bytes, const Header& header) {
   Numbers numbers(path, bytes, header);
   Data data;
   for (const Element& element : header.elements) {
@@ -314,6 +309,71 @@ Data read_ply(const std::string& path) {
   if (header.format == Format::Text) data.is_single = false;
   if (!data.triangles.empty()) data.vertices.normals.clear();  // the normals of the triangles are used
   return data;
+}
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path + ": cannot be opened");
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// The text of an .off file as that of a .ply, with its header beside it: line by line the numbers that count, without comments and
+/// colours.
+std::string as_ply(const std::string& path, const std::string& text, Header& header) {
+  std::istringstream lines(text);
+  std::string key, out;
+  std::uint64_t vertices = 0;
+  std::size_t number = 0, of_vertex = 3;
+  for (std::string line; std::getline(lines, line); out += '\n') {
+    if (++number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // the byte order mark of UTF-8
+    const std::string where = path + ":" + std::to_string(number) + ": ";
+    std::istringstream stream(line.substr(0, line.find('#')));
+    std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
+    if (key.empty() && !words.empty()) {
+      // Before OFF: ST (texture coordinates), C (colours) and N (normals).
+      constexpr std::array kKeys = {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCOFF", "STNOFF", "STCNOFF"};
+      key = words.front();
+      if (std::ranges::find(kKeys, key) == kKeys.end()) {
+        throw InputError(where + "the file begins with \"" + key.substr(0, 40) +
+                         "\"; allowed: OFF, with ST, C or N before it, in three dimensions");
+      }
+      words.erase(words.begin());
+    }
+    if (words.empty()) continue;
+    if (header.elements.empty()) {
+      words.resize(2);
+      for (const char* const element : {"vertex ", "face "}) {
+        std::istringstream count(element + words[header.elements.size()]);
+        header.elements.push_back(read_element(where, count));
+      }
+      vertices = header.elements[0].count;
+      const bool has_normals = key.find('N') != key.npos && header.elements[1].count == 0;
+      of_vertex = has_normals ? 6 : 3;
+      for (const char* const name : {"x", "y", "z", "nx", "ny", "nz"}) {
+        if (header.elements[0].properties.size() < of_vertex) header.elements[0].properties.push_back({name, &kTypes.back()});
+      }
+      header.elements[1].properties = {{"vertex_indices", &kTypes.back(), &kTypes.back()}};
+      continue;
+    }
+    const std::size_t kept = vertices > 0 ? of_vertex : 1 + std::strtoul(words.front().c_str(), nullptr, 10);
+    if (vertices > 0) --vertices;
+    for (std::size_t k = 0; k < std::min(kept, words.size()); ++k) out += words[k] + ' ';
+  }
+  if (header.elements.empty()) throw InputError(path + ": the file ends before the numbers of vertices and faces");
+  return out;
+}
+
+}  // namespace
+
+Data read_ply(const std::string& path) {
+  const std::string bytes = bytes_of(path);
+  return read_elements(path, bytes, read_header(path, bytes));
+}
+
+Data read_off(const std::string& path) {
+  Header header;
+  const std::string text = as_ply(path, bytes_of(path), header);
+  return read_elements(path, text, header);
 }
 
 }  // namespace fit
