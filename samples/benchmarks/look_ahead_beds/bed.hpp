@@ -76,15 +76,6 @@ struct Settings {
   int iterations = 40;
 };
 
-/// The cost of the steps. For an engine with a single call everything counts as solving.
-struct Costs {
-  double finding = 0;      ///< s of processor time, for pairs and contacts
-  double solving = 0;      ///< s of processor time
-  double rows = 0;         ///< constraint rows, three per contact, times iterations
-  double evaluations = 0;  ///< of the gap function
-  double seconds() const { return finding + solving; }
-};
-
 class Simulation {
  public:
   Simulation() = default;
@@ -94,16 +85,6 @@ class Simulation {
 
   virtual void step() = 0;
   virtual Pose pose(std::size_t grain) const = 0;
-  virtual double kinetic_energy() const = 0;  ///< J; of translation
-
-  const Costs& costs() const { return costs_; }
-  void forget_costs() { costs_ = {}; }
-
- protected:
-  Costs& spent() { return costs_; }
-
- private:
-  Costs costs_;
 };
 
 /// A method: its name in tables, and how it simulates a bed. The bed must outlive the simulation.

@@ -84,11 +84,7 @@ class BulletSimulation final : public Simulation {
     for (const auto& body : bodies_) world_.removeRigidBody(body.get());
   }
 
-  void step() override {
-    const double start = processor_time();
-    world_.stepSimulation(step_, 0);
-    spent().solving += processor_time() - start;
-  }
+  void step() override { world_.stepSimulation(step_, 0); }
 
   Pose pose(std::size_t grain) const override {
     const btTransform& pose = bodies_[grain]->getCenterOfMassTransform();
@@ -96,12 +92,6 @@ class BulletSimulation final : public Simulation {
     const btQuaternion q = pose.getRotation();
     return {{kUnit * double{p.x()}, kUnit * double{p.y()}, kUnit * double{p.z()}},
             {double{q.w()}, double{q.x()}, double{q.y()}, double{q.z()}}};
-  }
-
-  double kinetic_energy() const override {
-    double energy = 0;
-    for (const auto& body : bodies_) energy += 0.5 * double{body->getMass()} * double{body->getLinearVelocity().length2()};
-    return energy * kUnit * kUnit;
   }
 
  private:

@@ -18,7 +18,7 @@ do for [exponent in "2 8"] {
   set title exponent eq "2" ? "600 ellipsoids" : "600 boxy grains, exponent 8"
   set ylabel exponent eq "2" ? "processor time of a simulated second, s" : ""
   shown = exponent eq "2" ? "1 2 3 4 5" : "1 3 4"
-  plot for [k in shown] ARG1 skip 1 using (overlap(exponent + 0, word(sweeps, k + 0))):13 with linespoints linewidth 1.5 pointtype 7 \
+  plot for [k in shown] ARG1 skip 1 using (overlap(exponent + 0, word(sweeps, k + 0))):8 with linespoints linewidth 1.5 pointtype 7 \
     pointsize 0.6 linecolor rgb word(colours, k + 0) title word(sweeps, k + 0)." iterations"
 }
 unset multiplot

@@ -21,7 +21,7 @@ namespace {
 
 using namespace look_ahead_beds;
 
-constexpr int kMoments = 25;  // instants in the second half at which overlaps and energy are measured
+constexpr int kMoments = 25;  // instants in the second half at which overlaps are measured
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> all = {
@@ -44,37 +44,30 @@ struct Options {
   std::string csv;
 };
 
-/// The second half of a run, when the bed is at rest. Costs are per simulated second.
+/// The second half of a run, when the bed is at rest.
 struct Outcome {
   double step = 0;     ///< s
   double deepest = 0;  ///< smallest half-axes of the mean grain
   double mean = 0;     ///< mean over the overlapping pairs, in the same unit
-  double energy = 0;   ///< J
-  Costs costs;
+  double seconds = 0;  ///< s of processor time, of a simulated second
 };
 
 Outcome pour(const Method& method, const Bed& bed, const Settings& settings, double duration) {
   const std::unique_ptr<Simulation> simulation = method.start(bed, settings);
   const int half = std::max(kMoments, static_cast<int>(std::lround(0.5 * duration / settings.step)));
   for (int step = 0; step < half; ++step) simulation->step();
-  simulation->forget_costs();
   Ruler ruler(bed);
   Outcome outcome;
   outcome.step = settings.step;
   std::vector<Pose> poses(bed.grains.size());
-  int moments = 0;
   for (int step = 1; step <= half; ++step) {
+    const double start = processor_time();
     simulation->step();
+    outcome.seconds += (processor_time() - start) / (half * settings.step);
     if (step % (half / kMoments) != 0) continue;
     for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = simulation->pose(i);
     ruler.measure(poses);
-    outcome.energy += simulation->kinetic_energy();
-    ++moments;
   }
-  const double seconds = half * settings.step;
-  const Costs& costs = simulation->costs();
-  outcome.costs = {costs.finding / seconds, costs.solving / seconds, costs.rows / seconds, costs.evaluations / seconds};
-  outcome.energy /= moments;
   outcome.deepest = ruler.deepest();
   outcome.mean = ruler.mean();
   return outcome;
@@ -87,15 +80,13 @@ class Beds {
     csv_.open(options.csv, std::ios::app);
     if (!csv_) throw std::runtime_error("cannot write " + options.csv);
     if (csv_.tellp() > 0) return;
-    csv_
-        << "method,grains,exponent,iterations,step_s,deepest,mean,energy_J,row_iterations,evaluations,finding_s,solving_s,time_s\n";
+    csv_ << "method,grains,exponent,iterations,step_s,deepest,mean,time_s\n";
   }
 
   void run() {
     std::printf(
-        "overlaps in smallest half-axes of the mean grain; costs of a simulated second: times in s of the processor\n\n"
-        "| grains, exponent | method | iterations | step, ms | deepest | mean | energy, J | M row-iterations | M evaluations "
-        "| finding | solving | time |\n|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
+        "overlaps in smallest half-axes of the mean grain; processor time of a simulated second, s\n\n"
+        "| grains, exponent | method | iterations | step, ms | deepest | mean | time |\n|---|---|---:|---:|---:|---:|---:|\n");
     for (const double exponent : options_.exponents) {
       for (const int iterations : options_.iterations) {
         for (const Method& method : methods()) {
@@ -115,14 +106,12 @@ class Beds {
   }
 
   void write(const std::string& method, double exponent, int iterations, const Outcome& o) {
-    std::printf("| %d, %g | %s | %d | %g | %.1e | %.1e | %.0e | %.0f | %.2f | %.2f | %.2f | %.2f |\n", options_.grains, exponent,
-                method.c_str(), iterations, 1e3 * o.step, o.deepest, o.mean, o.energy, 1e-6 * o.costs.rows,
-                1e-6 * o.costs.evaluations, o.costs.finding, o.costs.solving, o.costs.seconds());
+    std::printf("| %d, %g | %s | %d | %g | %.1e | %.1e | %.2f |\n", options_.grains, exponent, method.c_str(), iterations,
+                1e3 * o.step, o.deepest, o.mean, o.seconds);
     std::fflush(stdout);
     if (!csv_.is_open()) return;
     csv_ << method << ',' << options_.grains << ',' << exponent << ',' << iterations << ',' << o.step << ',' << o.deepest << ','
-         << o.mean << ',' << o.energy << ',' << o.costs.rows << ',' << o.costs.evaluations << ',' << o.costs.finding << ','
-         << o.costs.solving << ',' << o.costs.seconds() << std::endl;
+         << o.mean << ',' << o.seconds << std::endl;
   }
 
   const Options& options_;

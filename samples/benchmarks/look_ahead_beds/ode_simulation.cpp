@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -10,7 +9,6 @@ namespace look_ahead_beds {
 namespace {
 
 constexpr int kMaxContacts = 8;              // contacts per pair
-constexpr double kRowsOfContact = 3;         // normal and two friction rows
 constexpr double kCorrectingVelocity = 0.1;  // m/s; as recommended for grains that overlap deeply
 
 class OdeSimulation final : public Simulation {
@@ -41,34 +39,16 @@ class OdeSimulation final : public Simulation {
   ~OdeSimulation() override { dSpaceDestroy(walls_); }
 
   void step() override {
-    snResetStatistics();
-    const double start = processor_time();
     const auto near = [this](dGeomID o1, dGeomID o2) { add_contacts(o1, o2); };
     world_.collide(near);
     world_.collide_with(walls_, near);
-    const double found = processor_time();
     world_.step(settings_.step);
-    spent().finding += found - start;
-    spent().solving += processor_time() - found;
-    snStatistics statistics;
-    snGetStatistics(&statistics);
-    spent().evaluations += static_cast<double>(statistics.evaluations_cold + statistics.evaluations_warm);
   }
 
   Pose pose(std::size_t grain) const override {
     const dReal* const p = dBodyGetPosition(bodies_[grain]);
     const dReal* const q = dBodyGetQuaternion(bodies_[grain]);
     return {{p[0], p[1], p[2]}, {q[0], q[1], q[2], q[3]}};
-  }
-
-  double kinetic_energy() const override {
-    double energy = 0;
-    for (const dBodyID body : bodies_) {
-      dMass mass;
-      dBodyGetMass(body, &mass);
-      energy += 0.5 * double{mass.mass} * std::pow(double{dCalcVectorLength3(dBodyGetLinearVel(body))}, 2);
-    }
-    return energy;
   }
 
  private:
@@ -82,7 +62,6 @@ class OdeSimulation final : public Simulation {
       snContactLookAhead(&contact, static_cast<dReal>(settings_.step));
       world_.join(contact);
     }
-    spent().rows += kRowsOfContact * count * settings_.iterations;
   }
 
   Settings settings_;

@@ -31,7 +31,6 @@ struct Options {
   std::vector<std::string> contacts = {"elastic", "friction"};
   std::vector<std::string> methods;
   double duration = 1;  // s
-  int judged = 100;
   unsigned long long seed = 1;
   std::string csv, motion;
 };
@@ -47,14 +46,9 @@ class Study {
     open(options.motion, motion_);
     if (motion_.is_open() && motion_.tellp() == 0) motion_ << "class,bodies,contacts,step_s,method,start,time_s,distance,seed\n";
     if (!csv_.is_open() || csv_.tellp() > 0) return;
-    csv_ << "class,bodies,contacts,step_s,method,start";
-    for (const char* world : {"same", "own"}) {
-      for (const char* column :
-           {"queries", "warm", "seconds", "evaluations", "failed", "judged", "wrong", "missed", "invented", "undecided"}) {
-        csv_ << ',' << world << '_' << column;
-      }
-    }
-    csv_ << ",energy_drift,momentum_drift,parted_s,duration_s,seed\n";
+    csv_ << "class,bodies,contacts,step_s,method,start,same_queries,same_warm,same_seconds,same_evaluations,same_failed,same_wrong,"
+            "same_missed,same_invented,same_undecided,own_queries,own_warm,own_seconds,own_evaluations,own_failed,energy_drift,"
+            "momentum_drift,parted_s,duration_s,seed\n";
   }
 
   void run() {
@@ -67,7 +61,7 @@ class Study {
                                           std::to_string(step) + " s");
             }
             const Setup setup{class_of(body_class), bodies, contacts == "friction", step, options_.seed};
-            run_all(body_class, contacts, {setup, options_.duration, options_.judged});
+            run_all(body_class, contacts, {setup, options_.duration});
           }
         }
       }
@@ -91,13 +85,11 @@ class Study {
         "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
         body_class.c_str(), trial.setup.bodies, contacts.c_str(), 1e3 * trial.setup.step, trial.duration);
     Path certified;
-    Trial unjudged = trial;
-    unjudged.judged_steps = 0;
     const Contestant& reference = contestants_.front();
     write(body_class, contacts, trial, reference, "", watch(trial, reference),
-          transient::run(unjudged, reference, false, nullptr, &certified));
+          transient::run(trial, reference, false, nullptr, &certified));
     write(body_class, contacts, trial, reference, " moved by 1e-12 m", {},
-          transient::run(unjudged, reference, true, &certified, nullptr));
+          transient::run(trial, reference, true, &certified, nullptr));
     for (std::size_t k = 1; k < contestants_.size(); ++k) {
       const Contestant& contestant = contestants_[k];
       const bool is_wanted =
@@ -143,8 +135,8 @@ class Study {
     if (!csv_.is_open()) return;
     add_key(csv_);
     for (const Outcome* o : {&same, &own}) {
-      csv_ << ',' << o->queries << ',' << o->warm_queries << ',' << o->seconds << ',' << o->evaluations << ',' << o->failed << ','
-           << o->judged << ',' << o->wrong << ',' << o->missed << ',' << o->invented << ',' << o->undecided;
+      csv_ << ',' << o->queries << ',' << o->warm_queries << ',' << o->seconds << ',' << o->evaluations << ',' << o->failed;
+      if (o == &same) csv_ << ',' << o->wrong << ',' << o->missed << ',' << o->invented << ',' << o->undecided;
     }
     csv_ << ',' << own.energy_drift << ',' << own.momentum_drift << ',' << own.parted << ',' << trial.duration << ','
          << trial.setup.seed << std::endl;
@@ -188,10 +180,6 @@ int main(int argc, char** argv) {
     app.add_option("--steps", options.steps, "s")->check(CLI::Range(1e-6, 0.1))->delimiter(',')->default_str("0.001,0.005");
     app.add_option("--methods", options.methods, "names in the table; all without it")->check(CLI::IsMember(names))->delimiter(';');
     app.add_option("--duration", options.duration, "s")->check(CLI::Range(1e-3, 1000.0))->capture_default_str();
-    app.add_option("--judged", options.judged,
-                   "steps of a method's own world whose answers are compared with the certified ones; 0: none")
-        ->check(CLI::Range(0, 1000000))
-        ->capture_default_str();
     app.add_option("--seed", options.seed, "of the bodies and their start")->capture_default_str();
     app.add_option("--csv", options.csv, "file to which the results are added");
     app.add_option("--motion", options.motion, "file to which the distances from the certified motion are added");

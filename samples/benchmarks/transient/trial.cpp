@@ -61,7 +61,6 @@ using Memory = std::map<Key, std::optional<Vector3>>;
 double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 void judge(const Pair& pair, const Answer& answer, const supernormal::Proximity& truth, Outcome& outcome) {
-  ++outcome.judged;
   const double accuracy = kWrong * pair.size;
   const bool has_contact = answer.kind == Answer::Kind::Gap && answer.gap < 0;
   if (!truth.is_global) {
@@ -135,10 +134,6 @@ class Step {
         normal = (pairs_[k].pose1.rotation.transpose() * answer.normal).normalized();
       }
     }
-  }
-
-  void judge_all() const {
-    for (std::size_t k = 0; k < pairs_.size(); ++k) judge(pairs_[k], answers_[k], certified_proximity(pairs_[k]), outcome_);
   }
 
   /// Compares all answers with the certified ones, and returns the certified contacts.
@@ -223,11 +218,9 @@ Outcome run(const Trial& trial, const Contestant& contestant, bool is_disturbed,
   Outcome outcome;
   Memory memory;
   const int steps = static_cast<int>(std::lround(trial.duration / trial.setup.step));
-  const int between = std::max(1, (steps + trial.judged_steps - 1) / std::max(1, trial.judged_steps));
   const double energy = world.kinetic_energy();
   for (int k = 0; k < steps; ++k) {
     const Step step(world, contestant, memory, outcome);
-    if (trial.judged_steps > 0 && k % between == 0) step.judge_all();
     world.step(step.touches());
     if (!trial.setup.has_friction) {
       outcome.energy_drift = std::max(outcome.energy_drift, std::abs(world.kinetic_energy() / energy - 1));

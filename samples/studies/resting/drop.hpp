@@ -1,14 +1,30 @@
-// A body that falls onto a floor and comes to rest.
+// The bodies of the study, and one that falls onto a floor and comes to rest.
 #pragma once
 
 #include <ode/ode.h>
 
 #include <array>
-#include <memory>
-
-#include "body_kind.hpp"
+#include <vector>
 
 namespace resting {
+
+/// A family of bodies of half-height h. All but the user's shapes have an exponent e. Lying bodies are round across their length
+/// and roll.
+struct BodyKind {
+  const char* name;                 ///< on the command line
+  bool is_box;                      ///< whether its counterpart is a dBox, and no dCylinder
+  std::array<double, 3> half_axes;  ///< in half-heights, in the body's frame, whose z-axis is the axis of a round section
+  bool has_delta = false, has_epsilon = false;  ///< whether the exponent of the section, and the one along z, is e instead of 2
+  double rounding = 0;                          ///< radius of the rounded edges, in half-heights
+  double taper = 0;                             ///< of a superovoid
+
+  /// Without an exponent: defined by its support function and boundary point, with sharp edges.
+  bool has_exponent() const { return has_delta || has_epsilon; }
+  bool lies_on_its_side() const { return half_axes[2] >= half_axes[0]; }
+};
+
+/// All kinds.
+const std::vector<BodyKind>& body_kinds();
 
 enum class FloorKind { Plane, Box, Mesh, Heightfield, Superellipsoid };
 

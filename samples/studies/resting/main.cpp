@@ -184,9 +184,7 @@ int main(int argc, char** argv) {
     app.add_option("--floors", options.floors, "plane, box, mesh, heightfield, ours")
         ->check(CLI::IsMember(kFloors))
         ->delimiter(',');
-    app.add_option("--bodies", options.bodies, "the kinds in body_kind.hpp")
-        ->check(CLI::IsMember(names_of_bodies()))
-        ->delimiter(',');
+    app.add_option("--bodies", options.bodies, "the kinds in drop.hpp")->check(CLI::IsMember(names_of_bodies()))->delimiter(',');
     app.add_option("--exponents", options.exponents, "of the bodies")->delimiter(',');
     app.add_option("--half-heights", options.half_heights, "m")->delimiter(',');
     app.add_option("--steps", options.steps, "s")->delimiter(',');
