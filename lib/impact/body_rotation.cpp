@@ -27,10 +27,7 @@ std::optional<Vector3> axis_of_ellipsoid(const Vector3& half_axes) {
   return std::nullopt;
 }
 
-template <typename Section>
-bool has_round_section(const Section& shape) {
-  return shape.half_axes().x() == shape.half_axes().y() && shape.delta() == 2;
-}
+bool has_round_section(const auto& shape) { return shape.half_axes().x() == shape.half_axes().y() && shape.delta() == 2; }
 
 std::optional<Vector3> axis_of_revolution(const Shape& shape) {
   const Vector3 z = Vector3::UnitZ();

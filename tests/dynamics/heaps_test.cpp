@@ -115,9 +115,8 @@ TEST_CASE("60 needles side by side fall asleep") {
   }
 }
 
-TEST_CASE("a pile of mixed grains comes to rest") {
+TEST_CASE_FIXTURE(OdeSession, "a pile of mixed grains comes to rest") {
   // The long run is samples/scenes/pile.toml: 1000 grains, 1e5 steps.
-  OdeSession session;
   World world;
   dHashSpaceSetLevels(world.space(), -8, -6);  // cells of 4…16 mm
   let_sleep(world, 0.003);

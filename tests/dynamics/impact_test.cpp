@@ -106,9 +106,8 @@ TEST_CASE("a frictionless elastic drop on a plane at 1 m/s has the published vel
   }
 }
 
-TEST_CASE("a ball that looks ahead and hits at 45 degrees slides or rolls on by its closed form, in any step") {
+TEST_CASE_FIXTURE(OdeSession, "a ball that looks ahead and hits at 45 degrees slides or rolls on by its closed form, in any step") {
   // Friction takes mu v of the velocity along the floor, but no more than makes the ball roll: 2/7 v. It gives 5/2 of this as w r.
-  OdeSession session;
   constexpr double kStep = 0.01;    // s
   constexpr double kRadius = 0.05;  // m
   for (const bool is_on_box : {false, true}) {

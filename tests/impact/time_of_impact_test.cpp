@@ -26,8 +26,7 @@ Motion moving(const Vector3& position, const Vector3& velocity, const Vector3& a
 
 /// The first t in [0, horizon] at which `gap` is 0, by steps in which it cannot reach 0. The result is the horizon if there is
 /// none.
-template <typename Gap>
-double first_zero(const Gap& gap, double fastest, double horizon) {
+double first_zero(const auto& gap, double fastest, double horizon) {
   double t = 0;
   for (double g = gap(t); g > 1e-15 && t < horizon; g = gap(t)) t += std::max(g / fastest, 1e-16);
   return std::min(t, horizon);

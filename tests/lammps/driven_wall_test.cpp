@@ -17,8 +17,7 @@ using supernormal::test::relative;
 namespace {
 
 /// Moves a wall by `steps` steps (s) under forces on it, given by its pose.
-template <typename Force>
-void run(DrivenWall& wall, const WallPose& carrier, const Vector3& gravity, double step, int steps, Force force_at) {
+void run(DrivenWall& wall, const WallPose& carrier, const Vector3& gravity, double step, int steps, auto force_at) {
   for (int i = 0; i < steps; ++i) {
     wall.kick(carrier, gravity, (i + 0.25) * step, step);
     wall.drift(step);

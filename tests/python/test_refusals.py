@@ -39,7 +39,7 @@ REFUSALS = [
     (lambda: sn.CallbackShape(lambda n: n, hessian=lambda n: np.eye(3)), "essian"),
     (lambda: sn.CallbackShape(lambda n: n).hessian((1, 0, 0)), "the shape has no Hessian"),
     (lambda: sn.Shapes.superellipsoids(np.ones((3, 3)), 2, [2, 2, 0.5]), "shape 2: epsilon = 0.5 is outside [1.01, 1000]"),
-    (lambda: sn.Shapes.superellipsoids(np.ones((3, 3)), [2, 2], 2), "delta has 2 entries for 3 shapes"),
+    (lambda: sn.Shapes.superellipsoids(np.ones((3, 3)), [2, 2], 2), "delta has 2 entries and half_axes has 3; they must have as many"),
     (lambda: sn.Shapes.spheres([1, -1]), "shape 1: radius = -1 m is outside [0, 1e+30] m"),
     (lambda: sn.Pose((NAN, 0, 0)), "position = (nan, 0, 0) m is outside [-1e+150, 1e+150] m"),
     (lambda: sn.Pose((0, 0, 0), 1.02 * np.eye(3)), "rotation = (1.02, 0, 0, 0, 1.02, 0, 0, 0, 1.02) (by rows), but must be orthonormal and right-handed to 0.01"),

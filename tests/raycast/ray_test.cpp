@@ -53,8 +53,7 @@ void check_nothing_before(const Superellipsoid& shape, const Ray& ray, const Ray
 }
 
 /// Calls check(random, body, shape) for `count` bodies of each class; the shape is the body as a program makes it.
-template <typename Check>
-void for_bodies(unsigned seed, int count, const Check& check) {
+void for_bodies(unsigned seed, int count, const auto& check) {
   for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
     RandomRays random(++seed);
     for (int k = 0; k < count; ++k) {

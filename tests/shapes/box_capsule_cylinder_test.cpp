@@ -80,8 +80,7 @@ std::vector<Vector3> cylinder_points(double radius, double half_length) {
 }
 
 /// Volume and second moments by sections z = const: `section(z)` is the radius there.
-template <typename Section>
-MassProperties revolved(const Section& section, double top) {
+MassProperties revolved(const auto& section, double top) {
   constexpr int kSlices = 200000;
   MassProperties mass;
   Vector3 moment = Vector3::Zero();

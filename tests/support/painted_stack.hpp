@@ -54,15 +54,13 @@ inline bool are_identical(const Numbers& a, const Numbers& b) {
 }
 
 /// The answer after the stack has been painted. It is a function of its own, so that the painted part begins at the frame of `ask`.
-template <typename Ask>
-[[gnu::noinline]] auto ask_on_painted_stack(std::uint64_t paint, const Ask& ask) {
+[[gnu::noinline]] auto ask_on_painted_stack(std::uint64_t paint, const auto& ask) {
   paint_stack(paint);
   return ask();
 }
 
 /// Whether ask() gives the same answer over every paint. numbers_of() must be defined for its answers.
-template <typename Ask>
-bool is_same_on_every_stack(const Ask& ask) {
+bool is_same_on_every_stack(const auto& ask) {
   const Numbers first = numbers_of(ask_on_painted_stack(kPaints[0], ask));
   for (const std::uint64_t paint : kPaints) {
     if (!are_identical(first, numbers_of(ask_on_painted_stack(paint, ask)))) return false;

@@ -103,8 +103,7 @@ struct Derivative {
 };
 
 /// f'(0) by Ridders' method: central differences with ever smaller steps, extrapolated to step 0, until rounding takes over.
-template <typename Function>
-Derivative derivative(const Function& f, double first_step) {
+Derivative derivative(const auto& f, double first_step) {
   constexpr int kLevels = 12;
   constexpr double kShrink = 1.6;
   Vector3 table[kLevels][kLevels];

@@ -62,8 +62,7 @@ class Traps {
 };
 
 /// The answer of a query under traps.
-template <typename Query>
-auto trapped(const char* name, const Query& query) {
+auto trapped(const char* name, const auto& query) {
   const Traps traps(name);
   return query();
 }

@@ -142,8 +142,7 @@ Vector3 origin_of(dGeomID geom) {
   return to_vector(origin);
 }
 
-template <typename Matrix>
-void write_rows(const Matrix& matrix, dReal (*rows)[kTwist]) {
+void write_rows(const auto& matrix, dReal (*rows)[kTwist]) {
   for (int i = 0; i < matrix.rows(); ++i) {
     for (int j = 0; j < kTwist; ++j) rows[i][j] = to_real(matrix(i, j));
   }
@@ -226,8 +225,7 @@ Clearance clearance_by_query(const TwoGeoms& geoms) {
 }
 
 /// The answer of `ask` for the shapes, with the normal in the world frame, or of a query.
-template <typename Ask>
-Clearance clearance_of(const TwoGeoms& geoms, dGeomID g1, dGeomID g2, Ask ask) {
+Clearance clearance_of(const TwoGeoms& geoms, dGeomID g1, dGeomID g2, auto ask) {
   Clearance found;
   if (has_shape(geoms.collider)) {
     const PosedPair pair(g1, g2);

@@ -151,8 +151,7 @@ void Batch::solve_range(std::size_t first, std::size_t end) {
   }
 }
 
-template <typename Solve>
-void Batch::finish_job(Job& job, const Solve& solve) {
+void Batch::finish_job(Job& job, const auto& solve) {
   const auto [g1, g2] = job.pair.geoms();
   const auto index = static_cast<std::size_t>(&job - jobs_.data());
   dContactGeom* const first = &job_contacts_[index * static_cast<std::size_t>(max_contacts_of_job_)];

@@ -58,8 +58,7 @@ class Batch {
   static void solve_some(void* self, int chunk);
   void solve_range(std::size_t first, std::size_t end);
   QueryKind kind() const { return max_contacts_ > 1 ? QueryKind::Contacts : QueryKind::OneContact; }
-  template <typename Solve>
-  void finish_job(Job& job, const Solve& solve);
+  void finish_job(Job& job, const auto& solve);
   int report(const BatchCallbacks& callbacks);
   int collide_one_by_one(Item& item);
   const dContactGeom* contacts_of(const Item& item) const;

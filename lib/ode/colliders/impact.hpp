@@ -29,8 +29,7 @@ class Path {
   double travel() const { return travel_; }
 
   /// Calls find(body, surface, duration) for each piece in turn, with the motions at its start, until the first impact.
-  template <typename Find>
-  Impact first(Find find) const {
+  Impact first(auto find) const {
     Impact all;
     int evaluations = 0;
     for (int piece = 0; piece < pieces_; ++piece) {

@@ -35,8 +35,7 @@ class Hybrid {
  private:
   void add_centre();
   bool is_tracked() const { return wanted_ == WantedMaximum::Tracked; }
-  template <typename Start>
-  Proximity climb(const Start& start);
+  Proximity climb(const auto& start);
   std::optional<SearchLimits> search_limits() const;
   Proximity search(Ascent& ascent, const SearchLimits& limits);
   void meet(Proximity& out);
@@ -77,8 +76,7 @@ Proximity Hybrid::solve(const Vector3& start) {
 }
 
 /// Climbs from `start`, a normal or its evaluation.
-template <typename Start>
-Proximity Hybrid::climb(const Start& start) {
+Proximity Hybrid::climb(const auto& start) {
   // One local maximum ("Ascent"). Where lemma 3 does not hold, the ascent asks for a proof of the overlap first.
   const bool stays_with_maximum = is_tracked() && !settings_.certify_depth;
   Ascent ascent(gap_, cuts_, rule_, stays_with_maximum ? kTuning.unsearched_depth * gap_.length_unit() : 0);

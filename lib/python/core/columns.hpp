@@ -143,8 +143,7 @@ class Table {
   using Columns = typename ColumnsOf<Fields>::Type;
   static constexpr auto kIndices = ColumnsOf<Fields>::kIndices;
 
-  template <typename Visit>
-  void each(const Visit& visit) {
+  void each(const auto& visit) {
     [&]<std::size_t... k>(std::index_sequence<k...>) { (visit(std::get<k>(columns_), std::get<k>(kFields)), ...); }
     (kIndices);
   }

@@ -20,25 +20,6 @@ namespace py = pybind11;
 namespace supernormal::python {
 namespace {
 
-/// A parameter of N shapes: one number for all, or an array (N,).
-class Parameter {
- public:
-  Parameter(const char* name, const Doubles& values, py::ssize_t count) : values_(values), stride_(values.ndim() == 0 ? 0 : 1) {
-    if (values.ndim() == 0) return;
-    const py::ssize_t given = require_rows(name, values, {});
-    if (given != count) {
-      throw std::invalid_argument(std::string(name) + " has " + std::to_string(given) + " entries for " + std::to_string(count) +
-                                  " shapes");
-    }
-  }
-
-  double operator[](py::ssize_t i) const { return *(values_.data() + stride_ * i); }
-
- private:
-  Doubles values_;
-  py::ssize_t stride_;
-};
-
 /// Makes `count` shapes by `make(i)`. An error names the entry.
 template <typename ShapeClass, typename Make>
 std::shared_ptr<ShapeSequence> make_shapes(py::ssize_t count, const Make& make) {
@@ -69,7 +50,9 @@ std::shared_ptr<ShapeSequence> make_ellipsoids(const Doubles& half_axes) {
 
 std::shared_ptr<ShapeSequence> make_superellipsoids(const Doubles& half_axes, const Doubles& delta, const Doubles& epsilon) {
   const py::ssize_t count = require_rows("half_axes", half_axes, {3});
-  const Parameter deltas("delta", delta, count), epsilons("epsilon", epsilon, count);
+  PairCount all;  // must agree with it
+  all.add("half_axes", static_cast<std::size_t>(count));
+  const NumbersArgument deltas("delta", delta, all), epsilons("epsilon", epsilon, all);
   return make_shapes<Superellipsoid>(
       count, [&](py::ssize_t i) { return Superellipsoid(vector_at(half_axes.data() + 3 * i), deltas[i], epsilons[i]); });
 }
@@ -77,8 +60,10 @@ std::shared_ptr<ShapeSequence> make_superellipsoids(const Doubles& half_axes, co
 std::shared_ptr<ShapeSequence> make_superovoids(const Doubles& half_axes, const Doubles& delta, const Doubles& epsilon,
                                                 const Doubles& taper_x, const Doubles& taper_y) {
   const py::ssize_t count = require_rows("half_axes", half_axes, {3});
-  const Parameter deltas("delta", delta, count), epsilons("epsilon", epsilon, count);
-  const Parameter tapers_x("taper_x", taper_x, count), tapers_y("taper_y", taper_y, count);
+  PairCount all;  // must agree with it
+  all.add("half_axes", static_cast<std::size_t>(count));
+  const NumbersArgument deltas("delta", delta, all), epsilons("epsilon", epsilon, all);
+  const NumbersArgument tapers_x("taper_x", taper_x, all), tapers_y("taper_y", taper_y, all);
   return make_shapes<Superovoid>(count, [&](py::ssize_t i) {
     return Superovoid(vector_at(half_axes.data() + 3 * i), deltas[i], epsilons[i], tapers_x[i], tapers_y[i]);
   });

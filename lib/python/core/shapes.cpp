@@ -29,8 +29,7 @@ namespace supernormal::python {
 namespace {
 
 /// Calls write(i, direction) for each direction, normalised.
-template <typename Write>
-void for_each_direction(const Doubles& directions, const Write& write) {
+void for_each_direction(const Doubles& directions, const auto& write) {
   const py::ssize_t count = require_vectors("direction", directions);
   for (py::ssize_t i = 0; i < count; ++i) {
     const Name name{"direction", directions.ndim() == 1 ? -1 : i};

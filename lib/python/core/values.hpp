@@ -71,8 +71,7 @@ void bind_copies(Class& type, const ArgumentsOf& arguments_of, const Make& make)
 }
 
 /// Binds iter() of a class with __getitem__. Without it type checkers do not take its objects for iterables.
-template <typename Class>
-void bind_iteration(Class& type) {
+void bind_iteration(auto& type) {
   namespace py = pybind11;
   type.def("__iter__", [](const py::object& self) { return py::reinterpret_steal<py::iterator>(PySeqIter_New(self.ptr())); });
 }

@@ -35,10 +35,7 @@ class PointTree {
     std::vector<Eigen::Vector3d> points;
     std::size_t kdtree_get_point_count() const { return points.size(); }
     double kdtree_get_pt(std::size_t i, std::size_t k) const { return points[i][static_cast<Eigen::Index>(k)]; }
-    template <typename Box>
-    bool kdtree_get_bbox(Box& /*box*/) const {
-      return false;
-    }
+    bool kdtree_get_bbox(auto& /*box*/) const { return false; }
   };
 
   Adaptor points_;

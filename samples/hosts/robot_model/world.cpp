@@ -27,8 +27,7 @@ std::array<dReal, 12> rotation_of(const Eigen::Isometry3d& pose) {
   return out;
 }
 
-template <typename Value>
-std::string text_of(const Value& value) {
+std::string text_of(const auto& value) {
   std::ostringstream out;
   out << value;
   return out.str();

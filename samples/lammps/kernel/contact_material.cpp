@@ -20,8 +20,7 @@ void require(const char* name, double value, double least, double most, const ch
 }
 
 /// Solves f(x) = value for an increasing f.
-template <typename Function>
-double solve(const Function& f, double value, double low, double high) {
+double solve(const auto& f, double value, double low, double high) {
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
     (f(middle) < value ? low : high) = middle;

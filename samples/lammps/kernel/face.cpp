@@ -74,8 +74,7 @@ void add_vertices(const Rectangle& half, double exponent, Face& face) {
 }
 
 /// The largest tilt at which the body does not touch beside its polygon or line.
-template <typename IsBeside>
-double find_largest_tilt(IsBeside is_beside) {
+double find_largest_tilt(auto is_beside) {
   double low = kSmallestTilt, high = kLargestTilt;
   if (!is_beside(high)) return high;
   while (high > 1.01 * low) {

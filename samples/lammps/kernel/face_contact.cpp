@@ -17,10 +17,7 @@ constexpr double kParallel = 1e-9;
 
 double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-template <typename Array>
-auto& at(Array& array, int k) {
-  return array[static_cast<std::size_t>(k)];
-}
+auto& at(auto& array, int k) { return array[static_cast<std::size_t>(k)]; }
 
 /// A directed edge of one of the polygons, in the plane of face 2.
 struct Edge {

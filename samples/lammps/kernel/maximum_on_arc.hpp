@@ -14,8 +14,7 @@ struct ArcSlope {
 
 /// The angle (rad) of a maximum between two angles. The slope must be positive at the first and not positive at the second.
 /// Newton's method, safeguarded by bisection: flat faces reverse the slope within a very small angle.
-template <typename Slope>
-double find_maximum_on_arc(const Slope& slope, double low, double high) {
+double find_maximum_on_arc(const auto& slope, double low, double high) {
   constexpr int kMaxSteps = 100;
   constexpr double kSameAngle = 1e-14;  // rad
   double angle = 0.5 * (low + high), last_step = high - low;
@@ -34,8 +33,7 @@ double find_maximum_on_arc(const Slope& slope, double low, double high) {
 }
 
 /// The maximum uphill from 0, at most half a turn away.
-template <typename Slope>
-double find_maximum_uphill(const Slope& slope) {
+double find_maximum_uphill(const auto& slope) {
   constexpr double kFirstStep = 0.01;  // rad; without a step of Newton's method
   const ArcSlope here = slope(0);
   if (here.first == 0) return 0;

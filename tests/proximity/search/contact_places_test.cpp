@@ -221,8 +221,7 @@ double largest_excess(const PlacedPair& pair, const Proximity& proximity, int ma
 const int kStride = at_length() ? 1 : 41;
 
 /// Asks about every pair of kinds, in every way; `check` is called with a pair, its answer and a name.
-template <typename Check>
-void for_all_pairs(unsigned seed, const Check& check) {
+void for_all_pairs(unsigned seed, const auto& check) {
   Placing placing(seed);
   int count = 0;
   for (const Kind& one : kinds()) {

@@ -50,8 +50,7 @@ constexpr int kMaxRepeats = 4096;  // even, for equal counts of both poses
 volatile int sink;
 
 /// The time per query, alternating between the two poses, s.
-template <typename Ask>
-double time_of(const OdeQuery& query, const Ask& ask) {
+double time_of(const OdeQuery& query, const auto& ask) {
   const auto start = Clock::now();
   for (int k = 0; k < query.repeats; ++k) {
     query.pair.move_body(query.poses[static_cast<std::size_t>(k % 2)]);

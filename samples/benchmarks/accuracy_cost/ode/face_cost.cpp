@@ -149,8 +149,7 @@ class Rest {
   double evaluations() const { return evaluations_ / static_cast<double>(times_.size()); }
 
  private:
-  template <typename Function>
-  static double time_of(const Function& function) {
+  static double time_of(const auto& function) {
     const auto start = std::chrono::steady_clock::now();
     function();
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
