@@ -159,18 +159,17 @@ std::string glb_of(std::span<const float> corners, std::span<const std::uint32_t
 
 }  // namespace
 
-TEST_CASE("unusable files are refused with a reason") {
-  const TemporaryFolder folder;
-  const std::string none = (folder.path() / "none.ply").string();
+TEST_CASE_FIXTURE(TemporaryFolder, "unusable files are refused with a reason") {
+  const std::string none = (path() / "none.ply").string();
   CHECK(complaint(none) == none + ": no such file");
-  const std::string pipe = (folder.path() / "pipe.stl").string();
+  const std::string pipe = (path() / "pipe.stl").string();
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   CHECK(complaint(pipe) == pipe + ": a pipe or a socket, and no file");
-  const std::string directory = (folder.path() / "folder.ply").string();
+  const std::string directory = (path() / "folder.ply").string();
   std::filesystem::create_directory(directory);
   CHECK(complaint(directory) == directory + ": a folder, and no file");
   for (const char* name : {"empty.stl", "empty.obj"}) {
-    CHECK(complaint(folder.write(name, "")).find(std::string(name) + ": cannot be read: ") != std::string::npos);
+    CHECK(complaint(write(name, "")).find(std::string(name) + ": cannot be read: ") != std::string::npos);
   }
   for (const auto& [name, text, expected] : std::to_array<std::array<const char*, 3>>(
            {{"points.txt", "1 2 3\n",
@@ -181,32 +180,30 @@ TEST_CASE("unusable files are refused with a reason") {
             {"inf.xyz", "1 2 1e999\n", ":1: a coordinate is not finite: \"1 2 1e999\""},
             {"word.xyz", "1 2 3\n1 two 3\n", ":2: a line holds x y z, or x y z nx ny nz, not \"1 two 3\""},
             {"mixed.xyz", "1 2 3\n1 2 3 0 0 1\n", ":2: either all points have normals or none"}})) {
-    CHECK(complaint_about(folder.write(name, text)) == expected);
+    CHECK(complaint_about(write(name, text)) == expected);
   }
-  const std::string marked = folder.write("marked.xyz",
-                                          "\xef\xbb\xbf"
-                                          "1 2 3\n");
+  const std::string marked = write("marked.xyz",
+                                   "\xef\xbb\xbf"
+                                   "1 2 3\n");
   CHECK(read_data(marked, 1).vertices.points.size() == 1);
 }
 
-TEST_CASE("decimal commas and colours in a file of points are refused") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "decimal commas and colours in a file of points are refused") {
   for (const char* line : {"1,5 2,5 3,5", "1,5;2,5;3,5", "1,5, 2,5, 3,5", "1,5\t2\t3", "1 2,5 3"}) {
-    const std::string path = folder.write("commas.xyz", std::string("1 2 3\n") + line + "\n");
+    const std::string path = write("commas.xyz", std::string("1 2 3\n") + line + "\n");
     CHECK(complaint(path) == path + ":2: numbers are separated in more than one way; a decimal comma? Write decimal points");
   }
   for (const char* line : {"1,2,3", "1, 2, 3", "1;2;3", "1; 2; 3", "  1\t2  3 ", "1 2 3,"}) {
-    CHECK(complaint(folder.write("fine.xyz", line)).empty());
+    CHECK(complaint(write("fine.xyz", line)).empty());
   }
   for (const char* line : {"1 2 3 255 0 0", "1,2,3,0.2,0.4,0.1", "1 2 3 128 128 128"}) {
-    const std::string message = complaint(folder.write("colours.xyz", line));
+    const std::string message = complaint(write("colours.xyz", line));
     CHECK(message.find(":1: the normal (") != std::string::npos);
     CHECK(message.find("is it a colour? Leave it out") != std::string::npos);
   }
 }
 
-TEST_CASE("a mesh with any winding is made to face outwards") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "a mesh with any winding is made to face outwards") {
   const Body body = placed_body(Family::Superellipsoid, 3, 2.5);
   const std::string text = obj_of(body);
   const double volume = make_shape(body)->mass_properties().volume;
@@ -229,10 +226,10 @@ TEST_CASE("a mesh with any winding is made to face outwards") {
     }
     return sum;
   };
-  const Data whole = read_data(folder.write("whole.obj", text), 1);
+  const Data whole = read_data(write("whole.obj", text), 1);
   CHECK(whole.note.empty());
   for (const std::string& other : {inside_out, mixed, two_sided, degenerate}) {
-    const Data data = read_data(folder.write("other.obj", other), 1);
+    const Data data = read_data(write("other.obj", other), 1);
     CHECK(data.triangles.size() == whole.triangles.size());
     CHECK(signed_volume(data) == doctest::Approx(volume).epsilon(0.01));
     CHECK_FALSE(data.note.empty());
@@ -240,8 +237,7 @@ TEST_CASE("a mesh with any winding is made to face outwards") {
   }
 }
 
-TEST_CASE("a cavity faces inwards, also in a mesh that is inside out") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "a cavity faces inwards, also in a mesh that is inside out") {
   const auto cube = [](double size, double x, bool is_turned, int first) {
     std::ostringstream text;
     for (int i = 0; i < 8; ++i) {
@@ -255,7 +251,7 @@ TEST_CASE("a cavity faces inwards, also in a mesh that is inside out") {
     return text.str();
   };
   const auto turned = [&](bool outer, bool cavity, bool beside) {
-    Data data = read_data(folder.write("cubes.obj", cube(2, 0, outer, 1) + cube(1, 0, cavity, 9) + cube(2, 9, beside, 17)), 1);
+    Data data = read_data(write("cubes.obj", cube(2, 0, outer, 1) + cube(1, 0, cavity, 9) + cube(2, 9, beside, 17)), 1);
     return data.note;
   };
   CHECK(turned(false, true, false).empty());
@@ -263,34 +259,31 @@ TEST_CASE("a cavity faces inwards, also in a mesh that is inside out") {
   CHECK(turned(false, true, true) == "12 of 36 triangles faced inwards and are turned round");
 }
 
-TEST_CASE("coordinates that have lost their digits in single precision are refused") {
-  const TemporaryFolder folder;
-  const std::string obj = folder.write("far.obj", "v 500000.25 5 6\nv 500000.75 5 6\n");
+TEST_CASE_FIXTURE(TemporaryFolder, "coordinates that have lost their digits in single precision are refused") {
+  const std::string obj = write("far.obj", "v 500000.25 5 6\nv 500000.75 5 6\n");
   CHECK(complaint(obj).find("are rounded by 0.0298") != std::string::npos);
-  const std::string single = folder.write("far.ply", ply_of({{500000.25, 5, 6}, {500000.75, 5, 6}}, "binary_big_endian", "float"));
+  const std::string single = write("far.ply", ply_of({{500000.25, 5, 6}, {500000.75, 5, 6}}, "binary_big_endian", "float"));
   CHECK(complaint(single).find("are rounded by 0.0298") != std::string::npos);
-  CHECK(complaint(folder.write("near.ply", ply_of({{5.25, 5, 6}, {5.75, 5, 6}}, "binary_big_endian", "float"))).empty());
-  const std::string far = folder.write("far.xyz", "500000.25 5 6\n500000.26 5 6\n");
+  CHECK(complaint(write("near.ply", ply_of({{5.25, 5, 6}, {5.75, 5, 6}}, "binary_big_endian", "float"))).empty());
+  const std::string far = write("far.xyz", "500000.25 5 6\n500000.26 5 6\n");
   CHECK(read_data(far, 1).vertices.points[1].x() == 500000.26);
 }
 
-TEST_CASE("a .ply is read in double precision, as text and in both byte orders") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "a .ply is read in double precision, as text and in both byte orders") {
   const std::vector<Vector3> points = {{1e6 + 1.0 / 3, -2e6 - 1.0 / 7, 1e-300}, {-0.1, 1e300, 0.3}};
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
-    CHECK(read_data(folder.write("double.ply", ply_of(points, format, "double")), 1).vertices.points == points);
+    CHECK(read_data(write("double.ply", ply_of(points, format, "double")), 1).vertices.points == points);
   }
-  const Data integers = read_data(folder.write("int.ply", ply_of({{-3, 200, 5}, {1, 2, 3}}, "binary_big_endian", "short")), 1);
+  const Data integers = read_data(write("int.ply", ply_of({{-3, 200, 5}, {1, 2, 3}}, "binary_big_endian", "short")), 1);
   CHECK(integers.vertices.points == std::vector<Vector3>{{-3, 200, 5}, {1, 2, 3}});
 }
 
-TEST_CASE("a body is fitted equally well a million of its sizes from the origin") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "a body is fitted equally well a million of its sizes from the origin") {
   const Body near{Family::Superellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), {1.5, 1.1, 0.8}, 4, 4, 0};
   Body far = near;
   far.position = {1e6, -1e6, 1e6};
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
-    const Data data = read_data(folder.write("far.ply", ply_of(scatter(far, {.points = 1000}).points, format, "double")), 1);
+    const Data data = read_data(write("far.ply", ply_of(scatter(far, {.points = 1000}).points, format, "double")), 1);
     const FittedBody fitted = fit_body(data.vertices);
     CHECK(fitted.body.family == Family::Superellipsoid);
     CHECK(std::abs(fitted.body.delta - 4) < 1e-6);
@@ -303,14 +296,13 @@ TEST_CASE("a body is fitted equally well a million of its sizes from the origin"
   CHECK(digits_of(0.1, 0.8, 9) == 9);
 }
 
-TEST_CASE("polygons of a .ply are cut into triangles, and other elements are skipped") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "polygons of a .ply are cut into triangles, and other elements are skipped") {
   const std::string header =
       "ply\r\nformat ascii 1.0\r\ncomment an arrowhead, concave at 2\r\nelement camera 1\r\nproperty list uchar float lens\r\n"
       "element vertex 5\r\nproperty float x\r\nproperty uchar red\r\nproperty float y\r\nproperty float z\r\nelement face 2\r\n"
       "property list uchar int vertex_indices\r\nproperty int flag\r\nend_header\r\n2 1 1\r\n";
   const Data data = read_data(
-      folder.write("arrow.ply", header + "0 9 0 0\r\n2 9 0 0\r\n0.5 9 1 0\r\n1 9 3 0\r\n0 9 0 1\r\n4 1 2 3 0 7\r\n3 0 1 4 7"), 1);
+      write("arrow.ply", header + "0 9 0 0\r\n2 9 0 0\r\n0.5 9 1 0\r\n1 9 3 0\r\n0 9 0 1\r\n4 1 2 3 0 7\r\n3 0 1 4 7"), 1);
   CHECK(data.triangles.size() == 3);
   double area = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -323,11 +315,10 @@ TEST_CASE("polygons of a .ply are cut into triangles, and other elements are ski
                     1.25));  // the area of the arrowhead: no part counts twice, and the third triangle has no area seen from above
 }
 
-TEST_CASE("a broken .ply is refused with the place of the error") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "a broken .ply is refused with the place of the error") {
   const std::string start = "ply\nformat ascii 1.0\n", xyz = "property float x\nproperty float y\nproperty float z\n";
   const std::string two = start + "element vertex 2\n" + xyz + "end_header\n";
-  const auto refusal = [&](const std::string& text) { return complaint_about(folder.write("bad.ply", text)); };
+  const auto refusal = [&](const std::string& text) { return complaint_about(write("bad.ply", text)); };
   CHECK(refusal("") == ":1: the file ends within its header, which must end with end_header");
   CHECK(refusal("solid\n") == ":1: the first line of a .ply is \"ply\"");
   CHECK(refusal("ply\nformat ascii 2.0\n") ==
@@ -351,22 +342,20 @@ TEST_CASE("a broken .ply is refused with the place of the error") {
         std::string::npos);
 }
 
-TEST_CASE("an .off is read in double precision, as a mesh or as points, with whatever stands behind its numbers") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder,
+                  "an .off is read in double precision, as a mesh or as points, with whatever stands behind its numbers") {
   const std::string corners = "1000000.3333333333 0 0 255 0 0\n1 0 0\n\n0 1 0  # the third\n0 0 1\n";
-  const Data mesh =
-      read_data(folder.write("mesh.off", "# a comment\nOFF\n4 2 0\n" + corners + "4 0 1 2 3  0.5 0.5 0.5\n3 0 2 1\n"), 1);
+  const Data mesh = read_data(write("mesh.off", "# a comment\nOFF\n4 2 0\n" + corners + "4 0 1 2 3  0.5 0.5 0.5\n3 0 2 1\n"), 1);
   CHECK(std::ranges::any_of(mesh.vertices.points, [](const Vector3& x) { return x.x() == 1000000.3333333333; }));
   CHECK(mesh.triangles.size() == 3);
-  const Data points = read_data(folder.write("points.off", "OFF 4 0 0\n" + corners), 0.5);
+  const Data points = read_data(write("points.off", "OFF 4 0 0\n" + corners), 0.5);
   CHECK(points.triangles.empty());
   CHECK(points.vertices.points[2] == Vector3(0, 0.5, 0));
-  const Data normals = read_data(folder.write("normals.off", "NOFF\n2 0\n1 2 3 0 0 1\n4 5 6 1 0 0\n"), 1);
+  const Data normals = read_data(write("normals.off", "NOFF\n2 0\n1 2 3 0 0 1\n4 5 6 1 0 0\n"), 1);
   CHECK(normals.vertices.normals == std::vector<Vector3>{{0, 0, 1}, {1, 0, 0}});
 }
 
-TEST_CASE("a broken .off is refused with the place of the error") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "a broken .off is refused with the place of the error") {
   const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
   for (const auto& [text, expected] : std::to_array<std::array<std::string, 2>>(
            {{"", ": the file ends before the numbers of vertices and faces"},
@@ -383,17 +372,16 @@ TEST_CASE("a broken .off is refused with the place of the error") {
             {"OFF\n3 1 0\n" + three + "-1 0 1 2\n", ":7: face 1 of 1: the file ends here"},
             {"OFF\n1 0 0\n1,5 2,5 3,5\n", ":3: vertex 1 of 1: \"1,5\" is no number"},
             {"OFF\n1 0 0\n1 2 nan\n", ":3: vertex 1 of 1: z is nan, but must be finite"}})) {
-    CHECK(complaint_about(folder.write("bad.off", text)) == expected);
+    CHECK(complaint_about(write("bad.off", text)) == expected);
   }
 }
 
-TEST_CASE("a mesh with a face whose vertex does not exist is refused in every format") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "a mesh with a face whose vertex does not exist is refused in every format") {
   const std::array<float, 12> corners = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   for (const std::uint32_t last : {3u, 4u, 9999u, 0xffffffffu}) {
     const std::array<std::uint32_t, 12> faces = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, last};
     const bool is_fine = last == 3;
-    CHECK(complaint(folder.write("a.glb", glb_of(corners, faces))).empty() == is_fine);
+    CHECK(complaint(write("a.glb", glb_of(corners, faces))).empty() == is_fine);
     std::ostringstream obj, off;
     off << "OFF\n4 4 0\n";
     for (std::size_t i = 0; i < 12; i += 3) {
@@ -412,18 +400,17 @@ TEST_CASE("a mesh with a face whose vertex does not exist is refused in every fo
       obj << '\n';
       off << '\n';
     }
-    CHECK(complaint(folder.write("a.obj", obj.str())).empty() == is_fine);
-    CHECK(complaint(folder.write("a.off", off.str())).empty() == is_fine);
+    CHECK(complaint(write("a.obj", obj.str())).empty() == is_fine);
+    CHECK(complaint(write("a.off", off.str())).empty() == is_fine);
   }
 }
 
-TEST_CASE("the edges that keep a mesh open are counted") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "the edges that keep a mesh open are counted") {
   const std::string corners = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n", three = "3 0 2 1\n3 0 1 3\n3 0 3 2\n";
   const auto edges_of = [&](int points, int faces, const std::string& text) {
     std::ostringstream all;
     all << "OFF\n" << points << ' ' << faces << " 0\n" << text;
-    return open_edges(read_data(folder.write("a.off", all.str()), 1).triangles);
+    return open_edges(read_data(write("a.off", all.str()), 1).triangles);
   };
   const OpenEdges closed = edges_of(4, 4, corners + three + "3 1 2 3\n");
   CHECK(closed.single + closed.other == 0);
@@ -437,11 +424,10 @@ TEST_CASE("the edges that keep a mesh open are counted") {
   CHECK(describe(fin) == "the mesh is open: 2 edges have one triangle, 1 edge has several triangles that do not pair up");
 }
 
-TEST_CASE("unused vertices and flat faces of a file do not count as surface") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "unused vertices and flat faces of a file do not count as surface") {
   const Body body = placed_body(Family::Superellipsoid, 3, 2.5);
   const std::string text = obj_of(body);
-  const Data whole = read_data(folder.write("whole.obj", text), 1);
+  const Data whole = read_data(write("whole.obj", text), 1);
   std::ostringstream stray;
   stray.precision(9);
   stray << "ply\nformat ascii 1.0\nelement vertex " << whole.vertices.points.size() + 2
@@ -453,7 +439,7 @@ TEST_CASE("unused vertices and flat faces of a file do not count as surface") {
   stray << middle.x() << ' ' << middle.y() << ' ' << middle.z() << "\n5 5 5\n";
   for (const Triangle& t : whole.triangles) stray << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
   stray << "3 " << first[0] << ' ' << first[1] << ' ' << whole.vertices.points.size() << '\n';  // a flat face on an edge
-  const Data data = read_data(folder.write("stray.ply", stray.str()), 1);
+  const Data data = read_data(write("stray.ply", stray.str()), 1);
   CHECK(data.note == "1 vertices that no triangle has are left out");
   const FitError error = find_error(std::vector<Body>{body}, data);
   CHECK_FALSE(error.is_hull);
@@ -471,23 +457,21 @@ TEST_CASE("points on a line or in a plane are refused") {
   }
 }
 
-TEST_CASE("points from .xyz, .obj and .ply are equal") {
-  const TemporaryFolder folder;
-  const Data xyz = read_data(folder.write("a.xyz", "# x y z and the normal\n1, 2, 3, 0, 0, 1.001\n4 5 6 1 0 0 # more\n"), 0.5);
+TEST_CASE_FIXTURE(TemporaryFolder, "points from .xyz, .obj and .ply are equal") {
+  const Data xyz = read_data(write("a.xyz", "# x y z and the normal\n1, 2, 3, 0, 0, 1.001\n4 5 6 1 0 0 # more\n"), 0.5);
   CHECK(xyz.vertices.points == std::vector<Vector3>{{0.5, 1, 1.5}, {2, 2.5, 3}});
   CHECK(xyz.vertices.normals[0] == Vector3(0, 0, 1));
   for (const std::string& other :
-       {folder.write("a.obj", "v 1 2 3\nv 4 5 6\n"), folder.write("a.ply", ply_of({{1, 2, 3}, {4, 5, 6}}, "ascii", "float"))}) {
+       {write("a.obj", "v 1 2 3\nv 4 5 6\n"), write("a.ply", ply_of({{1, 2, 3}, {4, 5, 6}}, "ascii", "float"))}) {
     const Data data = read_data(other, 0.5);
     CHECK(data.vertices.points == xyz.vertices.points);
     CHECK(data.triangles.empty());
   }
 }
 
-TEST_CASE("a fit to a mesh of a body returns the body, with its volume and inertia") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "a fit to a mesh of a body returns the body, with its volume and inertia") {
   const Body body = placed_body(Family::Superellipsoid, 3, 2.5);
-  const Data data = read_data(folder.write("body.obj", obj_of(body)), 1);
+  const Data data = read_data(write("body.obj", obj_of(body)), 1);
   REQUIRE_FALSE(data.triangles.empty());
   const FittedBody fitted = fit_body(data.vertices, {.family = Family::Superellipsoid, .noise = Noise::AlongNormal});
   // Assimp keeps coordinates in single precision: 3e-8 of 0.5 m.
@@ -542,18 +526,16 @@ TEST_CASE("a union is printed as one grain, with the relative poses of its parts
   }
 }
 
-TEST_CASE("the printed lines of C compile and create the bodies") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "the printed lines of C compile and create the bodies") {
   const std::vector<FittedBody> fitted = {fitted_of(placed_body(Family::Superellipsoid, 3, 2.5)),
                                           fitted_of(placed_body(Family::Ellipsoid, 2, 2)),
                                           fitted_of(placed_body(Family::Superovoid, 2, 2, -0.3))};
-  const std::string source =
-      folder.write("thing.c",
-                   "#include <supernormal/supernormal.h>\nvoid make(dSpaceID space, dGeomID *out);\n"
-                   "void make(dSpaceID space, dGeomID *out) {\n" +
-                       c_lines(fitted, "thing", "a */ scan", integrate_union(bodies_of(fitted)).solid, 1200) +
-                       "out[0] = geom_thing_1; out[1] = geom_thing_2; out[2] = geom_thing_3;\n}\n");
-  void* const handle = compiled(folder, source);
+  const std::string source = write("thing.c",
+                                   "#include <supernormal/supernormal.h>\nvoid make(dSpaceID space, dGeomID *out);\n"
+                                   "void make(dSpaceID space, dGeomID *out) {\n" +
+                                       c_lines(fitted, "thing", "a */ scan", integrate_union(bodies_of(fitted)).solid, 1200) +
+                                       "out[0] = geom_thing_1; out[1] = geom_thing_2; out[2] = geom_thing_3;\n}\n");
+  void* const handle = compiled(*this, source);
   using Make = void (*)(dSpaceID, dGeomID*);
   const auto make = reinterpret_cast<Make>(dlsym(handle, "make"));
   REQUIRE((make != nullptr));
@@ -577,8 +559,7 @@ TEST_CASE("the printed lines of C compile and create the bodies") {
   dlclose(handle);
 }
 
-TEST_CASE("the printed lines of C make a body whose centre of mass is its origin, whatever its name") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "the printed lines of C make a body whose centre of mass is its origin, whatever its name") {
   // The centre of mass of a superovoid is not its centre.
   const std::vector<FittedBody> fitted = {fitted_of(placed_body(Family::Superovoid, 2, 2, -0.3))};
   const FitError error = find_error(bodies_of(fitted), {scatter(fitted[0].body, {.points = 500}), {}, ""});
@@ -595,7 +576,7 @@ TEST_CASE("the printed lines of C make a body whose centre of mass is its origin
          << "snMassSet(own, 1200, geom_" << name << ");\n}\n";
   }
   code << "}\n";
-  void* const handle = compiled(folder, folder.write("moving.c", code.str()));
+  void* const handle = compiled(*this, write("moving.c", code.str()));
   using Make = void (*)(dSpaceID, dBodyID, dMass*);
   const auto make = reinterpret_cast<Make>(dlsym(handle, "make"));
   REQUIRE((make != nullptr));

@@ -10,7 +10,6 @@
 #include "kind/grain_kind.hpp"
 #include "kind/kind_text.hpp"
 #include "output/results.hpp"
-#include "study/bodies.hpp"
 #include "study/truth.hpp"
 
 using namespace fit;

@@ -17,7 +17,6 @@
 #include "model/fit_union.hpp"
 #include "output/report.hpp"
 #include "output/results.hpp"
-#include "study/bodies.hpp"
 #include "study/truth.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -295,31 +294,29 @@ TEST_CASE("the plane under an object is removed, but no face of it") {
   CHECK(angle.vertices.points.size() == 12);
 }
 
-TEST_CASE("the objects of a file are read together or one by one") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "the objects of a file are read together or one by one") {
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
-  const std::string path = folder.write("two.obj", corners +
-                                                       "g small\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nv 5 0 0\nv 7 0 0\nv 5 2 0\nv "
-                                                       "5 0 2\ng large\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n");
+  const std::string path = write("two.obj", corners +
+                                                "g small\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nv 5 0 0\nv 7 0 0\nv 5 2 0\nv "
+                                                "5 0 2\ng large\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n");
   CHECK(read_data(path, 1).triangles.size() == 8);
   const Data large = read_data(path, 1, "large");
   CHECK(large.triangles.size() == 4);
   CHECK(volume_target(large).volume == doctest::Approx(8.0 / 6));
   CHECK_THROWS_WITH_AS(read_data(path, 1, "medium"), doctest::Contains("no group \"medium\"; allowed: "), InputError);
-  const std::string off = folder.write("one.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  const std::string off = write("one.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   CHECK(volume_target(read_data(off, 0.1)).volume == doctest::Approx(1e-3 / 6));
-  const std::string points = folder.write("points.xyz", "1 2 3\n");
+  const std::string points = write("points.xyz", "1 2 3\n");
   CHECK_THROWS_WITH_AS(read_data(points, 1, "large"), doctest::Contains("a .xyz has no groups"), InputError);
 }
 
-TEST_CASE("the aligned data lie in the frame of the grain, and the JSON has the numbers of the report") {
-  const TemporaryFolder folder;
+TEST_CASE_FIXTURE(TemporaryFolder, "the aligned data lie in the frame of the grain, and the JSON has the numbers of the report") {
   FittedBody fitted;
   fitted.body = oblong();
   fitted.uncertainty.is_determined.fill(true);
   fitted.uncertainty.is_determined[kLogDelta] = false;
   const Data data{scatter(fitted.body, {.points = 300}), {}, ""};
-  const Data aligned = read_data(folder.write("aligned.ply", aligned_ply(data, std::vector{fitted})), 1);
+  const Data aligned = read_data(write("aligned.ply", aligned_ply(data, std::vector{fitted})), 1);
   Body in_frame = fitted.body;
   in_frame.position.setZero();
   in_frame.orientation.setIdentity();

@@ -7,7 +7,7 @@
 #include "model/empty_space.hpp"
 #include "model/fit_error.hpp"
 #include "model/fit_union.hpp"
-#include "study/bodies.hpp"
+#include "study/truth.hpp"
 
 using namespace fit;
 

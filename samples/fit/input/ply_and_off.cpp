@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "common/interval.hpp"
-#include "formats.hpp"
+#include "read_data.hpp"
 #include "triangles.hpp"
 
 namespace fit {

@@ -20,7 +20,6 @@
 #include <utility>
 
 #include "common/read_file.hpp"
-#include "formats.hpp"
 #include "triangles.hpp"
 
 namespace fit {
