@@ -130,41 +130,6 @@ Drum read_drum(const TomlTable& table, const Time& time) {
   return drum;
 }
 
-Tray read_tray(const TomlTable& table, const Time& time) {
-  table.refuse_unknown_keys(
-      {"kind", "width", "wall_height", "thickness", "direction", "amplitude", "frequency", "phase", "shakes_at"});
-  Tray tray{};
-  tray.width = read_width(table);
-  tray.wall_height = read_length(table, "wall_height");
-  tray.thickness = read_length(table, "thickness");
-  const Vector3 direction = read_direction(table, "direction");
-  tray.direction = {direction.x(), direction.y(), direction.z()};
-  tray.amplitude = read_length(table, "amplitude");
-  tray.frequency = read_frequency(table, time);
-  tray.phase = read_phase(table);
-  tray.shakes_at = read_start(table, "shakes_at", time);
-  return tray;
-}
-
-ShearCell read_shear_cell(const TomlTable& table, const Time& time) {
-  table.refuse_unknown_keys(
-      {"kind", "width", "height", "cut", "thickness", "speed", "pressure", "lid_mass", "lid", "presses_at", "shears_at"});
-  ShearCell cell{};
-  cell.width = read_width(table);
-  cell.height = read_length(table, "height");
-  cell.cut = table.number("cut", {0, cell.height, false, false, "m (below container.height)"});
-  cell.lid = table.number("lid", {cell.cut, cell.height, false, true, "m (from container.cut to container.height)"});
-  cell.thickness = read_length(table, "thickness");
-  cell.presses_at = read_start(table, "presses_at", time);
-  cell.shears_at = read_start(table, "shears_at", time);
-  const double most = cell.thickness / (time.duration - cell.shears_at);
-  cell.speed =
-      table.number("speed", Interval::closed(-most, most, "m/s (until time.duration the lower half moves by container.thickness)"));
-  cell.pressure = table.number("pressure", Interval::closed(0, 1e9, "Pa"));
-  cell.lid_mass = table.number("lid_mass", Interval::positive(1e6, "kg"));
-  return cell;
-}
-
 ConveyorBelt read_conveyor_belt(const TomlTable& table, const Time& time) {
   table.refuse_unknown_keys({"kind", "length", "width", "height", "thickness", "wall_height", "speed", "drop_length", "starts_at"});
   ConveyorBelt belt{};
@@ -206,7 +171,6 @@ void check_ceiling(const TomlTable& table, const Scene& scene) {
   } catch (const NoRoom&) {
     std::string key = "height";
     if (std::holds_alternative<Drum>(scene.container)) key = "diameter";
-    if (std::holds_alternative<ShearCell>(scene.container)) key = "lid";
     const auto* const open = std::get_if<Open>(&scene.container);
     const double value = open != nullptr ? open->start.size[2] : table.number(key.c_str(), Interval::finite(""));
     table.fail(open != nullptr ? "start" : key.c_str(),
@@ -243,17 +207,14 @@ std::string in_brackets(const Period& period) { return "[" + shortest(period.low
 
 /// The axes along which containers can be periodic.
 constexpr const char* kAllowed =
-    "allowed: periodic.x and periodic.y in a box, a tray or a container of kind \"none\"; periodic.y in a drum, a shear_cell or a "
-    "conveyor";
+    "allowed: periodic.x and periodic.y in a box or a container of kind \"none\"; periodic.y in a drum or a conveyor";
 
 /// The interval between the container's walls along an axis. Empty if the container cannot be periodic along it. A container
 /// without walls may have any period.
 std::optional<Period> between_walls(const Container& container, std::size_t axis) {
   const Rectangle plan = plan_of(container);
-  const bool is_open_everywhere = std::holds_alternative<Box>(container) || std::holds_alternative<Tray>(container);
-  const bool is_open_along_y = std::holds_alternative<Drum>(container) || std::holds_alternative<ShearCell>(container) ||
-                               std::holds_alternative<ConveyorBelt>(container);
-  if (!is_open_everywhere && !(is_open_along_y && axis == 1)) return std::nullopt;
+  const bool is_open_along_y = std::holds_alternative<Drum>(container) || std::holds_alternative<ConveyorBelt>(container);
+  if (!std::holds_alternative<Box>(container) && !(is_open_along_y && axis == 1)) return std::nullopt;
   return Period{plan.corner[axis], plan.width[axis]};
 }
 
@@ -293,16 +254,13 @@ Period read_period(const TomlTable& table, std::size_t axis, const Scene& scene)
 
 Container read_container(const TomlTable& root, const Time& time) {
   const TomlTable table = root.table("container");
-  const std::string kind =
-      table.choice("kind", {"box", "hopper", "terrain", "periodic", "none", "drum", "tray", "shear_cell", "conveyor", "cell"});
+  const std::string kind = table.choice("kind", {"box", "hopper", "terrain", "periodic", "none", "drum", "conveyor", "cell"});
   if (kind == "hopper") return read_hopper(table, time, root.has("start"));
   if (kind == "terrain") return read_terrain(table);
   if (kind == "periodic") return read_periodic(table);
   if (kind == "cell") return read_cell(table);
   if (kind == "none") return read_open(root, table);
   if (kind == "drum") return read_drum(table, time);
-  if (kind == "tray") return read_tray(table, time);
-  if (kind == "shear_cell") return read_shear_cell(table, time);
   if (kind == "conveyor") return read_conveyor_belt(table, time);
   return read_box(table);
 }

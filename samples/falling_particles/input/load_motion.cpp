@@ -25,8 +25,10 @@ Vibration read_vibration(const TomlTable& table, const Time& time) {
   table.refuse_unknown_keys({"kind", "direction", "amplitude", "frequency", "phase", "from", "until"});
   Vibration vibration{};
   vibration.amplitude = table.number("amplitude", Interval::positive(kLargestLength, "m")) * read_direction(table, "direction");
-  vibration.frequency = read_frequency(table, time);
-  vibration.phase = read_phase(table);
+  constexpr double kStepsPerPeriod = 10;
+  vibration.frequency =
+      table.number("frequency", Interval::positive(1 / (kStepsPerPeriod * time.step), "Hz (a period has at least ten time.step)"));
+  if (table.has("phase")) vibration.phase = table.number("phase", Interval::closed(-360, 360, "degrees")) * std::numbers::pi / 180;
   return vibration;
 }
 
@@ -224,16 +226,6 @@ Region read_region(const TomlTable& table) {
 double read_rpm(const TomlTable& table, const Time& time) {
   const double most = 60 * kLargestTurn / time.step;
   return table.number("rpm", Interval::closed(-most, most, "revolutions a minute (a tenth of one in time.step)"));
-}
-
-double read_frequency(const TomlTable& table, const Time& time) {
-  constexpr double kStepsPerPeriod = 10;
-  return table.number("frequency",
-                      Interval::positive(1 / (kStepsPerPeriod * time.step), "Hz (a period has at least ten time.step)"));
-}
-
-double read_phase(const TomlTable& table) {
-  return table.has("phase") ? table.number("phase", Interval::closed(-360, 360, "degrees")) * std::numbers::pi / 180 : 0;
 }
 
 std::pair<double, double> read_times(const TomlTable& table) {

@@ -28,12 +28,6 @@ inline constexpr double kLargestTurn = 0.1;
 /// Reads `rpm`, revolutions per minute, up to kLargestTurn in a step.
 double read_rpm(const TomlTable& table, const Time& time);
 
-/// Reads `frequency` (Hz) of a vibration, whose period takes at least ten steps.
-double read_frequency(const TomlTable& table, const Time& time);
-
-/// Reads `phase` in degrees and returns it in radians; 0 if it is not given.
-double read_phase(const TomlTable& table);
-
 /// Reads `from` and `until` (s); 0 and infinity if they are not given.
 std::pair<double, double> read_times(const TomlTable& table);
 

@@ -15,17 +15,6 @@ Wall box(std::string name, const Vector3& lower, const Vector3& upper, std::vect
   return {std::move(name), BoxShape{upper - lower}, {(lower + upper) / 2, Eigen::Quaterniond::Identity()}, std::move(motions)};
 }
 
-/// Four walls around a rectangle with its corner at the origin, from z = `bottom` to z = `top`.
-void add_walls(const std::string& prefix, const std::array<double, 2>& width, double thickness, double bottom, double top,
-               const std::vector<WallMotion>& motions, std::vector<Wall>& walls) {
-  const auto [x, y] = width;
-  const double t = thickness;
-  walls.push_back(box(prefix + "_left", {-t, -t, bottom}, {0, y + t, top}, motions));
-  walls.push_back(box(prefix + "_right", {x, -t, bottom}, {x + t, y + t, top}, motions));
-  walls.push_back(box(prefix + "_front", {-t, -t, bottom}, {x + t, 0, top}, motions));
-  walls.push_back(box(prefix + "_back", {-t, y, bottom}, {x + t, y + t, top}, motions));
-}
-
 Wall side(std::string name, WallShape shape, const Vector3& position = Vector3::Zero()) {
   Wall wall{std::move(name), std::move(shape), {position, Eigen::Quaterniond::Identity()}};
   wall.role = WallRole::Side;
@@ -113,30 +102,6 @@ std::vector<Wall> walls_of(const Drum& drum) {
           {"far_end", end, facing({0, drum.length, drum.radius()}, std::numbers::pi / 2), motions}};
 }
 
-std::vector<Wall> walls_of(const Tray& tray) {
-  const double t = tray.thickness;
-  const Vector3 amplitude = tray.amplitude * Vector3(tray.direction[0], tray.direction[1], tray.direction[2]);
-  const std::vector<WallMotion> motions = {{Vibration{amplitude, tray.frequency, tray.phase}, tray.shakes_at}};
-  std::vector<Wall> walls = {box("tray_floor", {-t, -t, -t}, {tray.width[0] + t, tray.width[1] + t, 0}, motions)};
-  add_walls("tray", tray.width, t, -t, tray.wall_height, motions, walls);
-  return walls;
-}
-
-std::vector<Wall> walls_of(const ShearCell& cell) {
-  const auto [x, y] = cell.width;
-  const double t = cell.thickness;
-  const std::vector<WallMotion> shear = {{Translation{{cell.speed, 0, 0}}, cell.shears_at}};
-  std::vector<Wall> walls = {box("lower_floor", {-t, -t, -t}, {x + t, y + t, 0}, shear)};
-  add_walls("lower", cell.width, t, 0, cell.cut, shear, walls);
-  add_walls("upper", cell.width, t, cell.cut, cell.height, {}, walls);
-  Wall lid = box("lid", {0, 0, cell.lid}, {x, y, cell.lid + t});
-  lid.drive = Drive{-Vector3::UnitZ(), cell.pressure * x * y, cell.lid_mass};
-  lid.drive->from = cell.presses_at;
-  lid.drive->travel = {0, cell.lid - cell.cut};
-  walls.push_back(std::move(lid));
-  return walls;
-}
-
 // The floor of a cell has the name of the lower end along z.
 std::vector<Wall> walls_of(const Cell& cell) {
   std::vector<Wall> walls;
@@ -170,7 +135,7 @@ std::vector<Wall> walls_of(const ConveyorBelt& belt) {
 }  // namespace
 
 const char* kind_of(const Container& container) {
-  constexpr std::array kKinds = {"box", "hopper", "terrain", "periodic", "none", "drum", "tray", "shear_cell", "conveyor", "cell"};
+  constexpr std::array kKinds = {"box", "hopper", "terrain", "periodic", "none", "drum", "conveyor", "cell"};
   return kKinds[container.index()];
 }
 

@@ -1,4 +1,4 @@
-// The container of a scene: a box, a cell, a hopper, a terrain, a periodic cell, a moving container, or none.
+// The container of a scene: a box, a cell, a hopper, a terrain, a periodic cell, a drum, a conveyor, or none.
 #pragma once
 
 #include <algorithm>
@@ -81,49 +81,6 @@ struct Drum {
   bool contains(const Point& p) const { return p[1] > 0 && p[1] < length && std::hypot(p[0], p[2] - radius()) < outer_radius(); }
 };
 
-/// A vibrating tray: a floor at z = 0 and four walls around 0 < x < width[0], 0 < y < width[1].
-struct Tray {
-  std::array<double, 2> width;  ///< m
-  double wall_height;           ///< m
-  double thickness;             ///< m, of floor and walls
-  Point direction;              ///< of the vibration, unit
-  double amplitude;             ///< m
-  double frequency;             ///< Hz
-  double phase;                 ///< rad
-  double shakes_at;             ///< s
-
-  Rectangle plan() const { return {{0, 0}, width}; }
-  double lowest() const { return 0; }
-  /// Within the walls at any phase of the vibration, or above them.
-  Region room() const {
-    const auto way = [this](std::size_t axis) { return 2 * amplitude * std::abs(direction[axis]); };
-    return {{-way(0), -way(1), -way(2)}, {width[0] + 2 * way(0), width[1] + 2 * way(1), INFINITY}};
-  }
-  bool contains(const Point& p) const { return room().contains(p); }
-};
-
-/// A direct shear test: a box cut at half its height. The lower half moves along x below the upper one. A lid that can move up and
-/// down presses on the grains.
-struct ShearCell {
-  std::array<double, 2> width;  ///< m
-  double height;                ///< m
-  double cut;                   ///< m, z of the cut
-  double thickness;             ///< m, of floor, walls and lid
-  double speed;                 ///< m/s, of the lower half along x
-  double pressure;              ///< Pa, of the lid on the plan
-  double lid_mass;              ///< kg
-  double lid;                   ///< m, z of the lid's lower side at the start
-  double presses_at;            ///< s; until then the lid is held
-  double shears_at;             ///< s
-
-  Rectangle plan() const { return {{0, 0}, width}; }
-  double lowest() const { return 0; }
-  double ceiling() const { return lid; }
-  /// Within the upper half or the lower one, which moves by less than the thickness of the walls.
-  Region room() const { return {{-thickness, 0, 0}, {width[0] + 2 * thickness, width[1], height + thickness}}; }
-  bool contains(const Point& p) const { return room().contains(p); }
-};
-
 /// A belt around two rollers, from x = 0 to x = length, between two side walls. At its end grains drop to a floor at z = 0 with a
 /// wall at its end.
 struct ConveyorBelt {
@@ -173,7 +130,7 @@ struct Cell : Open {
   bool has_lid() const { return std::isfinite(start.size[2]); }
 };
 
-using Container = std::variant<Box, Hopper, Terrain, Periodic, Open, Drum, Tray, ShearCell, ConveyorBelt, Cell>;
+using Container = std::variant<Box, Hopper, Terrain, Periodic, Open, Drum, ConveyorBelt, Cell>;
 
 /// The name in the scene file: "box", "hopper", …
 const char* kind_of(const Container& container);

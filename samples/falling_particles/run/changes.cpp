@@ -26,18 +26,11 @@ struct Change {
   WallChange of_walls = WallChange::Motion;
 };
 
-/// A value of a container that sets motions of its walls, or the force of their drives.
-struct ContainerKey {
-  const char* container;
-  const char* key;
-  WallChange changes;
-};
-constexpr std::array kContainerKeys = {
-    ContainerKey{"drum", "rpm", WallChange::Motion},
-    ContainerKey{"shear_cell", "speed", WallChange::Motion},
-    ContainerKey{"shear_cell", "pressure", WallChange::Drive},
-    ContainerKey{"conveyor", "speed", WallChange::Motion},
-};
+/// The key of a container that sets the motions of its walls; null if none does.
+const char* motion_key_of(const Container& container) {
+  if (std::holds_alternative<ConveyorBelt>(container)) return "speed";
+  return std::holds_alternative<Drum>(container) ? "rpm" : nullptr;
+}
 
 /// The keys of a drive that may change. The inertia, the axis and the stops are those of the joint at the start.
 constexpr std::array kDriveKeys = {"force", "torque", "power", "largest_force", "largest_torque", "stress", "damping", "until"};
@@ -45,9 +38,7 @@ constexpr std::array kDriveKeys = {"force", "torque", "power", "largest_force", 
 std::string keys_that_change(const Scene& scene) {
   std::vector<std::string> keys = effect_sections();
   keys.emplace_back("solver");
-  for (const ContainerKey& entry : kContainerKeys) {
-    if (kind_of(scene.container) == std::string_view(entry.container)) keys.push_back(std::string("container.") + entry.key);
-  }
+  if (const char* const key = motion_key_of(scene.container)) keys.push_back(std::string("container.") + key);
   std::vector<std::string> walls = {"part[NAME]"};
   if (std::holds_alternative<Cell>(scene.container)) walls.emplace_back("container.SIDE");
   for (const std::string& wall : walls) {
@@ -75,14 +66,11 @@ Change change_of_container(const std::string& key, std::string_view name, const 
   if (std::holds_alternative<Cell>(scene.container) && side.size() < name.size()) {
     return change_of_wall(key, std::string(side), name.substr(side.size()), scene);
   }
-  const auto is_named = [&](const ContainerKey& entry) {
-    return kind_of(scene.container) == std::string_view(entry.container) && name == entry.key;
-  };
-  const auto* const entry = std::ranges::find_if(kContainerKeys, is_named);
-  if (entry == kContainerKeys.end()) refuse_key(key, scene);
-  Change change{false, {}, entry->changes};
+  const char* const of_motion = motion_key_of(scene.container);
+  if (of_motion == nullptr || name != of_motion) refuse_key(key, scene);
+  Change change;
   for (const Wall& wall : walls_in(scene.container)) {
-    if (entry->changes == WallChange::Motion ? !wall.motions.empty() : wall.drive.has_value()) change.walls.push_back(wall.name);
+    if (!wall.motions.empty()) change.walls.push_back(wall.name);
   }
   return change;
 }

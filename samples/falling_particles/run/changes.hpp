@@ -13,10 +13,10 @@ namespace falling_particles {
 /// the run. `load` loads it again, with the assignments of earlier changes and of this one.
 ///
 /// The sections of effects and [solver] may change as a whole: the run then continues from its saved state, as at a checkpoint.
-/// container.rpm of a drum, .speed and .pressure of a shear cell and .speed of a conveyor may change, and part[NAME].motion,
-/// .drive.force, .torque, .power, .largest_force, .largest_torque, .stress, .damping and .until. A side of a cell is container.SIDE
-/// in place of part[NAME]. A motion acts from the time of its change, from the pose that the wall has then. Its axes, points and
-/// directions are in the world. Motions that end before are left out.
+/// container.rpm of a drum and .speed of a conveyor may change, and part[NAME].motion, .drive.force, .torque, .power,
+/// .largest_force, .largest_torque, .stress, .damping and .until. A side of a cell is container.SIDE in place of part[NAME]. A
+/// motion acts from the time of its change, from the pose that the wall has then. Its axes, points and directions are in the world.
+/// Motions that end before are left out.
 ///
 /// Throws InputError for any other key, and for a motion of a wall that stood at the start. The run is then as before.
 void change_values(StepwiseRun& run, Scene& scene, const std::vector<std::string>& assignments, const std::function<Scene()>& load);

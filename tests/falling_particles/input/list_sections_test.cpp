@@ -101,18 +101,6 @@ const std::vector<Section>& sections() {
        "container",
        "container={kind = \"drum\", diameter = 0.2, length = 0.1, segments = 24, rpm = 10}",
        {"kind"}},
-      {"[container] kind = \"tray\"",
-       "container",
-       "container={kind = \"tray\", width = [0.1, 0.1], wall_height = 0.1, thickness = 0.01, direction = [0, 0, 1], amplitude = "
-       "1e-3, "
-       "frequency = 50}",
-       {"kind"}},
-      {"[container] kind = \"shear_cell\"",
-       "container",
-       "container={kind = \"shear_cell\", width = [0.1, 0.1], height = 0.1, cut = 0.03, thickness = 0.05, speed = 0.01, pressure = "
-       "100, "
-       "lid_mass = 1, lid = 0.09}",
-       {"kind"}},
       {"[container] kind = \"cell\"", "container", "container={kind = \"cell\", width = [0.1, 0.1], height = 0.1}", {"kind"}},
       {"[container] kind = \"conveyor\"",
        "container",

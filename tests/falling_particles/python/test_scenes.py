@@ -28,7 +28,7 @@ SHORTER = {
     "drum": {"time.duration": 0.6, "container.turns_at": 0.2, "output.pictures": []},
     "hopper": {"time.duration": 0.1, "container.opens_at": 0.05, "output.pictures": []},
     "feeder": {"time.duration": 0.3, "output.pictures": ["glb"]},
-    "shear_cell": {"time.duration": 0.2, "container.presses_at": 0.05, "container.shears_at": 0.1, "output.pictures": []},
+    "shear_cell": {"time.duration": 0.2, "part[lid].drive.from": 0.05, "output.pictures": []},
     "drum_periodic": {"time.duration": 0.1, "container.turns_at": 0.02, "output.pictures": []},
     "packing_spheres": {"time.duration": 0.2, "output.pictures": []},
     "compounds": {"time.duration": 0.1, "output.pictures": []},
