@@ -21,8 +21,7 @@ struct Fall {
 /// periodic container, and where the container is open.
 std::optional<Fall> fall_from_start(const Scene& scene);
 
-/// Whether the effect gives contacts a stiffness of their own.
-bool is_spring(const supernormal::effects::Effect& effect);
+/// Whether an effect gives contacts a stiffness of their own.
 bool has_springs(const Scene& scene);
 
 std::string in_half_axes(double way, const Scene& scene);
@@ -36,8 +35,6 @@ std::vector<std::string> doubts_about(const Scene& scene);
 // By what may go wrong, each in a file of this name, but for bonds:
 
 void add_doubts_about_step(const Scene& scene, std::vector<std::string>& doubts);
-/// Of contacts that last fewer than ten steps. A run counts these as coarse.
-void add_doubts_about_springs(const Scene& scene, std::vector<std::string>& doubts);
 /// Of grains, and parts that press, which quickstep cannot hold on the lightest grains.
 void add_doubts_about_loads(const Scene& scene, std::vector<std::string>& doubts);
 /// Of walls that move too far in a step.
@@ -46,7 +43,5 @@ void add_doubts_about_walls(const Scene& scene, std::vector<std::string>& doubts
 void add_doubts_about_leaks(const Scene& scene, std::vector<std::string>& doubts);
 /// Of bonds that may break, and are damped more by the step than the scene asks.
 void add_doubts_about_bonds(const Scene& scene, std::vector<std::string>& doubts);
-/// Of opposite sides of a cell that meet by their motions.
-void add_doubts_about_meetings(const Scene& scene, std::vector<std::string>& doubts);
 
 }  // namespace falling_particles

@@ -37,96 +37,76 @@ dGeomID geom_of(const HalfSpace& below) {
   return dCreatePlane(nullptr, normal[0], normal[1], normal[2], normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2]);
 }
 
+/// What a ray hits first.
+struct Seen {
+  double distance = INFINITY;  ///< m
+  const Wall* wall = nullptr;  ///< a part; null for a wall that is none, or a sink
+  bool is_back = false;        ///< whether the ray hits the back of a single-sided triangle
+
+  bool is_nothing() const { return std::isinf(distance); }
+};
+
 /// Casts rays against the walls and the sinks of a world, where they start.
 class Sight {
  public:
-  struct Seen {
-    double distance = 0;              ///< m
-    std::optional<std::size_t> wall;  ///< index into Scene::walls; empty for a wall that is no part, or a sink
-    bool is_back = false;             ///< whether the ray hits the back of a single-sided triangle
-  };
-
   /// The world must outlive this object.
-  explicit Sight(const World& world);
+  explicit Sight(const World& world) : walls_(world.scene().walls), solids_(world.walls().geoms()) {
+    dGeomRaySetClosestHit(ray_.get(), 0);
+    for (const Sink& sink : world.scene().sinks) {
+      sinks_.emplace_back(std::visit([](const auto& region) { return geom_of(region); }, sink.region), dGeomDestroy);
+      solids_.push_back(sinks_.back().get());
+    }
+  }
 
-  /// The first hit of a ray; empty if there is none. `direction` must have unit length.
-  std::optional<Seen> look(const Point& from, const Vector3& direction) const;
+  /// `direction` must have unit length.
+  Seen look(const Point& from, const Vector3& direction) const;
 
  private:
   using Geom = std::unique_ptr<dxGeom, decltype(&dGeomDestroy)>;
 
-  std::optional<dContactGeom> hit_of(dGeomID solid) const;
-  bool is_back_of(const Wall& wall, int triangle, const Vector3& direction) const;
-
-  const World& world_;
+  const std::vector<Wall>& walls_;
   std::vector<Geom> sinks_;
   std::vector<dGeomID> solids_;  // Scene::walls first
-  Geom ray_;
+  Geom ray_{dCreateRay(nullptr, kLargestLength), dGeomDestroy};
 };
 
-Sight::Sight(const World& world)
-    : world_(world), solids_(world.walls().geoms()), ray_(dCreateRay(nullptr, kLargestLength), dGeomDestroy) {
-  dGeomRaySetClosestHit(ray_.get(), 0);
-  for (const Sink& sink : world.scene().sinks) {
-    sinks_.emplace_back(std::visit([](const auto& region) { return geom_of(region); }, sink.region), dGeomDestroy);
-    solids_.push_back(sinks_.back().get());
-  }
-}
-
-std::optional<Sight::Seen> Sight::look(const Point& from, const Vector3& direction) const {
-  dGeomRaySet(ray_.get(), from[0], from[1], from[2], direction.x(), direction.y(), direction.z());
-  std::optional<Seen> seen;
-  double nearest = INFINITY;
-  const std::vector<Wall>& walls = world_.scene().walls;
-  for (std::size_t i = 0; i < solids_.size(); ++i) {
-    const std::optional<dContactGeom> hit = hit_of(solids_[i]);
-    if (!hit || !(hit->depth < nearest)) continue;
-    nearest = hit->depth;
-    seen = Seen{nearest, {}, false};
-    if (i >= walls.size() || !walls[i].is_part()) continue;
-    seen->wall = i;
-    seen->is_back = is_back_of(walls[i], hit->side1, direction);
-  }
-  return seen;
+bool is_back_of(const Wall& wall, int triangle, const Vector3& direction) {
+  const auto* const mesh = std::get_if<MeshShape>(&wall.shape);
+  if (mesh == nullptr || mesh->two_sided || triangle < 0) return false;
+  const auto& [a, b, c] = mesh->triangles[static_cast<std::size_t>(triangle)];
+  const auto corner = [&](unsigned int i) { return Eigen::Map<const Eigen::Vector3f>(mesh->vertices[i].data()).cast<double>(); };
+  const Vector3 side = corner(b) - corner(a), other = corner(c) - corner(a);
+  return (wall.start.rotation * side.cross(other)).dot(direction) > 0;
 }
 
 // For the closest hit only, ODE would test one of the two windings of a triangle of a two-sided mesh, possibly the one that the
 // mesh then rejects. So all hits are collected.
-std::optional<dContactGeom> Sight::hit_of(dGeomID solid) const {
+Seen Sight::look(const Point& from, const Vector3& direction) const {
   constexpr int kMostHits = 64;
+  dGeomRaySet(ray_.get(), from[0], from[1], from[2], direction.x(), direction.y(), direction.z());
+  Seen seen;
   std::array<dContactGeom, kMostHits> hits;
-  const int count = dCollide(solid, ray_.get(), kMostHits, hits.data(), sizeof hits[0]);
-  if (count == 0) return {};
-  return *std::min_element(hits.begin(), hits.begin() + count,
-                           [](const dContactGeom& one, const dContactGeom& other) { return one.depth < other.depth; });
-}
-
-bool Sight::is_back_of(const Wall& wall, int triangle, const Vector3& direction) const {
-  const auto* const mesh = std::get_if<MeshShape>(&wall.shape);
-  if (mesh == nullptr || mesh->two_sided || triangle < 0) return false;
-  const auto& [a, b, c] = mesh->triangles[static_cast<std::size_t>(triangle)];
-  const auto corner = [&](unsigned int i) {
-    const auto& [x, y, z] = mesh->vertices[i];
-    return Vector3(x, y, z);
-  };
-  const Vector3 normal = wall.start.rotation * (corner(b) - corner(a)).cross(corner(c) - corner(a));
-  return normal.dot(direction) > 0;
+  for (std::size_t i = 0; i < solids_.size(); ++i) {
+    const int count = dCollide(solids_[i], ray_.get(), kMostHits, hits.data(), sizeof hits[0]);
+    for (int k = 0; k < count; ++k) {
+      const dContactGeom& hit = hits[static_cast<std::size_t>(k)];
+      if (!(hit.depth < seen.distance)) continue;
+      const Wall* const part = i < walls_.size() && walls_[i].is_part() ? &walls_[i] : nullptr;
+      seen = {hit.depth, part, part != nullptr && is_back_of(*part, hit.side1, direction)};
+    }
+  }
+  return seen;
 }
 
 /// Grains of the start or of a feeder, from which rays are cast.
 struct Lookout {
-  std::string feeder;  // its name; empty for the start
-  bool falls;          // straight down, under gravity
-  std::vector<Point> places = {};
-  std::vector<double> radii = {};  // m, bounding radii of the grains at these places
+  std::string feeder;                                 // its name; empty for the start
+  bool falls;                                         // straight down, under gravity
+  std::vector<std::pair<Point, double>> grains = {};  // places, and bounding radii (m)
 
-  void add(const Point& place, double radius) {
-    places.push_back(place);
-    radii.push_back(radius);
-  }
-  std::string grains(std::size_t count) const {
-    if (!feeder.empty()) return (count < places.size() ? "some grains" : "grains") + (" that feeder \"" + feeder) + "\" brings are";
-    return std::to_string(count) + " of " + counted(places.size(), "grain") + (count == 1 ? " starts" : " start");
+  std::string some(std::size_t count) const {
+    if (!feeder.empty()) return (count < grains.size() ? "some grains" : "grains") + (" that feeder \"" + feeder) + "\" brings are";
+    return std::to_string(count) + " of " + counted(grains.size(), "grain") + (count == 1 ? " starts" : " start");
   }
 };
 
@@ -136,8 +116,8 @@ Lookout start_of(const Scene& scene) {
   Lookout start{"", std::ranges::none_of(scene.bonds, [](const BondRule& rule) { return rule.wall.has_value(); })};
   for (const Placement& placement : place(scene, random)) {
     constexpr std::size_t kEnough = 1000;  // the placements are in random order
-    if (start.places.size() == kEnough) break;
-    start.add(placement.position, placement.scale * scene.kinds[placement.kind].kind.bounding_radius());
+    if (start.grains.size() == kEnough) break;
+    start.grains.emplace_back(placement.position, placement.scale * scene.kinds[placement.kind].kind.bounding_radius());
   }
   return start;
 }
@@ -160,11 +140,11 @@ Lookout origin_of(const Feeder& feeder, const Scene& scene) {
   const Vector3 velocity(feeder.velocity[0], feeder.velocity[1], feeder.velocity[2]);
   Lookout origin{feeder.name, down && velocity.cross(*down).norm() <= 1e-12 * velocity.norm()};
   const auto& [corner, size] = feeder.region;
-  origin.add({corner[0] + size[0] / 2, corner[1] + size[1] / 2, corner[2] + size[2] / 2}, radius);
+  origin.grains.emplace_back(Point{corner[0] + size[0] / 2, corner[1] + size[1] / 2, corner[2] + size[2] / 2}, radius);
   for (unsigned i = 0; i < 8; ++i) {
     Point place = corner;
     for (unsigned axis = 0; axis < 3; ++axis) place[axis] += ((i >> axis) & 1U) != 0 ? size[axis] - radius : radius;
-    origin.add(place, radius);
+    origin.grains.emplace_back(place, radius);
   }
   return origin;
 }
@@ -180,16 +160,16 @@ std::vector<Vector3> directions_of(const Scene& scene) {
 }
 
 void add_backs(const Sight& sight, const Scene& scene, const Lookout& origin, std::vector<std::string>& doubts) {
-  std::map<std::size_t, std::size_t> counts;  // of positions, by wall
-  for (const Point& place : origin.places) {
-    std::set<std::size_t> walls;
+  std::map<const Wall*, std::size_t> counts;  // of grains, in the order of the scene's walls
+  for (const auto& [place, radius] : origin.grains) {
+    std::set<const Wall*> walls;
     for (const Vector3& direction : directions_of(scene)) {
-      if (const auto seen = sight.look(place, direction); seen && seen->is_back) walls.insert(*seen->wall);
+      if (const Seen seen = sight.look(place, direction); seen.is_back) walls.insert(seen.wall);
     }
-    for (const std::size_t wall : walls) ++counts[wall];
+    for (const Wall* const wall : walls) ++counts[wall];
   }
   for (const auto& [wall, count] : counts) {
-    doubts.push_back(scene.walls[wall].called() + ": " + origin.grains(count) +
+    doubts.push_back(wall->called() + ": " + origin.some(count) +
                      " behind a triangle, which does not hold them: a triangle is solid behind, and holds what sees its corners "
                      "anticlockwise; turn its corners around, or let part.two_sided = true hold grains on both sides");
   }
@@ -210,21 +190,19 @@ std::vector<Point> points_of(const Point& centre, double radius, const Vector3& 
 
 void add_void(const Sight& sight, const Scene& scene, const Lookout& origin, std::vector<std::string>& doubts) {
   const std::optional<Vector3> down = down_in(scene);
-  if (!down || !origin.falls || origin.places.empty()) return;
+  if (!down || !origin.falls) return;
   const auto lands = [&](const Point& point) {
-    const std::optional<Sight::Seen> below = sight.look(point, *down);
-    if (!below) return false;
-    const double way = std::max(0.0, below->distance - scene.smallest_half_axis());
-    return is_inside(scene, {point[0] + way * down->x(), point[1] + way * down->y(), point[2] + way * down->z()});
+    const Seen below = sight.look(point, *down);
+    const double way = std::max(0.0, below.distance - scene.smallest_half_axis());
+    return !below.is_nothing() &&
+           is_inside(scene, {point[0] + way * down->x(), point[1] + way * down->y(), point[2] + way * down->z()});
   };
-  std::size_t lost = 0;
-  for (std::size_t i = 0; i < origin.places.size(); ++i) {
-    if (std::ranges::none_of(points_of(origin.places[i], origin.radii[i], *down), lands)) ++lost;
-  }
+  const auto lost = static_cast<std::size_t>(std::ranges::count_if(
+      origin.grains, [&](const auto& grain) { return std::ranges::none_of(points_of(grain.first, grain.second, *down), lands); }));
   if (lost == 0) return;
   const std::string they = origin.feeder.empty() && lost == 1 ? "it falls" : "they fall";
-  doubts.push_back(origin.grains(lost) + " above nothing: no wall, part or sink is below within the container, and " + they +
-                   " out of it" + (lost < origin.places.size() ? " unless other grains are in the way" : ""));
+  doubts.push_back(origin.some(lost) + " above nothing: no wall, part or sink is below within the container, and " + they +
+                   " out of it" + (lost < origin.grains.size() ? " unless other grains are in the way" : ""));
 }
 
 }  // namespace

@@ -11,8 +11,6 @@
 #include "doubts.hpp"
 #include "model/grain_shape.hpp"
 #include "model/wall.hpp"
-#include "observe/region.hpp"
-#include "observe/wall_mesh.hpp"
 
 namespace falling_particles {
 namespace {
@@ -91,41 +89,15 @@ void add_mass_ratio(const Extremes& grains, const Scene& scene, std::vector<std:
       " would do (grains.md)");
 }
 
-/// A part that presses grains.
-struct Pressing {
-  double pressure;    // Pa
-  double area;        // m^2
-  Vector3 direction;  // unit
-};
-
-/// m^2, of a wall as seen from where it presses to, within the plan of the container.
-double shown_area(const Wall& wall, const Vector3& direction, const Scene& scene) {
-  const std::vector<SurfacePoint> points = surface_of(wall, scene.container);
-  double area = 0;
-  for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
-    const Vector3 edge = points[i + 1].position - points[i].position;
-    area += std::max(0.0, edge.cross(points[i + 2].position - points[i].position).dot(direction) / 2);
-  }
-  const Rectangle plan = plan_of(scene.container);
-  return std::min(area, plan.width[0] * plan.width[1]);
-}
-
-/// Empty for a part that stands, is moved, turns, or pulls.
-std::optional<Pressing> pressing_of(const Wall& part, const Scene& scene) {
-  if (part.drive && part.drive->servo) {
-    const Servo& servo = *part.drive->servo;
-    double area = servo.area > 0 ? servo.area : 1;
-    for (const FacingWalls& pair : servo.between) area *= faces_at_start(pair, scene.walls).distance();
-    return Pressing{servo.stress, area, part.drive->axis};
-  }
-  if (!part.flight && (!part.drive || part.drive->turns())) return std::nullopt;
+/// Pa, with which a part presses: a servo's stress, otherwise the force and the weight over the plan of the container. 0 for a part
+/// that stands, is moved, turns, or pulls.
+double pressure_of(const Wall& part, double plan, const Scene& scene) {
+  if (part.drive && part.drive->servo) return part.drive->servo->stress;
+  if (!part.flight && (!part.drive || part.drive->turns())) return 0;
   const auto* const gravity = scene.gravity();
-  Vector3 force = gravity == nullptr ? Vector3::Zero() : gravity->acceleration;
-  force *= part.flight ? part.flight->mass : part.drive->mass;
-  if (part.drive) force = (part.drive->force + force.dot(part.drive->axis)) * part.drive->axis;
-  const double size = force.norm();
-  const double area = size > 0 ? shown_area(part, force / size, scene) : 0;
-  return area > 0 ? std::optional(Pressing{size / area, area, force / size}) : std::nullopt;
+  const Vector3 acceleration = gravity == nullptr ? Vector3::Zero() : gravity->acceleration;
+  if (part.flight) return part.flight->mass * acceleration.norm() / plan;
+  return std::abs(part.drive->force + part.drive->mass * acceleration.dot(part.drive->axis)) / plan;
 }
 
 /// m^3, of all grains at the start.
@@ -142,26 +114,25 @@ double volume_of_grains(const Scene& scene) {
 /// Adds a doubt about a part that presses harder than quickstep can carry. A step starts without forces, and an iteration carries
 /// them from layer to layer. The force pressure x diameter^2 would move a free grain by force x step^2 / mass. Beds hold it if this
 /// is below kHeld half-axes x iterations / layers^2. parts.md, "How hard a part may press", has the measurement.
-void add_pressure(const Wall& part, const Pressing& pressing, const Extremes& grains, const Scene& scene, WallDoubts& doubts) {
+void add_pressure(const Wall& part, const Extremes& grains, const Scene& scene, WallDoubts& doubts) {
   constexpr double kHeld = 0.05;   // beds give way from 0.15 on; twice as much is silent about 0.08 half-axes, 4 layers deep
   constexpr double kPacked = 0.6;  // volume fraction of a bed
   const double diameter = grains.diameter();
-  const Rectangle plan = plan_of(scene.container);
-  const double across =
-      std::max(pressing.area, std::abs(pressing.direction.z()) * plan.width[0] * plan.width[1]);  // m^2, of the bed
-  const double layers = std::max(1.0, volume_of_grains(scene) / (kPacked * across * diameter));
-  const double way = pressing.pressure * diameter * diameter * scene.time.step * scene.time.step / grains.least;
+  const auto [x, y] = plan_of(scene.container).width;
+  const double pressure = pressure_of(part, x * y, scene);
+  const double layers = std::max(1.0, volume_of_grains(scene) / (kPacked * x * y * diameter));
+  const double way = pressure * diameter * diameter * scene.time.step * scene.time.step / grains.least;
   const double held = kHeld * grains.size() * scene.solver.iterations / (layers * layers);
   if (!(way > held)) return;
   const double excess = way / held;
-  doubts.add(
-      "pressing", part, excess,
-      " presses with " + rounded(pressing.pressure) + " Pa on about " + rounded(layers) + (layers == 1 ? " layer" : " layers") +
-          " of grains: a free grain would move by " + rounded(way) + " m in a step, " + in_half_axes(way, scene) +
-          ", and solver.iterations = " + std::to_string(scene.solver.iterations) + " hold " + rounded(held / grains.size()) +
-          ": they may overlap, and be pressed through walls; time.step up to " + rounded(scene.time.step / std::sqrt(excess)) +
-          " s" + more_iterations(std::ceil(scene.solver.iterations * excess)) + ", or up to " +
-          rounded(pressing.pressure / excess) + " Pa would do (parts.md)");
+  doubts.add("pressing", part, excess,
+             " presses with " + rounded(pressure) + " Pa on about " + rounded(layers) + (layers == 1 ? " layer" : " layers") +
+                 " of grains: a free grain would move by " + rounded(way) + " m in a step, " + in_half_axes(way, scene) +
+                 ", and solver.iterations = " + std::to_string(scene.solver.iterations) + " hold " + rounded(held / grains.size()) +
+                 ": they may overlap, and be pressed through walls; time.step up to " +
+                 rounded(scene.time.step / std::sqrt(excess)) + " s" +
+                 more_iterations(std::ceil(scene.solver.iterations * excess)) + ", or up to " + rounded(pressure / excess) +
+                 " Pa would do (parts.md)");
 }
 
 }  // namespace
@@ -175,9 +146,7 @@ void add_doubts_about_loads(const Scene& scene, std::vector<std::string>& doubts
   }
   add_mass_ratio(grains, scene, doubts);
   WallDoubts of_walls;
-  for (const Wall& part : scene.parts()) {
-    if (const auto pressing = pressing_of(part, scene)) add_pressure(part, *pressing, grains, scene, of_walls);
-  }
+  for (const Wall& part : scene.parts()) add_pressure(part, grains, scene, of_walls);
   of_walls.tell(doubts);
 }
 

@@ -159,6 +159,38 @@ void refuse_bad_bonds(const World& world) {
   refuse_stiff_bonds(world, scene.solver.iterations);
 }
 
+const Wall& wall_named(const std::string& name, const Scene& scene) { return *std::ranges::find(scene.walls, name, &Wall::name); }
+
+/// s, from when on two walls that no drive moves have no space between them; empty if they always have.
+std::optional<double> meeting_of(const FacingWalls& pair, const Scene& scene) {
+  constexpr double kMost = 1e5;  // poses, which take 0.1 s
+  const Wall& first = wall_named(pair[0], scene);
+  const Wall& second = wall_named(pair[1], scene);
+  if (first.drive || second.drive || (first.motions.empty() && second.motions.empty())) return std::nullopt;
+  const double interval = std::max(scene.time.step, scene.time.duration / kMost);
+  for (int i = 0; i * interval < scene.time.duration; ++i) {
+    const double time = i * interval;
+    const auto faces = facing_faces(first.shape, pose_at(first.start, first.motions, time), second.shape,
+                                    pose_at(second.start, second.motions, time));
+    if (!faces || faces->distance() <= 0) return time;
+  }
+  return std::nullopt;
+}
+
+/// Refuses two walls, between which a servo acts, that meet by their motions.
+void refuse_meetings(const Scene& scene) {
+  for (const Wall& wall : scene.walls) {
+    if (!wall.drive || !wall.drive->servo) continue;
+    for (const FacingWalls& pair : wall.drive->servo->between) {
+      const std::optional<double> time = meeting_of(pair, scene);
+      if (!time) continue;
+      throw InputError(scene.called + ": the servo of " + wall.called() + " acts between \"" + pair[0] + "\" and \"" + pair[1] +
+                       "\", which by their motions do not face each other, or have met, after " + rounded(*time) +
+                       " s; allowed: motions whose until keeps them apart, or " + wall.key() + ".drive.area");
+    }
+  }
+}
+
 }  // namespace
 
 void refuse_stiff_bonds(const World& world, int iterations) {

@@ -14,7 +14,4 @@ void refuse_bad_start(const Scene& scene);
 /// world may have made steps.
 void refuse_stiff_bonds(const World& world, int iterations);
 
-/// Throws InputError if two walls, between which a servo acts, meet by their motions.
-void refuse_meetings(const Scene& scene);
-
 }  // namespace falling_particles

@@ -1,13 +1,21 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <supernormal/effects.hpp>
 #include <variant>
 
 #include "common/interval.hpp"
 #include "doubts.hpp"
+#include "model/grain_shape.hpp"
 #include "model/lattice.hpp"
 
 namespace falling_particles {
 namespace {
+
+namespace fx = supernormal::effects;
+
+/// m/s, of the grains that a feeder brings.
+double speed_of(const Feeder& feeder) { return std::hypot(feeder.velocity[0], feeder.velocity[1], feeder.velocity[2]); }
 
 /// Adds a doubt about a time that is no multiple of the step.
 void add_rounded_times(const Time& time, std::vector<std::string>& doubts) {
@@ -80,14 +88,49 @@ void add_sinking(const Scene& scene, std::vector<std::string>& doubts) {
                    ": their beds sink and shake; time.step up to " + rounded(std::sqrt(most / acceleration)) + " s would do");
 }
 
-}  // namespace
-
-bool is_spring(const supernormal::effects::Effect& effect) {
-  return std::holds_alternative<supernormal::effects::Compliance>(effect) ||
-         std::holds_alternative<supernormal::effects::Hertz>(effect);
+/// m/s, of grains that meet, as far as it is known: of a fall from the start, of a state, and of feeders.
+double largest_speed(const Scene& scene) {
+  const std::optional<Fall> fall = fall_from_start(scene);
+  double largest = std::max(fall ? fall->speed : 0, scene.start ? scene.start->largest_speed() : 0);
+  for (const Feeder& feeder : scene.feeders) largest = std::max(largest, speed_of(feeder));
+  return largest;
 }
 
-bool has_springs(const Scene& scene) { return std::ranges::any_of(scene.effects, is_spring); }
+/// N/m, of contacts of two grains of this mass (kg), at the depth of their fastest impact; 0 without springs. Hertz's energy is
+/// 8/15 E* sqrt(R) depth^2.5, and its stiffness grows with the depth.
+double stiffness_of(const fx::Effect& effect, double mass, const Scene& scene) {
+  if (const auto* const spring = std::get_if<fx::Compliance>(&effect)) return spring->stiffness;
+  const auto* const hertz = std::get_if<fx::Hertz>(&effect);
+  if (hertz == nullptr) return 0;
+  const double speed = largest_speed(scene);
+  const double stiffness = contact_modulus(*hertz) * std::sqrt(scene.smallest_half_axis() / 2);
+  return 2 * stiffness * std::pow(15 * mass / 2 * speed * speed / (16 * stiffness), 0.2);
+}
+
+/// Adds a doubt about springs between whose touch and rest the lightest grains have fewer than ten steps: they are implicit in
+/// part, and lose energy (README.md of lib/effects, "Springs"). The run counts those contacts, and those off the centre are
+/// shorter.
+void add_coarse_springs(const Scene& scene, std::vector<std::string>& doubts) {
+  double mass = INFINITY;
+  for (const GrainCount& entry : scene.kinds) {
+    if (scene.has_grains_of(entry)) mass = std::min(mass, std::pow(entry.smallest_scale(), 3) * mass_of(entry.kind));
+  }
+  for (const fx::Effect& effect : scene.effects) {
+    const double steps = std::numbers::pi / scene.time.step * std::sqrt(mass / 2 / stiffness_of(effect, mass, scene));
+    if (!(steps < fx::kLeastContactSteps)) continue;
+    doubts.push_back("two of the lightest grains may touch for " + rounded(steps) +
+                     " steps, and springs lose energy in contacts of fewer than ten steps; time.step up to " +
+                     rounded(scene.time.step * steps / fx::kLeastContactSteps) + " s, or a lower stiffness would do");
+  }
+}
+
+}  // namespace
+
+bool has_springs(const Scene& scene) {
+  return std::ranges::any_of(scene.effects, [](const fx::Effect& effect) {
+    return std::holds_alternative<fx::Compliance>(effect) || std::holds_alternative<fx::Hertz>(effect);
+  });
+}
 
 std::string in_half_axes(double way, const Scene& scene) {
   return rounded(way / scene.smallest_half_axis()) + " of the smallest half-axis (" + rounded(scene.smallest_half_axis(), 6) +
@@ -116,9 +159,9 @@ void add_doubts_about_step(const Scene& scene, std::vector<std::string>& doubts)
   if (scene.start) add_fast("the fastest grain of start.file moves", scene.start->largest_speed(), "", scene, doubts);
   add_sinking(scene, doubts);
   for (const Feeder& feeder : scene.feeders) {
-    const double speed = std::hypot(feeder.velocity[0], feeder.velocity[1], feeder.velocity[2]);
-    add_fast("grains of feeder \"" + feeder.name + "\" move", speed, "", scene, doubts);
+    add_fast("grains of feeder \"" + feeder.name + "\" move", speed_of(feeder), "", scene, doubts);
   }
+  add_coarse_springs(scene, doubts);
 }
 
 }  // namespace falling_particles

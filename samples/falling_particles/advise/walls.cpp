@@ -42,26 +42,6 @@ double normal_speed_of(const Wall& wall, const Scene& scene) {
   return largest;
 }
 
-/// m, the displacement of a driven wall in its first step, from rest without resistance; of its farthest point if it turns.
-double first_way_of(const Wall& wall, double step) {
-  const Drive& drive = *wall.drive;
-  if (drive.servo) return step * std::min(drive.servo->largest_speed, drive.servo->gain * drive.servo->stress);
-  const double way = step * step * std::abs(push_of(drive, 0, step)) / (drive.mass + step * drive.damping);
-  const double radius = bounding_radius(wall.shape);
-  if (!drive.turns() || !std::isfinite(radius)) return way;
-  return way * (radius + drive.axis.cross(wall.start.position - *drive.point).norm());
-}
-
-/// What would make the first displacement of a driven wall smaller, by `factor`.
-std::string slower(const Wall& wall, double factor) {
-  const Drive& drive = *wall.drive;
-  const std::string key = wall.key() + ".drive.";
-  if (!drive.servo && drive.mass * factor > kHeaviest) return "a smaller force would do";
-  if (drive.servo) return key + "largest_speed up to " + rounded(drive.servo->largest_speed / factor) + " m/s would do";
-  return drive.turns() ? key + "moment from " + rounded(drive.mass * factor) + " kg m^2 on would do"
-                       : key + "mass from " + rounded(drive.mass * factor) + " kg on would do";
-}
-
 /// N/m, of the spring of a contact between a wall and a ball of this diameter (m) under the force (N); 0 without springs. With
 /// Hertz it is dF/d(depth) = (6 E*^2 R F)^(1/3) (Johnson, Contact Mechanics, eq. 4.23).
 double contact_stiffness(const supernormal::effects::Effect& effect, double diameter, double force) {
@@ -106,10 +86,10 @@ void add_doubts_about_walls(const Scene& scene, std::vector<std::string>& doubts
       const double fastest = velocity.linear.norm() + velocity.angular.norm() * bounding_radius(wall.shape);
       add("flies", wall, " flies", step * fastest, shorter(fastest));
     }
-    if (!wall.drive) continue;
-    if (wall.drive->servo) add_gain(scene, wall, of_walls);
-    const double way = first_way_of(wall, step);
-    add(wall.drive->servo ? "servo" : wall.drive->turns() ? "turns" : "slides", wall, " is driven", way, slower(wall, way / size));
+    if (!wall.drive || !wall.drive->servo) continue;
+    add_gain(scene, wall, of_walls);
+    const double way = step * std::min(wall.drive->servo->largest_speed, wall.drive->servo->gain * wall.drive->servo->stress);
+    add("servo", wall, " is driven", way, wall.key() + ".drive.largest_speed up to " + rounded(size / step) + " m/s would do");
   }
   of_walls.tell(doubts);
 }

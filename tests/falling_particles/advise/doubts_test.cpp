@@ -187,16 +187,8 @@ TEST_CASE("doubts: a part whose surface moves by more than a half-axis in a step
   CHECK(doubts_about(box_with("shape = \"plane\"\nposition = [0, 0, -1]\n" + spin)).empty());
 }
 
-TEST_CASE("doubts: a part that a force, a torque or a servo moves by more than a half-axis in its first step is named") {
+TEST_CASE("doubts: a servo that moves by more than a half-axis in a step is named, and one that springs do not hold") {
   const std::string box = "shape = \"box\"\nsize = [0.04, 0.04, 0.01]\nposition = [0.025, 0.03, 1]\n[part.drive]\n";
-  const std::string lid = box + "axis = [0, 0, -1]\nforce = ";
-  check_one_doubt(box_with(lid + "0.1\nmass = 1e-6\n"),
-                  {"part \"p\" is driven 0.025 m in a step", "part.drive.mass from 8.33e-06 kg on"});
-  CHECK(doubts_about(box_with(lid + "0.05\nmass = 0.01\n")).empty());
-  CHECK(says_one_of(box_with(box + "axis = [0, 0, -1]\npressure = 1e9\narea = 100\nmass = 0.01\n"), "a smaller force would do"));
-  const std::string door = box + "axis = [0, 0, 1]\ntorque = 10\npoint = [0.025, 0.03, 0]\nmoment = ";
-  check_one_doubt(box_with(door + "1e-6\n"), {"part \"p\" is driven", "part.drive.moment from", "kg m^2 on"});
-  CHECK(doubts_about(box_with(door + "1\n")).empty());
   const std::string servo = box + "axis = [0, 0, -1]\nstress = 1000\ngain = 1\nlargest_speed = ";
   check_one_doubt(box_with(servo + "10\n"), {"part \"p\" is driven 0.005 m in a step", "part.drive.largest_speed up to 6 m/s"});
   CHECK(doubts_about(box_with(servo + "1\n")).empty());
@@ -389,12 +381,7 @@ TEST_CASE("doubts: six servos of a cell have one sentence, of the side that is w
                    R"(; the same holds for "x_low", "x_high", "y_low", "z_low", "z_high")"});
 }
 
-TEST_CASE("doubts: sides of a cell that meet by their motions are named with the time, and refused between a servo") {
-  const auto moved = [](const std::string& rest) {
-    return in_cell("x_low.motion = [{ kind = \"velocity\", velocity = [1, 0, 0]" + rest + " }]\n");
-  };
-  check_one_doubt(moved(""), {R"(walls "x_low" and "x_high" meet after 0.05 s by their motions)"});
-  CHECK(doubts_about(moved(", until = 0.04")).empty());
+TEST_CASE("doubts: sides of a cell between which a servo acts may not meet by their motions") {
   const std::string servo = "z_high.drive = { stress = 100, gain = 1e-4, largest_speed = 0.2";
   const std::string motion = "x_low.motion = [{ kind = \"velocity\", velocity = [1, 0, 0] }]\n";
   check_says(refused_for(in_cell(motion + servo + " }\n")),
@@ -402,7 +389,6 @@ TEST_CASE("doubts: sides of a cell that meet by their motions are named with the
   CHECK(refused_for(in_cell(motion + servo + ", area = 0.003 }\n")).empty());
   const std::string turn = "x_low.motion = [{ kind = \"rotation\", axis = [0, 0, 1], point = [0, 0, 0], rpm = 6 }]\n";
   check_says(refused_for(in_cell(turn + servo + " }\n")), {"do not face each other", "after 0.0005 s"});
-  CHECK(doubts_about(in_cell(turn)).empty());
 }
 
 TEST_CASE("doubts: springs with contacts of fewer than ten steps are named, as a run counts them") {
@@ -421,18 +407,7 @@ TEST_CASE("doubts: springs with contacts of fewer than ten steps are named, as a
     CHECK((cost->coarse > 0) == is_coarse);
     CHECK(doubts_about(scene).size() == (is_coarse ? 1 : 0));
   }
-  const std::string enough = "time.step up to 0.00025 s, or compliance.stiffness up to " + rounded(stiffness) + " N/m";
-  check_one_doubt(on_springs(ball(), 4 * stiffness), {"compliance.stiffness of ", " N/m has contacts of fewer than ten steps",
-                                                      R"("ball" and "ball" may touch for 5 steps)", enough.c_str()});
-}
-
-TEST_CASE("doubts: a grain that is hit off its centre turns away, and touches for fewer steps") {
-  // The lever of a normal of a spheroid with half-axes a and b is a - b at most, and its moment m (a^2 + b^2) / 5.
-  const auto& [a, same, b] = lentil().half_axes;
-  const double mobility = (1 + 5 * (a - b) * (a - b) / (a * a + b * b)) / mass_of(lentil());
-  const double stiffness = std::pow(std::numbers::pi / 10 / 5e-4, 2) / (2 * mobility);
-  CHECK(doubts_about(on_springs(lentil(), stiffness)).empty());
-  CHECK(doubts_about(on_springs(lentil(), 1.02 * stiffness)).size() == 1);
+  check_one_doubt(on_springs(ball(), 4 * stiffness), {"may touch for 5 steps", "time.step up to 0.00025 s"});
 }
 
 TEST_CASE("doubts: Hertz's contacts of the fall from the start are named if they last fewer than ten steps") {
@@ -451,8 +426,6 @@ TEST_CASE("doubts: Hertz's contacts of the fall from the start are named if they
   const double modulus = std::pow(half_period(1) / (10 * 5e-4), 2.5);  // E*, since the half-period is as E*^-0.4
   const double youngs = 2 * modulus * (1 - 0.3 * 0.3);
   CHECK(doubts_about(with(0.99 * youngs)).empty());
-  const std::string enough = "hertz.youngs_modulus up to " + rounded(youngs) + " Pa, with deeper overlaps, would do";
-  check_one_doubt(with(32 * youngs),
-                  {"contacts of fewer than ten steps", "may touch for 2.5 steps", enough.c_str()});  // 32^0.4 = 4
+  check_one_doubt(with(32 * youngs), {"contacts of fewer than ten steps", "may touch for 2.5 steps"});  // 32^0.4 = 4
   check_one_doubt(with(1.01 * youngs), {"contacts of fewer than ten steps"});
 }

@@ -217,14 +217,6 @@ TEST_CASE("resume: a run of quickstep goes on with the stepper, and with quickst
   }
 }
 
-TEST_CASE("resume: an agglomerate whose bonds break") {
-  const Scene scene = sample("agglomerate");
-  std::string saved;
-  end_of_run(scene, 3 * kEvery, saved);
-  CHECK(!Simulation(scene, 1, saved).world.bonds()->breaks().empty());
-  check_resume(scene, 3 * kEvery);
-}
-
 TEST_CASE("resume: images in a periodic drum that turns") {
   Scene scene = sample("drum_periodic");
   for (Wall& wall : scene.walls) {
@@ -246,12 +238,6 @@ TEST_CASE("resume: contacts before overlap, of grains that come from a feeder, b
   const std::vector<supernormal::effects::Cost> costs = Simulation(scene, 1, saved).effect_costs();
   CHECK(costs.back().name == std::string("speculative_contacts"));
   CHECK(costs.back().contacts > 100);
-}
-
-TEST_CASE("resume: a piston on its way") {
-  Scene scene = sample("piston");
-  scene.walls.back().drive->from = 0.01;  // s
-  check_resume(scene);
 }
 
 TEST_CASE("resume: a door under a power, and a servo on its way") {
@@ -280,13 +266,6 @@ TEST_CASE("resume: grains on a terrain") {
   Scene scene = sample("terrain");
   scene.drop.height = 0;
   check_resume(scene, 250);
-}
-
-TEST_CASE("resume: a packing in a cell that shrinks") {
-  Scene scene = sample("packing_superballs");
-  scene.kinds[0].count = 120;
-  std::get<Periodic>(scene.container).side = 0.07;
-  check_resume(scene);
 }
 
 TEST_CASE("resume: compounds and grains of many sizes") {

@@ -490,24 +490,6 @@ TEST_CASE("bonds: a sink that removes a grain removes its bonds") {
   CHECK(run.cause(0) == "removed");
 }
 
-TEST_CASE("bonds: a run goes on to the bit from what it has saved") {
-  const auto sections = clamped_beam("tensile_strength = 1.5e5\n");
-  Run run(rods(10), sections);
-  run.advance(0.01);
-  const std::string saved = run.simulation.save();
-  const TemporaryFolder folder;
-  const Scene scene = scene_with(folder, rods(10), sections);
-  const auto end_of = [&] {
-    Simulation simulation(scene, 1, saved);
-    for (int i = 0; i < 400; ++i) simulation.stepper.step();
-    CHECK(!simulation.world.bonds()->breaks().empty());
-    return simulation.world.save();
-  };
-  const WorldState a = end_of(), b = end_of();
-  CHECK(difference(a, b) == 0);
-  CHECK(a.bonds.breaks.size() == b.bonds.breaks.size());
-}
-
 TEST_CASE("bonds: a run goes on from final_state.csv and final_bonds.csv") {
   Run run(rods(10), clamped_beam("damping = 0.1\n"));
   run.advance(0.02);  // it bends
