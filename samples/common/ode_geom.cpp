@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/measured_tables.hpp"
 #include "supernormal/supernormal.h"
 
 namespace common {
@@ -29,30 +28,6 @@ struct TrimeshData {
   ~TrimeshData() { dGeomTriMeshDataDestroy(id); }
 };
 
-constexpr int kMostEvaluations = 1000;  // default of the library
-
-std::array<double, 3> core_half_axes(const GrainBody& body) {
-  const auto [a, b, c] = body.half_axes;
-  const double r = body.rounding;
-  return {a - r, b - r, c - r};
-}
-
-OdeGeom smooth_geom(const GrainBody& body, double tolerance) {
-  const auto [a, b, c] = core_half_axes(body);
-  OdeGeom geom(body.delta == 2 && body.epsilon == 2 ? snCreateEllipsoid(nullptr, a, b, c)
-                                                    : snCreateSuperellipsoid(nullptr, a, b, c, body.delta, body.epsilon));
-  if ((body.rounding > 0 && snGeomSetRounding(geom.id(), body.rounding) == 0) ||
-      snGeomSetSolver(geom.id(), SN_SOLVER_HYBRID, tolerance, kMostEvaluations) == 0) {
-    throw std::invalid_argument(snLastError());
-  }
-  return geom;
-}
-
-Polyhedron polyhedron_of(const GrainBody& body, MeshSize size) {
-  const auto [a, b, c] = core_half_axes(body);
-  return superellipsoid_mesh({a, b, c}, body.delta, body.epsilon, body.rounding, size);
-}
-
 }  // namespace
 
 OdeGeom::OdeGeom(dGeomID id, std::shared_ptr<void> data) : id_(id), data_(std::move(data)) {
@@ -65,7 +40,7 @@ OdeGeom::~OdeGeom() {
   if (id_ != nullptr) dGeomDestroy(id_);
 }
 
-GeomMaker convex_maker(const Polyhedron& mesh) {
+OdeGeom make_convex(const Polyhedron& mesh) {
   const auto data = std::make_shared<ConvexData>();
   for (const Vector3& vertex : mesh.vertices) data->points.insert(data->points.end(), vertex.begin(), vertex.end());
   for (const auto& triangle : mesh.triangles) {
@@ -76,9 +51,8 @@ GeomMaker convex_maker(const Polyhedron& mesh) {
     data->polygons.push_back(3);
     data->polygons.insert(data->polygons.end(), triangle.begin(), triangle.end());
   }
-  return [data, planes = static_cast<unsigned>(mesh.triangles.size()), points = static_cast<unsigned>(mesh.vertices.size())] {
-    return OdeGeom(dCreateConvex(nullptr, data->planes.data(), planes, data->points.data(), points, data->polygons.data()), data);
-  };
+  const auto planes = static_cast<unsigned>(mesh.triangles.size()), points = static_cast<unsigned>(mesh.vertices.size());
+  return OdeGeom(dCreateConvex(nullptr, data->planes.data(), planes, data->points.data(), points, data->polygons.data()), data);
 }
 
 GeomMaker trimesh_maker(const Polyhedron& mesh) {
@@ -89,32 +63,6 @@ GeomMaker trimesh_maker(const Polyhedron& mesh) {
                               data->indices.data(), static_cast<int>(data->indices.size()), 3 * sizeof(dTriIndex));
   dGeomTriMeshDataPreprocess2(data->id, 1U << dTRIDATAPREPROCESS_BUILD_FACE_ANGLES, nullptr);
   return [data] { return OdeGeom(dCreateTriMesh(nullptr, data->id, nullptr, nullptr, nullptr), data); };
-}
-
-GeomMaker grain_maker(const GrainForm& form, const GrainBody& body) {
-  switch (form.kind) {
-    case FormKind::Smooth:
-      return [body, tolerance = form.tolerance] { return smooth_geom(body, tolerance); };
-    case FormKind::Box:
-      return [s = body.half_axes] { return OdeGeom(dCreateBox(nullptr, 2 * s[0], 2 * s[1], 2 * s[2])); };
-    case FormKind::Convex:
-      return convex_maker(polyhedron_of(body, form.mesh));
-    case FormKind::Trimesh:
-      return trimesh_maker(polyhedron_of(body, form.mesh));
-  }
-  throw std::logic_error("no such form");
-}
-
-std::string GrainForm::name() const {
-  constexpr std::array<const char*, 4> kNames = {"Supernormal", "dBox", "dConvex", "dTriMesh"};
-  const std::string name = kNames[static_cast<std::size_t>(kind)];
-  return threads == 0 ? name : name + " (batch; " + std::to_string(threads) + (threads == 1 ? " thread)" : " threads)");
-}
-
-std::string GrainForm::accuracy() const {
-  if (kind == FormKind::Box) return "";
-  if (kind != FormKind::Smooth) return std::to_string(mesh.vertices());
-  return text("%.0e", tolerance);
 }
 
 }  // namespace common

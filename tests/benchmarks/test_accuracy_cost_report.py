@@ -11,7 +11,6 @@ QUERY = (
     "class,pose,method,accuracy,queries,time_s,time_p99_s,evaluations,gap_error,gap_error_p99,gap_error_worst,normal_error,contact_error,"
     "failures,inexact,no_answer,wrong_verdict,wrong_gap"
 )
-FORMS = "form,accuracy,grains,pairs,contacts,refused,broad_s,narrow_s,joints_s,solver_s,step_s"
 
 
 def query(method, accuracy, time, error, failures=0, pose="S"):
@@ -44,7 +43,7 @@ def test_queries_and_their_ratios(tmp_path):
     assert "| exponents 1.3…5 | 1 % overlap | 5.5 | – | – | 4.00 |\n" in text
     assert "| exponents 1.3…5 | cold | – | 1.00 | – | – | – | 2.00 | – | – | 0.2 |\n" in text
     assert "| exponents 1.3…5 | – | – | – | 400 | 4 | 25 % |\n" in text
-    assert "## Colliders" not in text and "## Reading" not in text
+    assert "## Colliders" not in text
 
 
 def test_a_method_of_the_literature_has_the_loosest_accuracy_that_is_precise_enough(tmp_path):
@@ -61,22 +60,6 @@ def test_a_method_of_the_literature_has_the_loosest_accuracy_that_is_precise_eno
     assert "| exponents 1.3…5 | 1.0 | 1.0 |\n" in text
 
 
-def test_a_bed_and_what_comes_out_of_it(tmp_path):
-    cost = "1000,2000,0,0.001,0.002,0.001,0.004"
-    write(tmp_path / "scene_forms.csv", FORMS, f"Supernormal,1e-09,1000,{cost},0.01", f"dConvex,482,1000,{cost},0.05")
-    outcomes = [
-        f"Supernormal,1e-09,1000,{cost},0.01,0.03,0.66,0.01,1e-6,1e-7,2e-07",
-        f"dBox,,1000,{cost},0.01,0.03,0.7,0.01,1e-6,1e-7,nan",
-    ]
-    head = f"{FORMS},overlap,volume_fraction,volume_fraction_error,energy_gained,kinetic_height_m,rocking_error"
-    write(tmp_path / "scene_outcomes.csv", head, *outcomes)
-    text = report_of(tmp_path)
-    assert "| dConvex | 482 | 1000 | 2000 | 1.00 | 2.00 | 1.00 | 4.00 | 50.00 | 5.00 | 1.00 |\n" in text
-    assert "| Supernormal | 1e-09 | 10.00 | 2.00 | 2000 | 0.030 | 0.660 | 1e-06 | 2e-07 |\n" in text
-    assert text.count("does not rock") == 1
-    assert "more than 2.0 times faster than ours is.\n" in text
-
-
 def test_no_tables_make_a_report_without_sections(tmp_path):
     assert "##" not in report_of(tmp_path)
 
@@ -84,10 +67,6 @@ def test_no_tables_make_a_report_without_sections(tmp_path):
 def test_every_figure_of_the_report_is_drawn(tmp_path):
     pytest.importorskip("matplotlib", reason="python3-matplotlib is not installed")
     write(tmp_path / "query.csv", QUERY, query("hybrid", "1e-09", 2e-6, "1e-13"), query("libccd MPR", "1e-04", 2e-6, "nan"))
-    cost = "1000,2000,0,0.001,0.002,0.001,0.004,0.01"
-    write(tmp_path / "scene_growth.csv", FORMS.replace("form,accuracy", "space"), f"hash,500,{cost}", f"hash,1000,{cost}")
-    write(tmp_path / "scene_forms.csv", FORMS, f"dBox,,1000,{cost}")
-    write(tmp_path / "scene_outcomes.csv", f"{FORMS},rocking_error", f"Supernormal,1e-01,1000,{cost},1e-7")
     named = {word.split(")")[0] for word in report_of(tmp_path).split("](")[1:]}
-    assert named == {path.name for path in tmp_path.glob("*.svg")} and len(named) == 7
+    assert named == {path.name for path in tmp_path.glob("*.svg")} and len(named) == 5
     assert all("</svg>" in (tmp_path / name).read_text() for name in named)

@@ -1,11 +1,11 @@
-"""Writes report.md from the tables of `accuracy_cost` and `scene_cost` in a folder, and draws its figures: report.py FOLDER.
+"""Writes report.md from the tables of `accuracy_cost` in a folder, and draws its figures: report.py FOLDER.
 
 Parts without measurements are left out. Without matplotlib there are no figures.
 """
 
 import pathlib
 import sys
-from math import copysign, inf, isnan, log, nan
+from math import copysign, inf, isnan, nan
 
 CLASSES = {"E": "ellipsoids", "M": "exponents 1.3…5", "B": "exponents 6…20", "O": "exponents 1.1…1.3", "N": "needles"}
 POSES = {"T": "touching", "S": "1 % overlap", "D": "30 % overlap", "N": "1 % apart", "F": "far"}
@@ -65,50 +65,11 @@ def microseconds(seconds):
     return text("%.2f" if seconds < 1e-5 else "%.1f", 1e6 * seconds)
 
 
-def milliseconds(seconds):
-    return text("%.2f", 1e3 * seconds)
-
-
 def markdown(about, head, texts, rows):
     """A section. The first `texts` columns hold text, the others numbers."""
     rule = "|" + "---|" * texts + "---:|" * (len(head) - texts)
     head, *rows = ("| " + " | ".join(row) + " |" for row in (head, *rows))
     return "\n".join([about, head, rule, *rows]) + "\n\n"
-
-
-def reading(tables):
-    """Conclusions. Their figures are in the tables below them."""
-    query, forms, outcomes = tables["query"], tables["scene_forms"], tables["scene_outcomes"]
-    if not query.rows or not outcomes.rows:
-        return ""
-
-    def time(tolerance):
-        return query.method("M", "S", ("hybrid", tolerance)).number("time_s")
-
-    def step_over_ours(**form):
-        return ratio(forms.find(**form).number("step_s"), forms.find(form="Supernormal").number("step_s"))
-
-    fractions = [row.number("volume_fraction") for row in outcomes.select(form="Supernormal")]
-    hull_error = outcomes.find(form="dConvex", accuracy="482").number("rocking_error")
-    our_error = outcomes.find(form="Supernormal", accuracy="1e-09").number("rocking_error")
-    return (
-        "## Reading\n\n"
-        "* **Digits are cheap.** From 1e-2 to 1e-12 a query of two superellipsoids with moderate exponents becomes "
-        f"{text('%.2f', ratio(time('1e-12'), time('1e-02')))} times as expensive; at 1 % overlap EPA takes more for two digits than we "
-        "for all of them. Only where bodies with sharp edges overlap deeply does our search for the shortest way out cost more than "
-        "EPA, which does not search.\n"
-        "* **A simulation cannot tell the tolerances apart.** Beds settled with tolerances from 1e-1 to 1e-12 have volume fractions of "
-        f"{text('%.3f', min([1, *fractions]))} to {text('%.3f', max([0, *fractions]))} in no order, which is how runs of a chaotic "
-        "scene differ; their times differ as little. So there is nothing to gain from a looser tolerance than the default, 1e-9, and "
-        "below it nothing to see.\n"
-        "* **Polyhedra cannot buy it.** A hull of 482 vertices on the same grain takes "
-        f"{text('%.1f', step_over_ours(form='dConvex', accuracy='482'))} times our time per step, a mesh "
-        f"{text('%.1f', step_over_ours(form='dTriMesh', accuracy='482'))} times, and a body that rocks on its facets has a period that "
-        f"is wrong by {text('%.0f %%', 100 * hull_error)}; ours is wrong by {text('%.0e', our_error)}.\n"
-        "* **Boxes of the same half-axes**, ODE's cheapest stand-in, take "
-        f"{text('%.2f', step_over_ours(form='dBox'))} times our time per step: what they spare in geometry they spend on the solver, "
-        "which has more contacts.\n\n"
-    )
 
 
 def digits(tables):
@@ -184,105 +145,6 @@ def floor(tables):
         "h, r and H.\n"
     )
     return markdown(about, ["class", "floor", "h and r", "over the floor", "h, r and H", "evaluations", "overhead"], 1, rows)
-
-
-def forms(tables):
-    table = tables["scene_forms"]
-    ours = table.find(form="Supernormal")
-    if not ours:
-        return ""
-
-    def finding(row):
-        return row.number("broad_s") + row.number("narrow_s")
-
-    rows = [
-        [
-            row["form"],
-            row["accuracy"] if row["form"] in ("dConvex", "dTriMesh") else "",
-            *(text("%.0f", row.number(column)) for column in ("pairs", "contacts")),
-            *(milliseconds(row.number(f"{phase}_s")) for phase in ("broad", "narrow", "joints", "solver", "step")),
-            text("%.2f", ratio(row.number("step_s"), ours.number("step_s"))),
-            text("%.2f", ratio(finding(row), finding(ours))),
-        ]
-        for row in table.rows
-    ]
-    about = (
-        "## A bed of 1000 grains\n\n"
-        "One step of the settled bed in ms, one thread but where it says so, the same step and the same grains for all; contacts per "
-        "step. The last\ncolumns are times over ours: of the whole step, and of finding the contacts (broad and narrow phase).\n"
-    )
-    head = [
-        "form",
-        "vertices",
-        "pairs",
-        "contacts",
-        "broad",
-        "narrow",
-        "joints",
-        "quickstep",
-        "step",
-        "step / ours",
-        "finding / ours",
-    ]
-    step, solver = ours.number("step_s"), ours.number("solver_s")
-    return markdown(about, head, 1, rows) + (
-        f"Quickstep takes {milliseconds(solver)} ms of our {milliseconds(step)} ms and does not care what the grains are: no geometry, "
-        f"however fast, could make the step more than {text('%.1f', ratio(step, solver + ours.number('joints_s')))} times faster than "
-        "ours is.\n\n"
-    )
-
-
-def growth(tables):
-    columns = ["broad_s", "narrow_s", "solver_s", "step_s"]
-    table = tables["scene_growth"]
-    rows = [[row["space"], row["grains"], *(milliseconds(row.number(column)) for column in columns)] for row in table.rows]
-    for space in sorted({row["space"] for row in table.rows}):
-        first, *_, last = 2 * table.select(space=space)
-        size = log(last.number("grains") / first.number("grains"))
-        exponents = (ratio(log(last.number(column) / first.number(column)), size) for column in columns)
-        rows.append([space, "exponent", *(text("**%.2f**", exponent) for exponent in exponents)])
-    about = (
-        "## More grains\n\n"
-        "One step of the bed in ms, in each of ODE's spaces; the bed of 500 grains is laid out again and again, side by side. The last "
-        "row is the exponent\nx of N^x between the smallest and the largest.\n\n![growth](growth.svg)\n"
-    )
-    return markdown(about, ["space", "grains", "broad", "narrow", "quickstep", "step"], 1, rows)
-
-
-def outcomes(tables):
-    rows = [
-        [
-            row["form"],
-            row["accuracy"],
-            milliseconds(row.number("step_s")),
-            milliseconds(row.number("narrow_s")),
-            text("%.0f", row.number("contacts")),
-            text("%.3f", row.number("overlap")),
-            text("%.3f", row.number("volume_fraction")),
-            text("%.0e", row.number("energy_gained")),
-            "does not rock" if isnan(row.number("rocking_error")) else text("%.0e", row.number("rocking_error")),
-        ]
-        for row in tables["scene_outcomes"].rows
-    ]
-    about = (
-        "## What comes out of it\n\n"
-        "1000 grains fall into a box and settle (0.6 s). All beds are measured with the same ruler: the exact grains in the places that "
-        "they\nhave come to. Deepest overlap relative to the smaller half-axis of the pair; share of the volume; the largest rise of "
-        "the energy over\nwhat was lost; and, of a single body, the error of the period of an ellipsoid that rocks on a dBox, which is "
-        "known exactly.\n\n![outcomes](outcomes.svg)\n"
-    )
-    head = [
-        "form",
-        "accuracy",
-        "step, ms",
-        "narrow, ms",
-        "contacts",
-        "deepest overlap",
-        "volume fraction",
-        "energy gained",
-        "period",
-    ]
-    return markdown(about, head, 1, rows)
 
 
 def _precise_enough(rows):
@@ -375,13 +237,9 @@ def queries(tables):
 
 # The sections, each with the table that it needs.
 SECTIONS = [
-    (reading, "query"),
     (digits, "query"),
     (ratios, "query"),
     (floor, "query"),
-    (forms, "scene_forms"),
-    (growth, "scene_growth"),
-    (outcomes, "scene_outcomes"),
     (literature, "literature"),
     (queries, "query"),
 ]
@@ -393,10 +251,10 @@ def read_tables(folder):
 
 def report(tables):
     """The text of report.md."""
-    measured = next((tables[name] for name in ("query", "scene_forms", "literature") if tables[name].rows), None)
+    measured = next((tables[name] for name in ("query", "literature") if tables[name].rows), None)
     environment = "".join(f"* {line}\n" for line in (measured.comments if measured else []))
     return (
-        "# What accuracy costs\n\nWritten by `accuracy_cost --atlas` and `scene_cost`. Only ratios carry to another machine; all "
+        "# What accuracy costs\n\nWritten by `accuracy_cost --atlas`. Only ratios carry to another machine; all "
         f"methods of a table took turns in one run.\n\n{environment}\n"
         + "".join(section(tables) for section, name in SECTIONS if tables[name].rows)
     )
@@ -404,7 +262,7 @@ def report(tables):
 
 def main():
     if len(sys.argv) != 2:
-        sys.exit("usage: report.py FOLDER, with the tables of accuracy_cost and scene_cost")
+        sys.exit("usage: report.py FOLDER, with the tables of accuracy_cost")
     folder = pathlib.Path(sys.argv[1])
     tables = read_tables(folder)
     try:

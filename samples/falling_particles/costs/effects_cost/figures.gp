@@ -1,4 +1,4 @@
-# Time per step from `effects_cost bed.toml --csv cost.csv`:
+# Time per step from `measure cost.csv`:
 #   gnuplot -c samples/falling_particles/costs/effects_cost/figures.gp cost.csv figure.svg
 if (ARGC != 2) { print "usage: gnuplot -c figures.gp cost.csv figure.svg"; exit status 2 }
 
