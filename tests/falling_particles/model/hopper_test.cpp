@@ -29,19 +29,6 @@ constexpr Hopper kHopper{.outlet = 0.036,
                          .clearance = 0.06,
                          .tray_width = 0.12,
                          .opens_at = 0.3};
-constexpr double kFloat = 1e-7;  // rounding of single precision, relative
-
-Point corner(const Mesh& mesh, std::size_t triangle, std::size_t k) {
-  const auto& v = mesh.vertices[mesh.triangles[triangle][k]];
-  return {v[0], v[1], v[2]};
-}
-
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 GrainKind soybean() { return {"soybean", {3.275e-3, 2.78e-3, 2.265e-3}, 2, 2, 0, 1250, "test"}; }
 
 }  // namespace
@@ -70,31 +57,6 @@ TEST_CASE("the hopper's mesh is open at the outlet and the top only, and wound t
     CHECK(at_outlet == segments);
     CHECK(at_top == segments);
   }
-}
-
-TEST_CASE("the hopper's triangles face the axis, with the scene's angle and distances") {
-  const Mesh mesh = make_mesh(kHopper);
-  CHECK(mesh.triangles.size() == 4 * 48);
-  double area = 0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    CAPTURE(i);
-    const Point a = corner(mesh, i, 0);
-    const Point twice_area = cross(minus(corner(mesh, i, 1), a), minus(corner(mesh, i, 2), a));
-    const double length = std::hypot(twice_area[0], twice_area[1], twice_area[2]);
-    area += length / 2;
-    // The distance of the plane from the axis at height z, towards the side's middle, is the inscribed circle's radius.
-    const double horizontal = std::hypot(twice_area[0], twice_area[1]);
-    const double to_axis = -(twice_area[0] * a[0] + twice_area[1] * a[1]) / horizontal;
-    CHECK(to_axis == supernormal::test::relative(kHopper.radius_at(a[2])).epsilon(1e-6));
-    const bool in_cone = corner(mesh, i, 0)[2] < kHopper.clearance + kHopper.cone_height() / 2;
-    const double slope = std::asin(twice_area[2] / length) * 180 / std::numbers::pi;
-    CHECK(std::abs(slope - (in_cone ? kHopper.wall_angle : 0)) < 1e-3);
-  }
-  // The mesh is the frustum of a pyramid and a prism with the radii of the inscribed circles. The area of their sides is half the
-  // perimeter times the height of a side.
-  const double per_radius = 2 * 48 * std::tan(std::numbers::pi / 48);
-  const double cone = per_radius * (0.018 + 0.036) / 2 * std::hypot(0.018, kHopper.cone_height());
-  CHECK(area == supernormal::test::relative(cone + per_radius * 0.036 * 0.1).epsilon(1e-6));
 }
 
 TEST_CASE("ODE hits the mesh where the hopper ends, from inside") {

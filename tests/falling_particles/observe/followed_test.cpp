@@ -349,20 +349,6 @@ TEST_CASE("residence: a grain that crosses a region, or the gap between its imag
   CHECK(gap.number("residence_s", 1) == relative(0.0999 / 0.4).epsilon(1e-6));
 }
 
-TEST_CASE("residence: dice on a belt stay for the length of the region over the speed of the belt") {
-  const std::string region =
-      "[[measurement]]\nkind = \"residence\"\nlower = [0.05, -1, -1]\nupper = [0.13, 1, 1]\ninterval = 0.5\n";
-  std::vector<StartGrain> grains;
-  grains.reserve(3);
-  for (int i = 0; i < 3; ++i) grains.push_back(moving(kDie, {-0.02 * i, 0, 6e-3 - 1e-6}, {0, 0, 0}));  // the belt takes them up
-  const Scene scene = with_grains(open_scene(kBelt + region, 0.5, kGravity, 0.5), grains);
-  const MeasuredTable table = run(scene, "residence");
-  REQUIRE(table.rows.size() == 4);
-  CHECK(table.number("residences", 3) == 3);
-  CHECK(table.number("mean_residence_s", 3) == relative(0.08 / 0.4).epsilon(0.01));
-  CHECK(table.number("deviation_s", 3) < 0.002);
-}
-
 TEST_CASE("residence: a grain that a sink removes has left, and one that was inside at `from` has no time") {
   const std::string region = R"(
 [[sink]]
