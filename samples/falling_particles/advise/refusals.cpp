@@ -48,37 +48,12 @@ constexpr double kStiffnessPerIteration = 10;
 
 [[noreturn]] void refuse_bond(const Scene& scene, const std::string& text) { throw InputError(scene.called + ": " + text); }
 
-/// What the radius of a bond follows from.
-struct Radius {
-  std::string key;
-  double value;
-  const char* unit;
-  unsigned line = 0;  // of BondRule::file, if the radius is there
-};
-
-Radius radius_of(const Bond& bond, const BondRule& rule) {
+/// The line of the rule's file that gives the bond its radius; 0 if none does.
+unsigned line_of_radius(const Bond& bond, const BondRule& rule) {
   const auto pair = std::ranges::find_if(rule.pairs, [&](const BondedPair& named) {
     return named.second == bond.second && (rule.wall || named.first == bond.first) && named.radius;
   });
-  if (pair != rule.pairs.end()) return {"radius_m", bond.radius, " m", pair->line};
-  if (rule.radius) return {"bond.radius", *rule.radius, " m"};
-  return {"bond.relative_radius", rule.relative_radius, ""};
-}
-
-/// The largest factor on the radii of the bonds of the worst grain, or on the radius of its stiffest bond, with which the grain has
-/// the allowed stiffness. 0 if there is none above 1e-6.
-double allowed_factor(const Bonds& bonds, double allowed, bool single) {
-  const auto [relative, grain, bond] = bonds.stiffness();
-  const auto is_allowed = [&, grain = grain, bond = bond](double factor) {
-    return bonds.relative_stiffness(grain, factor, single ? std::optional(bond) : std::nullopt) <= allowed;
-  };
-  double least = 1e-6, most = 1;
-  if (!is_allowed(least)) return 0;
-  while (most / least > 1.0001) {
-    const double middle = std::sqrt(least * most);
-    (is_allowed(middle) ? least : most) = middle;
-  }
-  return least;
+  return pair == rule.pairs.end() ? 0 : pair->line;
 }
 
 /// m, the deepest overlap of a free wall with other walls at the start. Beside a state it is the one of grains, or of a thin wall.
@@ -200,18 +175,15 @@ void refuse_stiff_bonds(const World& world, int iterations) {
   if (relative <= allowed) return;
   const Bond& bond = world.bonds()->all()[index];
   const BondRule& rule = scene.bonds[bond.rule];
-  const Radius radius = radius_of(bond, rule);
-  std::string enough = "bond.modulus up to " + rounded(rule.modulus * allowed / relative) + " Pa, ";
-  if (const double factor = allowed_factor(*world.bonds(), allowed, radius.line > 0); factor > 0) {
-    enough += radius.key + " up to " + rounded(factor * radius.value) + radius.unit + ", ";
-  }
-  enough += "or time.step up to " + rounded(scene.time.step * std::sqrt(allowed / relative)) + " s";
+  std::string enough = "bond.modulus up to " + rounded(rule.modulus * allowed / relative) +
+                       " Pa, a smaller radius, or time.step up to " + rounded(scene.time.step * std::sqrt(allowed / relative)) +
+                       " s";
   const double most = std::ceil(relative / kStiffnessPerIteration);
   if (most <= Solver::kMostIterations) enough += ", or solver.iterations from " + shortest(most) + " on";
   const std::string text = "bond \"" + rule.name + "\" is too stiff for grain " + std::to_string(grain) + " (" +
-                           world.grains()[grain].kind->name + "): bond.modulus is " + shortest(rule.modulus) + " Pa, and " +
-                           radius.key + " is " + rounded(radius.value) + radius.unit + "; allowed: " + enough;
-  if (radius.line > 0) throw InputError(rule.file.string(), radius.line, text);
+                           world.grains()[grain].kind->name + "): bond.modulus is " + shortest(rule.modulus) +
+                           " Pa, and its radius " + rounded(bond.radius) + " m; allowed: " + enough;
+  if (const unsigned line = line_of_radius(bond, rule); line > 0) throw InputError(rule.file.string(), line, text);
   refuse_bond(scene, text);
 }
 

@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <deque>
 #include <exception>
-#include <functional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -35,8 +34,7 @@ common::GeomMaker maker_of(const GrainKind& kind, Form form) {
   if (kind.is_capsule || !kind.components.empty()) throw std::invalid_argument('"' + kind.name + "\" is no superellipsoid");
   const ConvexBody body = kind.all_components().front().body;
   if (form == Form::Smooth) return [=] { return OdeGeom(create_geom(nullptr, body)); };
-  const auto [a, b, c] = body.half_axes;
-  if (form == Form::Box) return [=] { return OdeGeom(dCreateBox(nullptr, 2 * a, 2 * b, 2 * c)); };
+  if (form == Form::Box) return [s = body.half_axes] { return OdeGeom(dCreateBox(nullptr, 2 * s[0], 2 * s[1], 2 * s[2])); };
   const auto [x, y, z] = body.core_half_axes();
   return common::trimesh_maker(common::superellipsoid_mesh({x, y, z}, body.delta, body.epsilon, body.rounding, {24, 20}));
 }
@@ -47,6 +45,8 @@ class Bed {
   Bed(const Scene& scene, std::vector<Placement> start, Form form)
       : form_(form), scene_(scene), places_(std::move(start)), world_(scene, places_), joints_(world_) {
     std::vector<common::GeomMaker> makers;
+    makers.reserve(scene.kinds.size());
+    geoms_.reserve(places_.size());
     for (const GrainCount& entry : scene.kinds) makers.push_back(maker_of(entry.kind, form));
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const Grain& grain = world_.grains()[i];

@@ -119,13 +119,12 @@ Cell read_cell(const TomlTable& table) {
 }
 
 Drum read_drum(const TomlTable& table, const Time& time) {
-  table.refuse_unknown_keys({"kind", "diameter", "length", "segments", "rpm", "smooth", "turns_at"});
+  table.refuse_unknown_keys({"kind", "diameter", "length", "segments", "rpm", "turns_at"});
   Drum drum{};
   drum.diameter = read_length(table, "diameter");
   drum.length = read_length(table, "length");
   drum.segments = static_cast<int>(table.integer("segments", 8, 10'000));
   drum.rpm = read_rpm(table, time);
-  drum.is_smooth = table.has("smooth") && table.boolean("smooth");
   drum.turns_at = read_start(table, "turns_at", time);
   return drum;
 }

@@ -224,16 +224,6 @@ std::optional<Query> read_query(const TomlTable& root) {
   return query;
 }
 
-std::optional<Axis> read_sweep_axis(const TomlTable& root) {
-  const auto table = root.find_table("broad_phase", {"axis"});
-  if (!table) return std::nullopt;
-  const std::string word = table->choice("axis", {name_of(Axis::X), name_of(Axis::Y), name_of(Axis::Z)});
-  for (const Axis axis : {Axis::X, Axis::Y}) {
-    if (word == name_of(axis)) return axis;
-  }
-  return Axis::Z;
-}
-
 void read_output(const TomlTable& root, Scene& scene) {
   scene.pictures = default_pictures();
   const auto table = root.find_table("output", {"pictures", "forces"});
@@ -263,9 +253,9 @@ std::vector<std::filesystem::path> files_of(const TomlTable& root, const std::fi
 
 /// The names of the sections at the top level of the file.
 std::vector<std::string> sections() {
-  std::vector<std::string> names = {"seed",   "catalogue",   "container",   "drop",   "grain", "time",
-                                    "solver", "compression", "broad_phase", "output", "part",  "measurement",
-                                    "feeder", "sink",        "periodic",    "query",  "start", "bond"};
+  std::vector<std::string> names = {"seed",   "catalogue",   "container", "drop",  "grain",       "time",
+                                    "solver", "compression", "output",    "part",  "measurement", "feeder",
+                                    "sink",   "periodic",    "query",     "start", "bond"};
   for (std::string& name : effect_sections()) names.push_back(std::move(name));
   return names;
 }
@@ -307,7 +297,6 @@ Scene load(const TomlFile& file, const std::string& path, const std::string& cal
   scene.sinks = load_sinks(root, scene);
   scene.feeders = load_feeders(root, scene);
   scene.measurements = load_measurements(root, scene);
-  scene.sweep_axis = read_sweep_axis(root);
   scene.query = read_query(root);
   read_output(root, scene);
   check_memory(root, most_at_once(scene));

@@ -89,13 +89,7 @@ WallPose facing(const Vector3& position, double angle_about_x) {
 
 std::vector<Wall> walls_of(const Drum& drum) {
   const Rotation turn{Vector3::UnitY(), {0, 0, drum.radius()}, drum.rpm};
-  std::vector<WallMotion> motions(1);
-  if (drum.is_smooth) {
-    motions[0].kind = Conveyor{Vector3::Zero(), turn};
-  } else {
-    motions[0].kind = turn;
-  }
-  motions[0].from = drum.turns_at;
+  const std::vector<WallMotion> motions = {{turn, drum.turns_at}};
   const PlaneShape end{drum.outer_radius()};
   return {{"drum", shell_of(drum), {{0, 0, drum.radius()}, Eigen::Quaterniond::Identity()}, motions},
           {"near_end", end, facing({0, 0, drum.radius()}, -std::numbers::pi / 2), motions},

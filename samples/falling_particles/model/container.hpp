@@ -59,7 +59,6 @@ struct Drum {
   double length;    ///< m
   int segments;
   double rpm;       ///< revolutions per minute; for a positive number the floor of the drum moves towards -x
-  bool is_smooth;   ///< whether only the surface moves while the flat sides stand
   double turns_at;  ///< s
 
   double radius() const { return diameter / 2; }                                            ///< m

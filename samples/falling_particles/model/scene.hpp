@@ -148,7 +148,6 @@ struct Scene {
   bool forces = false;                                ///< whether pictures show the forces of the contacts
   std::vector<Wall> walls = {};                       ///< of the container (walls_in), then of [[part]]
   std::optional<Query> query = {};                    ///< of two smooth bodies; the library's defaults if empty
-  std::optional<Axis> sweep_axis = {};                ///< of the broad phase; if empty, chosen by the positions of the grains
   std::vector<MeasurementRequest> measurements = {};  ///< the measurements that the scene names, and no others
   std::vector<Feeder> feeders = {};                   ///< they insert grains during the run
   std::vector<Sink> sinks = {};                       ///< they remove grains during the run

@@ -439,10 +439,10 @@ void Bonds::reduce(std::vector<dContactGeom>& contacts) {
   });
 }
 
-/// 1/s^2, stiffness / mass of a bond for each of its grains, with `factor` times its radius.
-std::array<double, 2> Bonds::rates_of(std::size_t index, double factor) const {
+/// 1/s^2, stiffness / mass of a bond for each of its grains.
+std::array<double, 2> Bonds::rates_of(std::size_t index) const {
   const Bond& bond = state_.bonds[index];
-  const Rows k = stiffness_of(world_.scene().bonds[bond.rule], factor * bond.radius, bond.rest.length());
+  const Rows k = stiffness_of(world_.scene().bonds[bond.rule], bond.radius, bond.rest.length());
   const std::array<Rows, 2> inverse = inverse_masses(bond, joints_[index]);
   std::array<double, 2> rates{};
   std::ranges::transform(inverse, rates.begin(), [&k](const Rows& w) {
@@ -461,7 +461,7 @@ Bonds::Stiffness Bonds::stiffness() const {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     if (joints_[i].linear == nullptr) continue;
     const Bond& bond = state_.bonds[i];
-    const auto [of_first, of_second] = rates_of(i, 1);
+    const auto [of_first, of_second] = rates_of(i);
     for (const auto& [rate, grain] : {std::pair(of_first, bond.first), std::pair(of_second, bond.second)}) {
       if (grain == Bond::kPart) continue;
       Load& load = loads[grain];
@@ -472,16 +472,6 @@ Bonds::Stiffness Bonds::stiffness() const {
   const auto worst = std::ranges::max_element(loads, {}, &Load::sum);
   if (worst == loads.end()) return {};
   return {2 * step_ * step_ * worst->sum, static_cast<std::size_t>(worst - loads.begin()), worst->bond};
-}
-
-double Bonds::relative_stiffness(std::size_t grain, double factor, std::optional<std::size_t> single) const {
-  double sum = 0;
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    const Bond& bond = state_.bonds[i];
-    if (joints_[i].linear == nullptr || (bond.first != grain && bond.second != grain)) continue;
-    sum += rates_of(i, single.value_or(i) == i ? factor : 1)[bond.first == grain ? 0 : 1];
-  }
-  return 2 * step_ * step_ * sum;
 }
 
 void Bonds::measure_energy() {

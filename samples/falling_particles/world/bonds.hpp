@@ -107,8 +107,6 @@ class Bonds {
     std::size_t bond = 0;  ///< its stiffest one, an index into all()
   };
   Stiffness stiffness() const;
-  /// Stiffness::relative of a grain, if the radii of all its bonds, or of a single one, were `factor` times as large.
-  double relative_stiffness(std::size_t grain, double factor, std::optional<std::size_t> single = {}) const;
 
   const BondsState& save() const { return state_; }
 
@@ -142,7 +140,7 @@ class Bonds {
   void remove_joints(std::size_t bond);
   void place_anchor(const Bond& bond, const Joints& joints) const;
   std::array<Rows, 2> inverse_masses(const Bond& bond, const Joints& joints) const;
-  std::array<double, 2> rates_of(std::size_t bond, double factor) const;
+  std::array<double, 2> rates_of(std::size_t bond) const;
   Strain strain_of(const Bond& bond, const Joints& joints) const;
   Strain in_step(const Joints& joints) const;
   BondStress stress_of(const Bond& bond, const Strain& strain) const;

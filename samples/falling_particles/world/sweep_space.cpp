@@ -64,9 +64,7 @@ std::array<double, 3> variances(dSpaceID space) {
 
 }  // namespace
 
-SweepSpace::SweepSpace(std::optional<Axis> axis) : fixed_(axis), order_{Axis::X, Axis::Y, Axis::Z} {
-  if (fixed_) std::swap(order_[0], order_[index_of(*fixed_)]);
-  space_ = create_space(order_);
+SweepSpace::SweepSpace() {
   // A plane that is not parallel to an axis has no bounding box. ODE names its pairs after the sweep.
   for (dGeomID& marker : markers_) marker = create_marker(space_);
 }
@@ -74,7 +72,7 @@ SweepSpace::SweepSpace(std::optional<Axis> axis) : fixed_(axis), order_{Axis::X,
 SweepSpace::~SweepSpace() { dSpaceDestroy(space_); }
 
 void SweepSpace::before_step() {
-  if (!fixed_ && steps_ % kStepsBetweenChoices == 0) choose_axis();
+  if (steps_ % kStepsBetweenChoices == 0) choose_axis();
   ++steps_;
 }
 

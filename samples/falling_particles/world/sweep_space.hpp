@@ -4,7 +4,6 @@
 #include <ode/ode.h>
 
 #include <array>
-#include <optional>
 
 #include "model/geometry.hpp"
 
@@ -18,8 +17,7 @@ namespace falling_particles {
 /// All bodies must have finite bounding boxes. ODE pairs a geom with an infinite box with every other geom.
 class SweepSpace {
  public:
-  /// Sweeps along `axis`, if it is given, in all steps.
-  explicit SweepSpace(std::optional<Axis> axis);
+  SweepSpace();
   ~SweepSpace();
   SweepSpace(const SweepSpace&) = delete;
   SweepSpace& operator=(const SweepSpace&) = delete;
@@ -48,9 +46,8 @@ class SweepSpace {
   void choose_axis();
   void move_to(const Order& order);
 
-  std::optional<Axis> fixed_;
-  Order order_;
-  dSpaceID space_ = nullptr;
+  Order order_ = {Axis::X, Axis::Y, Axis::Z};
+  dSpaceID space_ = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
   std::array<dGeomID, 2> markers_ = {};
   int steps_ = 0;
 };

@@ -47,7 +47,7 @@ World::World(const Scene& scene) : scene_(scene), query_defaults_(scene.query) {
   dInitODE2(0);
   dAllocateODEDataForThread(dAllocateFlagBasicData | dAllocateFlagCollisionData);
   world_ = dWorldCreate();
-  sweep_ = std::make_unique<SweepSpace>(scene.sweep_axis);
+  sweep_ = std::make_unique<SweepSpace>();
   if (const auto& accuracy = scene.solver.stepper) {
     stepper_ = std::make_unique<supernormal::ode::Stepper>(world_);
     stepper_->set_accuracy(accuracy->sag, accuracy->least, accuracy->most);

@@ -110,7 +110,6 @@ const std::vector<Section>& sections() {
       {"[periodic]", "periodic", ""},
       {"[compression]", "compression", ""},
       {"[query]", "query", ""},
-      {"[broad_phase]", "broad_phase", ""},
       {"[output]", "output", ""}};
   return all;
 }

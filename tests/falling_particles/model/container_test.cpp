@@ -35,7 +35,7 @@ TEST_CASE("the room of a container is the smallest box around it") {
                                              hopper,
                                              Terrain({{0.2, 0.3}, 0.01, 0.1, 0.02, 21, 3}),
                                              Open{{{0, 0, 0}, {0.1, 0.1, 0.1}}, {{-0.2, -0.1, -0.05}, {0.5, 0.3, 0.4}}},
-                                             Drum{0.2, 0.1, 12, 30, false, 0},
+                                             Drum{0.2, 0.1, 12, 30, 0},
                                              ConveyorBelt{0.3, 0.1, 0.2, 0.02, 0.05, 1, 0.2, 0}};
   Random random(5);
   for (const Container& container : containers) {

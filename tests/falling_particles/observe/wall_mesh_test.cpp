@@ -157,7 +157,7 @@ TEST_CASE("the picture of a ground has its samples around its position, and look
 }
 
 TEST_CASE("the ends of a drum are shown as discs as wide as the drum") {
-  const Drum drum{.diameter = 0.2, .length = 0.1, .segments = 24, .rpm = 10, .is_smooth = false, .turns_at = 0};
+  const Drum drum{.diameter = 0.2, .length = 0.1, .segments = 24, .rpm = 10, .turns_at = 0};
   const std::vector<Wall> walls = walls_in(drum);
   for (const std::size_t end : {1U, 2U}) {
     const WallPicture picture = picture_of(walls[end], cube(0.7));

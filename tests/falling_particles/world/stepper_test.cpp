@@ -315,22 +315,7 @@ TEST_CASE("stepper: there are no doubts about what only quickstep does not hold"
   CHECK(doubts_about(scene).empty());
 }
 
-TEST_CASE("the broad phase names every pair whose bounding boxes meet, whatever its axis") {
-  Scene scene = scene_of_peas(200);
-  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
-    scene.sweep_axis = axis;
-    const World world = make_world(scene);
-    CHECK(world.sweep().axis() == axis);
-    scatter(world, {0.05, 0.06, 0.03});
-    const Pairs pairs = named_pairs(world);
-    CHECK(pairs.size() > 300);
-    CHECK(pairs == all_pairs(world));
-    world.sweep().before_step();
-    CHECK(world.sweep().axis() == axis);
-  }
-}
-
-TEST_CASE("the sweep is along the axis of the largest spread, also after it changes") {
+TEST_CASE("the sweep is along the axis of the largest spread, also after it changes, and names every pair whose boxes meet") {
   const Scene scene = scene_of_peas(200);
   const World world = make_world(scene);
   struct Bed {
@@ -344,17 +329,11 @@ TEST_CASE("the sweep is along the axis of the largest spread, also after it chan
     scatter(world, bed.sides);
     for (int step = 0; step < 100; ++step) world.sweep().before_step();
     CHECK(world.sweep().axis() == bed.axis);
-    CHECK(named_pairs(world) == all_pairs(world));
+    scatter(world, {0.05, 0.06, 0.03});
+    const Pairs pairs = named_pairs(world);
+    CHECK(pairs.size() > 300);
+    CHECK(pairs == all_pairs(world));
   }
-}
-
-TEST_CASE("a scene may fix the axis of the sweep") {
-  CHECK(scene_of(std::string(kSceneText) + "[broad_phase]\naxis = \"y\"\n").sweep_axis == Axis::Y);
-  CHECK_FALSE(scene_of(kSceneText).sweep_axis);
-  check_says(complaint(std::string(kSceneText) + "[broad_phase]\naxis = \"w\"\n"),
-             {"scene.toml:32: broad_phase.axis is \"w\"", "allowed: x, y, z"});
-  check_says(complaint(std::string(kSceneText) + "[broad_phase]\nspace = \"hash\"\n"),
-             {"scene.toml:32: unknown key \"space\" in [broad_phase]", "allowed: axis"});
 }
 
 TEST_CASE("a broad phase that finds no pairs is timed") {
