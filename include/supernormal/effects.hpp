@@ -290,7 +290,8 @@ struct Cost {
   double seconds = 0;               ///< s; time in its passes, if measured, without the solver's time for the rows
 };
 
-/// A compiled list of effects.
+/// A compiled list of effects. With Restitution and SpeculativeContacts there may be one for each world: two would not know of each
+/// other's impacts.
 class SUPERNORMAL_ODE_API Effects {
  public:
   /// Compiles the list for steps of `step` seconds. Throws BadEffect (a std::invalid_argument) with the effect, the parameter, its
@@ -321,7 +322,8 @@ class SUPERNORMAL_ODE_API Effects {
 
   /// Adds a body with geoms of ours, and computes the geometric properties that the effects need. Add the body again after changing
   /// a geom. With SpeculativeContacts its geoms look ahead from now on. Does nothing if no listed effect is a force or
-  /// SpeculativeContacts. Throws std::invalid_argument for a body without a geom of ours.
+  /// SpeculativeContacts. Throws std::invalid_argument for a body without a geom of ours, and with Restitution and
+  /// SpeculativeContacts for one that another such Effects has.
   void add_body(dBodyID body);
   /// Removes a body. Call it before dBodyDestroy. Does nothing for a body that was not added.
   void remove_body(dBodyID body);

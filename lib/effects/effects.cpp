@@ -71,14 +71,29 @@ std::vector<Effect> validated(const std::vector<Effect>& list, Solver solver) {
   return list;
 }
 
-/// Makes all our geoms on a body look ahead by `time` (s).
-void look_ahead(dBodyID body, double time) {
-  bool has_ours = false;
+/// Calls `act` with each of our geoms on a body, and its shape.
+template <typename Act>
+void for_ours(dBodyID body, const Act& act) {
   for (dGeomID geom = dBodyGetFirstGeom(body); geom != nullptr; geom = dBodyGetNextGeom(geom)) {
-    if (ode::find_body(geom) == nullptr) continue;
+    if (ode::Body* const ours = ode::find_body(geom)) act(geom, *ours);
+  }
+}
+
+/// Makes all our geoms on a body look ahead by `time` (s). `impacts`: what lets its impacts happen, or null.
+void look_ahead(dBodyID body, double time, const std::shared_ptr<const void>& impacts) {
+  bool has_ours = false;
+  for_ours(body, [&](dGeomID geom, ode::Body& ours) {
+    const auto other = ours.impacts();
+    // Each would let the impacts happen that it knows, and multiply the energy of the body.
+    if (impacts && other && other != impacts) {
+      throw std::invalid_argument(
+          "another Effects with restitution and speculative_contacts has the body; allowed: one such Effects for each world, or "
+          "remove_body there first");
+    }
     has_ours = true;
     if (snGeomSetLookAhead(geom, ode::to_real(time)) == 0) throw std::invalid_argument(snLastError());
-  }
+    if (impacts) ours.set_impacts(impacts);
+  });
   if (!has_ours) throw std::invalid_argument("the body has no geom made by snCreate…, but must have one");
 }
 
@@ -92,7 +107,8 @@ struct Effects::State {
         forces(list, step),
         is_speculative(has<SpeculativeContacts>(list)),
         looks_ahead(is_speculative || solver == Solver::Stepper),
-        speculative(step, has<Restitution>(list), pair_materials) {}
+        speculative(step, has<Restitution>(list), pair_materials),
+        impacts(is_speculative && has<Restitution>(list) ? std::make_shared<char>() : nullptr) {}
 
   /// Runs `work` and, if times are measured, adds its time to the effect's total.
   template <typename Work>
@@ -113,6 +129,7 @@ struct Effects::State {
   bool is_speculative;
   bool looks_ahead;
   SpeculativeSetup speculative;
+  std::shared_ptr<const void> impacts;  // stands for this in geoms; null without impacts
   bool is_measuring = false;
   std::array<double, std::variant_size_v<Effect::variant>> seconds{};
   std::array<unsigned long long, std::variant_size_v<Effect::variant>> visits{};
@@ -187,16 +204,17 @@ int Effects::set_up_contacts(std::span<dContact> contacts, const Side& side1, co
   return kept;
 }
 
-bool Effects::visits_bodies() const {
-  return !state_->forces.is_empty() || (state_->is_speculative && has<Restitution>(state_->list));
-}
+bool Effects::visits_bodies() const { return !state_->forces.is_empty() || state_->impacts != nullptr; }
 
 void Effects::add_body(dBodyID body) {
-  if (state_->looks_ahead) look_ahead(body, state_->step);
+  if (state_->looks_ahead) look_ahead(body, state_->step, state_->impacts);
   if (!state_->forces.is_empty()) state_->forces.add(body);
 }
 
 void Effects::remove_body(dBodyID body) {
+  for_ours(body, [&](dGeomID /*geom*/, ode::Body& ours) {
+    if (ours.impacts() == state_->impacts) ours.set_impacts(nullptr);
+  });
   state_->forces.remove(body);
   state_->speculative.remove(body);
 }

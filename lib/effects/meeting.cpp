@@ -125,21 +125,22 @@ OfBoth solve_impulses(std::span<Push> pushes) {
   double most = 0;
   for (const Push& push : pushes) most = std::max(most, push.lacking);
   OfBoth change = OfBoth::Zero();
+  Eigen::Matrix<double, kMost, kMost> responses;
+  Eigen::Matrix<double, kMost, 1> lacking;
   std::size_t count = 0;  // the first ones act
   const auto at = [](std::size_t k) { return static_cast<Eigen::Index>(k); };
   for (std::size_t turn = 0; turn < 3 * pushes.size() && count < kMost; ++turn) {
     const auto left = [&](const Push& push) { return push.lacking - push.impulse.dot(change); };
     const auto next = std::ranges::max_element(pushes.subspan(count), {}, left);
     if (next == pushes.end() || !(left(*next) > kRounding * most)) break;
-    std::swap(pushes[count++], *next);
+    std::swap(pushes[count], *next);
+    lacking(at(count)) = pushes[count].lacking;
+    for (std::size_t k = 0; k <= count; ++k) {
+      responses(at(k), at(count)) = responses(at(count), at(k)) = pushes[count].impulse.dot(pushes[k].change);
+    }
+    ++count;
     for (bool is_solved = false; !is_solved;) {
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost> responses(at(count), at(count));
-      Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1> lacking(at(count));
-      for (std::size_t k = 0; k < count; ++k) {
-        lacking(at(k)) = pushes[k].lacking;
-        for (std::size_t j = 0; j < count; ++j) responses(at(k), at(j)) = pushes[k].impulse.dot(pushes[j].change);
-      }
-      const auto solved = responses.ldlt().solve(lacking).eval();
+      const auto solved = responses.topLeftCorner(at(count), at(count)).ldlt().solve(lacking.head(at(count))).eval();
       double part = 1;
       std::size_t first = count;  // whose impulse becomes 0 first on the way to `solved`
       for (std::size_t k = 0; k < count; ++k) {
@@ -148,7 +149,12 @@ OfBoth solve_impulses(std::span<Push> pushes) {
       }
       for (std::size_t k = 0; k < count; ++k) pushes[k].total += part * (solved(at(k)) - pushes[k].total);
       is_solved = first == count;
-      if (!is_solved) pushes[first].total = 0, std::swap(pushes[first], pushes[--count]);
+      if (is_solved) break;
+      pushes[first].total = 0;
+      std::swap(pushes[first], pushes[--count]);
+      std::swap(lacking(at(first)), lacking(at(count)));
+      responses.row(at(first)).swap(responses.row(at(count)));
+      responses.col(at(first)).swap(responses.col(at(count)));
     }
     change.setZero();
     for (const Push& push : pushes.first(count)) change += push.total * push.change;
@@ -247,14 +253,18 @@ double Meeting::room_at(const MeetingContact& at) const {
   return std::max(0.0, side * at.normal.dot(out) - double{at.contact.geom.depth} - kMiddle * least_half_extent(at.contact.geom));
 }
 
-// The force acts towards the centre of mass: linear in a rotation of any size, a corner would gain energy.
-void Meeting::add_stops(std::vector<Push>& pushes) const {
+// The force acts towards the centre of mass: linear in a rotation of any size, a corner would gain energy. A body is thrown back
+// where another corner than those of the contacts swings into the wall: its contacts would let it through, and a stop costs the
+// energy of its motion.
+void Meeting::add_stops(bool bounces, std::vector<Push>& pushes) const {
   for (MeetingContact& c : contacts) {
     const MovingBody& wall = body1.inverse_mass > 0 ? body2 : body1;
     const Vector3 inwards = body1.inverse_mass > 0 ? c.normal : Vector3(-c.normal);
     const Vector3 velocity = free_body().velocity + step * free_body().acceleration;
     const double approach = inwards.dot(velocity_at(wall.id, ode::to_vector(c.contact.geom.pos)) - velocity);
     Push push{&c, approach - room_at(c) / step};
+    if (bounces && !(push.lacking > 0 && pair.restitution > 0 && approach > pair.threshold)) continue;
+    if (bounces) push.lacking = (1 + pair.restitution) * approach;
     push.impulse.head<3>() = inwards;
     push.change.head<3>() = free_body().inverse_mass * inwards;
     pushes.push_back(push);
@@ -266,7 +276,12 @@ dContact Meeting::stop_of(const MeetingContact& at) const {
   const Vector3 centre = free_body().centre + free_body().displacement;
   ode::from_vector(centre - at.normal.dot(centre - ode::to_vector(row.geom.pos)) * at.normal, row.geom.pos);
   row.surface.mode &= ~dContactBounce;
-  let_close(row, room_at(at), step);
+  const Parting parting = parting_at(centre, at.normal);
+  if (parting.after > 0 && std::max(body1.impacts, body2.impacts) < kMostImpacts) {
+    let_leave(row, parting.before, parting.after);
+  } else {
+    let_close(row, room_at(at), step);
+  }
   return row;
 }
 

@@ -93,8 +93,8 @@ struct Meeting {
   /// Whether one of the bodies is a wall, which nothing moves.
   bool is_at_wall() const { return !(body1.inverse_mass > 0 && body2.inverse_mass > 0); }
 
-  /// Adds what keeps the middle of the free body outside of the wall in this step.
-  void add_stops(std::vector<Push>& pushes) const;
+  /// Adds what keeps the middle of the free body outside of the wall in this step, or what throws it back (`bounces`).
+  void add_stops(bool bounces, std::vector<Push>& pushes) const;
 
   /// The contact for ODE, so that the step ends with the velocities after the impacts so far.
   dContact row_of(const MeetingContact& at) const;

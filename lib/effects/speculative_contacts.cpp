@@ -67,7 +67,7 @@ void SpeculativeSetup::set_up(const PairMaterial& pair, std::span<dContact> cont
   Record record{&pair, 0, 0, contacts_.size(), 0, contacts.size()};
   if (is_elastic_) {
     record.body1 = index_of(side1.body), record.body2 = index_of(side2.body);
-    sides_[geom.g1] = side1, sides_[geom.g2] = side2;
+    sides_.emplace_back(geom.g1, side1), sides_.emplace_back(geom.g2, side2);
   }
   if (pair.is_speculative && pair.restitution > 0 && ode::looks_ahead(geom)) {
     record.count = contacts.size();
@@ -101,28 +101,30 @@ void SpeculativeSetup::list_record(std::size_t index) {
   for (const std::size_t body : {records_[index].body1, records_[index].body2}) {
     if (bodies_[body].inverse_mass > 0) records_of_[body].push_back(index);
   }
+  if (records_[index].is_planned) expect(index);
 }
 
-void SpeculativeSetup::run_impacts(std::size_t first) {
-  const auto impacts_of = [&](const Record& record) { return bodies_[record.body1].impacts + bodies_[record.body2].impacts; };
-  const auto expect = [&](std::size_t k) {
-    const auto impact = meeting(records_[k]).next_impact();
-    if (!impact) return;
-    events_.emplace_back(impact->time, k, impacts_of(records_[k]));
-    std::ranges::push_heap(events_, std::greater<>());
-  };
-  for (std::size_t k = first; k < records_.size(); ++k) {
-    if (records_[k].is_planned) expect(k);
-  }
+/// Lists the next impact of the record, if there is one.
+void SpeculativeSetup::expect(std::size_t index) {
+  const Record& record = records_[index];
+  const auto impact = meeting(record).next_impact();
+  if (!impact) return;
+  events_.emplace_back(impact->time, index, bodies_[record.body1].impacts + bodies_[record.body2].impacts);
+  std::ranges::push_heap(events_, std::greater<>());
+}
+
+void SpeculativeSetup::run_impacts() {
   while (!events_.empty()) {
     std::ranges::pop_heap(events_, std::greater<>());
-    const auto [time, k, impacts] = events_.back();
+    const auto [time, index, impacts] = events_.back();
     events_.pop_back();
-    Record& record = records_[k];
-    if (impacts != impacts_of(record)) continue;
+    Record& record = records_[index];
+    if (impacts != bodies_[record.body1].impacts + bodies_[record.body2].impacts) continue;
     meeting(record).strike(*meeting(record).next_impact(), pushes_);
     ++record.impacts;
-    for (const std::size_t body : {record.body1, record.body2}) std::ranges::for_each(records_of_[body], expect);
+    for (const std::size_t body : {record.body1, record.body2}) {
+      for (const std::size_t other : records_of_[body]) expect(other);
+    }
   }
 }
 
@@ -187,14 +189,8 @@ void SpeculativeSetup::move_bodies() const {
 }
 
 Side SpeculativeSetup::side_of(dGeomID geom) const {
-  const auto known = sides_.find(geom);
-  const dBodyID present = dGeomGetBody(geom);
-  // A geom may have got a body since, or be another one at the address.
-  if (known == sides_.end() || (known->second.body == nullptr && present != nullptr)) return {-1, present};
-  // A body of an earlier step may be gone.
-  const std::size_t index = indices_.at(known->second.body);
-  const bool is_here = index < bodies_.size() && bodies_[index].id == known->second.body;
-  return {known->second.material, is_here ? known->second.body : present};
+  const auto known = std::ranges::lower_bound(sides_, geom, {}, &Met::first);
+  return known != sides_.end() && known->first == geom ? known->second : Side{-1, dGeomGetBody(geom)};
 }
 
 /// Adds a record of contacts with a wall, a geom without a body or of a kinematic one.
@@ -217,8 +213,8 @@ void SpeculativeSetup::add_wall(void* data, dGeomID geom1, dGeomID geom2) {
   const std::size_t other = setup.index_of(wall);
   const auto found = static_cast<std::size_t>(end - contacts.begin());
   setup.records_.push_back({&pair, search.body, other, setup.contacts_.size(), found, 0, search.bounces, search.bounces});
-  setup.list_record(setup.records_.size() - 1);
   setup.contacts_.insert(setup.contacts_.end(), contacts.begin(), end);
+  setup.list_record(setup.records_.size() - 1);
 }
 
 /// Finds walls on the way of a body after its impacts, and other places of known walls. A program has no contacts there: its are of
@@ -242,41 +238,55 @@ void SpeculativeSetup::find_walls(std::size_t index) {
   set_velocities(body.id, velocity, spin);
 }
 
-/// Stops a body after its impacts at all walls together, those that the program has listed and those that were found.
-void SpeculativeSetup::stop_at_walls(std::size_t index) {
+/// Stops a body after its impacts at all walls together, those that the program has listed and those that were found. `bounces`:
+/// throws it back instead, once a step. Returns whether it has done so.
+bool SpeculativeSetup::hold_at_walls(std::size_t index, bool bounces) {
+  MovingBody& body = bodies_[index];
+  if (body.impacts == 0 || (bounces && body.is_stopped)) return false;
   pushes_.clear();
   for (const std::size_t k : records_of_[index]) {
-    if (const Meeting at = meeting(records_[k]); at.is_at_wall()) at.add_stops(pushes_);
+    if (const Meeting at = meeting(records_[k]); at.is_at_wall()) at.add_stops(bounces, pushes_);
   }
   const OfBoth change = solve_impulses(pushes_);
-  if (change.isZero(0)) return;
-  for (const Push& push : pushes_) push.at->is_stop = push.total > 0 || push.lacking > 0;
-  bodies_[index].velocity += change.head<3>();
-  bodies_[index].is_stopped = true;
+  if (change.isZero(0)) return false;
+  for (const Push& push : pushes_) push.at->is_stop |= push.total > 0 || push.lacking > 0;
+  body.velocity += change.head<3>();
+  body.is_stopped = true;
+  if (!bounces) return false;
+  ++body.impacts;
+  for (const std::size_t k : records_of_[index]) expect(k);
+  return true;
 }
 
 void SpeculativeSetup::resolve() {
   dJointGroupEmpty(joints_.get());
   if (std::ranges::any_of(records_, &Record::is_planned)) {
+    std::ranges::sort(sides_, {}, &Met::first);
     for (auto& records : records_of_) records.clear();
     for (std::size_t k = 0; k < records_.size(); ++k) list_record(k);
-    for (std::size_t first = 0; first < records_.size();) {
-      run_impacts(first);
-      first = records_.size();
+    for (bool is_changed = true; is_changed;) {
+      run_impacts();
+      is_changed = false;
       for (std::size_t k = 0; k < bodies_.size(); ++k) {
-        if (std::exchange(bodies_[k].impacts_searched, bodies_[k].impacts) < bodies_[k].impacts) find_walls(k);
+        const bool is_new = std::exchange(bodies_[k].impacts_searched, bodies_[k].impacts) < bodies_[k].impacts;
+        if (is_new) find_walls(k);
+        is_changed |= is_new;
       }
+      for (std::size_t k = 0; !is_changed && k < bodies_.size(); ++k) is_changed = hold_at_walls(k, true);
     }
-    for (std::size_t k = 0; k < bodies_.size(); ++k) {
-      if (bodies_[k].impacts > 0) stop_at_walls(k);
-    }
+    for (std::size_t k = 0; k < bodies_.size(); ++k) hold_at_walls(k, false);
     for (std::size_t k = 0; k < records_.size(); ++k) exchange(k);
     make_joints();
     move_bodies();
   }
+  if (indices_.size() > 2 * bodies_.size()) {
+    std::erase_if(indices_,
+                  [&](const auto& known) { return known.second >= bodies_.size() || bodies_[known.second].id != known.first; });
+  }
   records_.clear();
   contacts_.clear();
   bodies_.clear();
+  sides_.clear();
 }
 
 void SpeculativeSetup::remove(dBodyID body) {

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <type_traits>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "effects/meeting.hpp"
@@ -53,19 +54,19 @@ class SpeculativeSetup {
   }
   void set_up_alone(Record& record, std::span<dContact> contacts);
   void list_record(std::size_t index);
-  /// Runs the impacts that begin with those of the records from `first` on.
-  void run_impacts(std::size_t first);
+  void expect(std::size_t index);
+  void run_impacts();
   /// What a search for walls needs: of one body, and whether it bounces there or stops.
   struct Search {
     SpeculativeSetup* setup;
     std::size_t body;
     bool bounces;
   };
-  /// As a program last said. Material -1, which none is, for a geom that met nothing yet.
+  /// Material -1, which none is, for a geom that met nothing in this step.
   Side side_of(dGeomID geom) const;
   void find_walls(std::size_t index);
   static void add_wall(void* data, dGeomID geom1, dGeomID geom2);
-  void stop_at_walls(std::size_t index);
+  bool hold_at_walls(std::size_t index, bool bounces);
   void exchange(std::size_t index);
   void make_joints();
   void move_bodies() const;
@@ -73,7 +74,8 @@ class SpeculativeSetup {
   double step_;
   bool is_elastic_;
   PairMaterials& pairs_;
-  std::unordered_map<dGeomID, Side> sides_;           // of all geoms that met so far
+  using Met = std::pair<dGeomID, Side>;
+  std::vector<Met> sides_;                            // of the geoms that met in this step
   std::vector<Record> records_;                       // of this step
   std::vector<std::vector<std::size_t>> records_of_;  // of each body that moves, in records_
   std::vector<MeetingContact> contacts_;

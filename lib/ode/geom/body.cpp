@@ -98,6 +98,7 @@ std::unique_ptr<Body> Body::of(const std::shared_ptr<const Shape>& shape) {
 std::unique_ptr<Body> Body::copy() const {
   std::unique_ptr<Body> body(new Body(*this));
   body->serial_ = ++last_serial;
+  body->impacts_.reset();
   return body;
 }
 

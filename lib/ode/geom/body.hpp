@@ -70,6 +70,10 @@ class Body {
   double look_ahead() const { return look_ahead_; }
   void set_look_ahead(double time) { look_ahead_ = time; }
 
+  /// What lets the impacts of the body happen; null: nothing, or it is gone. A copy has none.
+  std::shared_ptr<const void> impacts() const { return impacts_.lock(); }
+  void set_impacts(const std::shared_ptr<const void>& impacts) { impacts_ = impacts; }
+
   /// Null for a body of another kind.
   const SuperellipsoidParameters* superellipsoid() const { return std::get_if<SuperellipsoidParameters>(&parameters_); }
   const SuperovoidParameters* superovoid() const { return std::get_if<SuperovoidParameters>(&parameters_); }
@@ -96,6 +100,7 @@ class Body {
   std::variant<std::monostate, SuperellipsoidParameters, SuperovoidParameters> parameters_;  // monostate: a user shape
   Settings settings_;
   double look_ahead_;  // s
+  std::weak_ptr<const void> impacts_;
   std::uint32_t serial_;
   std::shared_ptr<ReleaseCallback> release_;  // null: none
 };
