@@ -17,7 +17,6 @@ class BodyForces {
   BodyForces(const std::vector<Effect>& list, double step);
 
   bool is_empty() const { return !quadratic_drag_ && !stokes_drag_ && !buoyancy_; }
-  std::size_t bodies() const { return bodies_.size(); }
 
   void add(dBodyID body);
   void remove(dBodyID body);

@@ -22,38 +22,30 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Sets the world's parameters for the effects that ODE itself applies.
-class WorldWriter {
- public:
-  WorldWriter(dWorldID world, double step) : world_(world), step_(step) {}
-
-  void operator()(const Gravity& e) const {
-    dWorldSetGravity(world_, ode::to_real(e.acceleration.x()), ode::to_real(e.acceleration.y()), ode::to_real(e.acceleration.z()));
-  }
-  void operator()(const Damping& e) const {
+/// Sets the world's parameter for an effect that ODE itself applies.
+void write_to(dWorldID world, const Effect& effect, double step) {
+  if (const auto* gravity = std::get_if<Gravity>(&effect)) {
+    const Vector3& g = gravity->acceleration;
+    dWorldSetGravity(world, ode::to_real(g.x()), ode::to_real(g.y()), ode::to_real(g.z()));
+  } else if (const auto* damping = std::get_if<Damping>(&effect)) {
     // In every step ODE multiplies a velocity above the threshold by 1 - scale.
-    dWorldSetLinearDampingThreshold(world_, 0);
-    dWorldSetAngularDampingThreshold(world_, 0);
-    dWorldSetLinearDamping(world_, ode::to_real(-std::expm1(-e.linear * step_)));
-    dWorldSetAngularDamping(world_, ode::to_real(-std::expm1(-e.angular * step_)));
+    dWorldSetLinearDampingThreshold(world, 0);
+    dWorldSetAngularDampingThreshold(world, 0);
+    dWorldSetLinearDamping(world, ode::to_real(-std::expm1(-damping->linear * step)));
+    dWorldSetAngularDamping(world, ode::to_real(-std::expm1(-damping->angular * step)));
+  } else if (const auto* sleep = std::get_if<AutoDisable>(&effect)) {
+    dWorldSetAutoDisableFlag(world, 1);
+    dWorldSetAutoDisableLinearThreshold(world, ode::to_real(sleep->linear));
+    dWorldSetAutoDisableAngularThreshold(world, ode::to_real(sleep->angular));
+    dWorldSetAutoDisableTime(world, ode::to_real(sleep->time));
+    dWorldSetAutoDisableSteps(world, sleep->samples);
+    dWorldSetAutoDisableAverageSamplesCount(world, static_cast<unsigned>(sleep->samples));
+  } else if (const auto* correcting = std::get_if<MaxCorrectingVelocity>(&effect)) {
+    dWorldSetContactMaxCorrectingVel(world, ode::to_real(correcting->velocity));
+  } else if (const auto* layer = std::get_if<SurfaceLayer>(&effect)) {
+    dWorldSetContactSurfaceLayer(world, ode::to_real(layer->depth));
   }
-  void operator()(const AutoDisable& e) const {
-    dWorldSetAutoDisableFlag(world_, 1);
-    dWorldSetAutoDisableLinearThreshold(world_, ode::to_real(e.linear));
-    dWorldSetAutoDisableAngularThreshold(world_, ode::to_real(e.angular));
-    dWorldSetAutoDisableTime(world_, ode::to_real(e.time));
-    dWorldSetAutoDisableSteps(world_, e.samples);
-    dWorldSetAutoDisableAverageSamplesCount(world_, static_cast<unsigned>(e.samples));
-  }
-  void operator()(const MaxCorrectingVelocity& e) const { dWorldSetContactMaxCorrectingVel(world_, ode::to_real(e.velocity)); }
-  void operator()(const SurfaceLayer& e) const { dWorldSetContactSurfaceLayer(world_, ode::to_real(e.depth)); }
-  template <typename Other>
-  void operator()(const Other& /*effect*/) const {}
-
- private:
-  dWorldID world_;
-  double step_;
-};
+}
 
 std::vector<Effect> validated(const std::vector<Effect>& list, Solver solver) {
   require_valid(list);
@@ -169,7 +161,7 @@ Effects::Effects(Effects&&) noexcept = default;
 Effects& Effects::operator=(Effects&&) noexcept = default;
 
 void Effects::set_up(dWorldID world) const {
-  for (const Effect& effect : state_->list) std::visit(WorldWriter(world, state_->step), effect);
+  for (const Effect& effect : state_->list) write_to(world, effect, state_->step);
 }
 
 int Effects::set_up_contacts(std::span<dContact> contacts, Material material1, Material material2) {

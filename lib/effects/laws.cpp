@@ -286,22 +286,12 @@ class Reader {
   const Read& read_;
 };
 
-constexpr bool has_text(const char* text) { return text != nullptr && !std::string_view(text).empty(); }
-
-template <typename E>
-constexpr bool is_complete() {
-  constexpr Description kText = Law<E>::kText;
-  return has_text(kText.name) && has_text(kText.passes) && has_text(kText.source);
-}
-
 constexpr std::size_t kCount = std::variant_size_v<Effect::variant>;
 
 /// The descriptions, with the texts of the parameters, to which they point.
 struct Descriptions {
   template <std::size_t... kIs>
   explicit Descriptions(std::index_sequence<kIs...> /*indices*/) {
-    static_assert((is_complete<std::variant_alternative_t<kIs, Effect::variant>>() && ...),
-                  "the law of an effect leaves out a text");
     (add<std::variant_alternative_t<kIs, Effect::variant>>(kIs), ...);
   }
 

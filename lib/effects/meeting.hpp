@@ -16,9 +16,7 @@ namespace supernormal::effects {
 /// the next one. Their middles stay outside.
 inline constexpr double kShallow = 0.5;
 
-/// With so many impacts in a step a body does not bounce in it: a light body between two heavy ones would bounce ever faster. Gases
-/// of bricks at 50 ms that change by more than 1 % in 2 s, of 60: 41 with 8, 1 with 16, 0 with 32 to 128. Bodies that a heavy one
-/// drives through a tube, of 1080: 57 pass and 3 gain energy with 16, 56 and 5 with 32, 36 and 7 with 64, 40 and 14 with 128.
+/// With so many impacts in a step a body does not bounce in it: a light body between two heavy ones would bounce ever faster.
 inline constexpr int kMostImpacts = 64;
 
 /// A body within a step. Its impacts move it and change its velocity before ODE does.
@@ -37,7 +35,6 @@ struct MovingBody {
   double time = 0;                             ///< s, of its last impact, from the start of the step
   int impacts = 0;
   int impacts_searched = 0;  ///< the impacts after which walls were searched
-  bool is_stopped = false;   ///< by a wall, after its impacts
   bool is_attached = false;  ///< whether a joint holds it in place: moved alone, it would violate the joint
 };
 

@@ -123,7 +123,7 @@ void SpeculativeSetup::run_impacts() {
     meeting(record).strike(*meeting(record).next_impact(), pushes_);
     ++record.impacts;
     for (const std::size_t body : {record.body1, record.body2}) {
-      for (const std::size_t other : records_of_[body]) expect(other);
+      std::ranges::for_each(records_of_[body], [&](std::size_t k) { expect(k); });
     }
   }
 }
@@ -131,9 +131,7 @@ void SpeculativeSetup::run_impacts() {
 /// Replaces the contacts of a pair whose bodies have had other impacts than those that the contacts were set up for.
 void SpeculativeSetup::exchange(std::size_t index) {
   const Record& record = records_[index];
-  const auto is_left_alone = [&](const MovingBody& body) {
-    return body.inverse_mass == 0 || (body.impacts == record.impacts && !body.is_stopped);
-  };
+  const auto is_left_alone = [&](const MovingBody& body) { return body.inverse_mass == 0 || body.impacts == record.impacts; };
   const Meeting now = meeting(record);
   if (is_left_alone(now.body1) && is_left_alone(now.body2)) return;
   const dBodyID one = now.body1.id, other = now.body2.id;
@@ -239,10 +237,10 @@ void SpeculativeSetup::find_walls(std::size_t index) {
 }
 
 /// Stops a body after its impacts at all walls together, those that the program has listed and those that were found. `bounces`:
-/// throws it back instead, once a step. Returns whether it has done so.
+/// throws it back instead. Returns whether it has done so.
 bool SpeculativeSetup::hold_at_walls(std::size_t index, bool bounces) {
   MovingBody& body = bodies_[index];
-  if (body.impacts == 0 || (bounces && body.is_stopped)) return false;
+  if (body.impacts == 0 || (bounces && body.impacts >= kMostImpacts)) return false;
   pushes_.clear();
   for (const std::size_t k : records_of_[index]) {
     if (const Meeting at = meeting(records_[k]); at.is_at_wall()) at.add_stops(bounces, pushes_);
@@ -251,11 +249,9 @@ bool SpeculativeSetup::hold_at_walls(std::size_t index, bool bounces) {
   if (change.isZero(0)) return false;
   for (const Push& push : pushes_) push.at->is_stop |= push.total > 0 || push.lacking > 0;
   body.velocity += change.head<3>();
-  body.is_stopped = true;
-  if (!bounces) return false;
   ++body.impacts;
-  for (const std::size_t k : records_of_[index]) expect(k);
-  return true;
+  if (bounces) std::ranges::for_each(records_of_[index], [&](std::size_t k) { expect(k); });
+  return bounces;
 }
 
 void SpeculativeSetup::resolve() {

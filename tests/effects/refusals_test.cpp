@@ -109,8 +109,10 @@ TEST_CASE("a refusal has its reason without the contacts that it is about") {
 TEST_CASE("every effect has a description") {
   CHECK(descriptions().size() == std::variant_size_v<Effect::variant>);
   for (const Description& description : descriptions()) {
-    CHECK_FALSE(std::string(description.name).empty());
-    CHECK_FALSE(std::string(description.source).empty());
+    for (const char* const text : {description.name, description.passes, description.source}) {
+      REQUIRE(text != nullptr);
+      CHECK_FALSE(std::string(text).empty());
+    }
   }
   const auto parameters_of = [](const Effect& effect) { return std::string(descriptions()[effect.index()].parameters); };
   CHECK(parameters_of(AnisotropicFriction{}) == "along, across [0, 100]; direction, of the body");
