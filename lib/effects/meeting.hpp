@@ -34,8 +34,9 @@ struct MovingBody {
   Vector3 gain = Vector3::Zero();              ///< m/s, by forces on this way
   double time = 0;                             ///< s, of its last impact, from the start of the step
   int impacts = 0;
-  int impacts_searched = 0;  ///< the impacts after which walls were searched
-  bool is_attached = false;  ///< whether a joint holds it in place: moved alone, it would violate the joint
+  bool is_thrown_back = false;  ///< by a wall, once a step: between two walls there would be no end
+  int impacts_searched = 0;     ///< the impacts after which walls were searched
+  bool is_attached = false;     ///< whether a joint holds it in place: moved alone, it would violate the joint
 };
 
 /// A contact at which two bodies may meet.

@@ -237,10 +237,10 @@ void SpeculativeSetup::find_walls(std::size_t index) {
 }
 
 /// Stops a body after its impacts at all walls together, those that the program has listed and those that were found. `bounces`:
-/// throws it back instead. Returns whether it has done so.
+/// throws it back instead, once a step. Returns whether it has done so.
 bool SpeculativeSetup::hold_at_walls(std::size_t index, bool bounces) {
   MovingBody& body = bodies_[index];
-  if (body.impacts == 0 || (bounces && body.impacts >= kMostImpacts)) return false;
+  if (body.impacts == 0 || (bounces && body.is_thrown_back)) return false;
   pushes_.clear();
   for (const std::size_t k : records_of_[index]) {
     if (const Meeting at = meeting(records_[k]); at.is_at_wall()) at.add_stops(bounces, pushes_);
@@ -250,6 +250,7 @@ bool SpeculativeSetup::hold_at_walls(std::size_t index, bool bounces) {
   for (const Push& push : pushes_) push.at->is_stop |= push.total > 0 || push.lacking > 0;
   body.velocity += change.head<3>();
   ++body.impacts;
+  body.is_thrown_back |= bounces;
   if (bounces) std::ranges::for_each(records_of_[index], [&](std::size_t k) { expect(k); });
   return bounces;
 }
