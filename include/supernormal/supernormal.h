@@ -152,11 +152,11 @@ SUPERNORMAL_ODE_API int snGeomTessellate(dGeomID geom, dReal chord_error, snMesh
 /** Frees the arrays and empties the mesh. Leaves an empty mesh, or NULL, unchanged. */
 SUPERNORMAL_ODE_API void snMeshRelease(snMesh* mesh);
 
-/** Mass, centre of mass and inertia of the homogeneous body, in the geom's frame. Exact for ellipsoids, superellipsoids and
- * superovoids. With rounding, or for a smooth user-defined body, it is quadrature to 1e-9. Quadrature does not see the volume
- * behind faces and edges: a body is refused if this is more than 1 % of its volume. density (kg/m^3) and total_mass (kg) in (0,
- * inf). A body whose centre of mass is not its origin, such as a superovoid, needs dMassTranslate and a geom offset before
- * dBodySetMass, as always in ODE. */
+/** Mass, centre of mass and inertia of the homogeneous body, in the geom's frame. Exact for ellipsoids, superellipsoids,
+ * superovoids and bodies with faces, also when these are rounded. Other rounded bodies and smooth user-defined ones are to 1e-9, by
+ * quadrature. Quadrature does not see the volume behind faces and edges: a body is refused if this is more than 1 % of its volume.
+ * density (kg/m^3) and total_mass (kg) in (0, inf). A body whose centre of mass is not its origin, such as a superovoid, needs
+ * dMassTranslate and a geom offset before dBodySetMass, as always in ODE. */
 SUPERNORMAL_ODE_API int snMassSet(dMass* mass, dReal density, dGeomID geom);
 /** The same for a body of the given total mass. */
 SUPERNORMAL_ODE_API int snMassSetTotal(dMass* mass, dReal total_mass, dGeomID geom);

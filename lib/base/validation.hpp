@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -58,6 +59,16 @@ inline Vector3 require_half_axes(const Vector3& half_axes) {
   const char* const names[] = {"half-axis a", "half-axis b", "half-axis c"};
   for (int axis = 0; axis < 3; ++axis) require_in(names[axis], half_axes[axis], kMinLength, kMaxLength, "m");
   return half_axes;
+}
+
+/// Throws std::domain_error if the volume of `what` is not known to 1 %. Quadrature samples normals, and those of faces and edges
+/// have measure zero, so their volume may be missing.
+inline void require_known(const MassProperties& mass, const std::string& what) {
+  constexpr double kMaxRelativeError = 0.01;
+  if (!(mass.relative_error > kMaxRelativeError)) return;
+  char numbers[64];
+  std::snprintf(numbers, sizeof numbers, "%.3g m^3, is uncertain by %.2g %%", mass.volume, 100 * mass.relative_error);
+  throw std::domain_error("the volume of " + what + ", " + numbers + ", but must be known to 1 %");
 }
 
 }  // namespace supernormal

@@ -61,6 +61,8 @@ bool ConvexHull::start() {
   if (height_of_d == 0) {
     add_face(0, b, c);
     add_face(0, c, b);
+    faces_[0].neighbours = {1, 1, 1};
+    faces_[1].neighbours = {0, 0, 0};
     return false;
   }
   const std::size_t left = height_of_d > 0 ? c : b;

@@ -37,6 +37,9 @@ class ConvexHull {
   /// The points, sorted, without repetitions, with the points inside the hull.
   std::span<const LatticePoint> points() const { return points_; }
 
+  /// A neighbour of a face.
+  const Face& face(std::size_t index) const { return faces_[index]; }
+
   /// Calls `visit(face)` for every triangle of the surface. For coplanar points these are both sides of each triangle; for
   /// collinear points there are none.
   template <typename Visit>

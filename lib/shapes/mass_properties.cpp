@@ -1,11 +1,15 @@
 #include "shapes/mass_properties.hpp"
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
 
+#include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/capsule.hpp"
+#include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
@@ -37,6 +41,20 @@ MassProperties swept_superovoid(const MassProperties& core, const Superovoid& sh
   return mass;
 }
 
+/// A cylinder whose rim is rounded: at the height L + z its radius is R + s, with s^2 = r^2 - z^2.
+MassProperties swept_cylinder(double R, double L, double r) {
+  constexpr double kPi = std::numbers::pi;
+  const double wide = (R + r) * (R + r);
+  // Integrals over z from 0 to r: of (R + s)^2, of z and z^2 times it, and of (R + s)^4.
+  const double square = r * (R * R + kPi / 2 * R * r + 2.0 / 3 * r * r);
+  const double first = r * r * (R * R / 2 + 2.0 / 3 * R * r + r * r / 4);
+  const double second = r * r * r * (R * R / 3 + kPi / 8 * R * r + 2.0 / 15 * r * r);
+  const double fourth = r * (R * R * (R * R + kPi * R * r + 4 * r * r) + r * r * r * (3 * kPi / 4 * R + 8.0 / 15 * r));
+  const double volume = 2 * kPi * (wide * L + square);
+  const double across = kPi / 2 * (wide * wide * L + fourth) / volume;
+  return symmetric(volume, {across, across, 2 * kPi * (wide * L * L * L / 3 + L * L * square + 2 * L * first + second) / volume});
+}
+
 /// A shared pointer that does not own the shape.
 std::shared_ptr<const Shape> borrowed(const Shape& shape) { return {std::shared_ptr<const Shape>(), &shape}; }
 
@@ -58,6 +76,18 @@ MassProperties swept(const Shape& core, double radius) {
   }
   if (const auto* superovoid = dynamic_cast<const Superovoid*>(&core)) {
     return swept_superovoid(core.mass_properties(), *superovoid, radius);
+  }
+  if (const auto* cylinder = dynamic_cast<const Cylinder*>(&core)) {
+    return swept_cylinder(cylinder->radius(), cylinder->half_length(), radius);
+  }
+  if (const auto* polytope = dynamic_cast<const Polytope*>(&core)) return swept_polytope(polytope->points(), radius);
+  if (const auto* box = dynamic_cast<const Box*>(&core)) {
+    std::array<Vector3, 8> corners;
+    for (unsigned i = 0; i < 8; ++i) {
+      corners[i] =
+          box->half_lengths().cwiseProduct(Vector3((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1, (i & 4U) != 0 ? 1 : -1));
+    }
+    return swept_polytope(corners, radius);
   }
   return quadrature_mass_properties(Rounded(borrowed(core), radius));
 }

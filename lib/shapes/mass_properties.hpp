@@ -1,6 +1,8 @@
 // Volume integrals that several shapes use.
 #pragma once
 
+#include <span>
+
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {
@@ -14,5 +16,9 @@ MassProperties quadrature_mass_properties(const Shape& shape);
 /// The mass properties of the layer that sweeping a superovoid by a sphere of `radius` (m) adds to it. The integrals run between
 /// the two boundaries.
 MassProperties superovoid_layer(const Superovoid& core, double radius);
+
+/// The mass properties of the hull of points (m), swept by a sphere of `radius` (m): see Polytope::mass_properties(). A hull
+/// without an area has none.
+MassProperties swept_polytope(std::span<const Vector3> points, double radius);
 
 }  // namespace supernormal

@@ -83,6 +83,9 @@ def test_inertia_is_about_the_centroid():
     assert ball.inertia == pytest.approx(0.4 * 4 * ball.volume * np.eye(3), rel=1e-14)
     assert sn.Box((1, 2, 3)).mass_properties().volume == pytest.approx(48)
     assert sn.Cylinder(1, 2).mass_properties().volume == pytest.approx(4 * pi)
+    assert sn.Rounded(sn.Box((1, 1, 1)), 1).mass_properties().volume == pytest.approx(32 + 6 * pi + 4 * pi / 3)
+    with pytest.raises(ValueError, match="of the shape, .* is uncertain by .* %, but must be known to 1 %"):
+        sn.MinkowskiSum(sn.Ellipsoid((1, 2, 1)), sn.Box((1, 1, 1))).mass_properties()
 
 
 def test_areas():

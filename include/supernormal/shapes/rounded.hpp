@@ -26,8 +26,8 @@ class SUPERNORMAL_API Rounded final : public Shape {
   double bounding_radius() const override { return core_->bounding_radius() + radius_; }
   double rolling_radius() const override { return core_->rolling_radius() + radius_; }
 
-  /// Accurate to 1e-11 for spheres, capsules, ellipsoids, superellipsoids and superovoids, swept once or repeatedly. Other shapes
-  /// use Shape::mass_properties(), which does not see flat faces: see relative_error there.
+  /// Accurate to 1e-11 for all shapes of the library but sums and linear images, swept once or repeatedly. Other shapes use
+  /// Shape::mass_properties(), which does not see flat faces: see relative_error there.
   MassProperties mass_properties() const override;
 
   const Shape& core() const { return *core_; }  ///< the shape without the rounding

@@ -3,6 +3,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/validation.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/support/last_error.hpp"
@@ -12,21 +13,13 @@
 namespace supernormal::ode {
 namespace {
 
-constexpr double kMaxRelativeError = 0.01;
-
 // Rounding error of a centre of mass by quadrature, in ulps of the largest half-extent. A few ulps are observed.
 constexpr double kCentroidUnits = 64;
 
 /// The volume integrals of a geom, which are accurate enough.
 MassProperties usable_integrals(const Shape& shape) {
   const MassProperties properties = shape.mass_properties();
-  // Quadrature samples normals. The normals of a user shape's faces and edges have measure zero, so their volume may be missing.
-  if (properties.relative_error > kMaxRelativeError) {
-    throw std::domain_error("the volume of the geom, " + to_text(properties.volume) + " m^3, is uncertain by " +
-                            to_text(100 * properties.relative_error) +
-                            " %, but must be known to 1 %: give ODE the mass of such a body by "
-                            "dMassSetParameters");
-  }
+  require_known(properties, "the geom (give ODE the mass of such a body by dMassSetParameters)");
   const bool finite = properties.centroid.allFinite() && properties.second_moment.allFinite();
   if (finite && properties.volume > 0 && std::isfinite(properties.volume)) return properties;
   throw std::invalid_argument("the volume of the geom is " + to_text(properties.volume) + " m^3, but must be in (0, inf)");

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "arrays.hpp"
+#include "base/validation.hpp"
 #include "bindings.hpp"
 #include "enums.hpp"
 #include "parallel_for.hpp"
@@ -146,10 +147,16 @@ void bind_shape_queries(py::class_<Shape, std::shared_ptr<Shape>>& shape) {
           "Rounded follows the parameters of its core.")
       .def("bounding_box", &bounding_box, py::arg("pose") = Pose(),
            "The smallest axis-aligned box in the world frame, m: (2, 3), its lower and its upper corner.")
-      .def("mass_properties", &Shape::mass_properties,
-           "Volume, centroid and second moments: in closed form if there is one, otherwise by quadrature over the normals.\n"
-           "The relative_error of the quadrature accounts for the volume behind flat faces.\n\n"
-           "Raises ValueError when the shape returns a number that is not finite.")
+      .def(
+          "mass_properties",
+          [](const Shape& self) {
+            const MassProperties mass = self.mass_properties();
+            require_known(mass, "the shape");
+            return mass;
+          },
+          "Volume, centroid and second moments: in closed form if there is one, otherwise by quadrature over the normals.\n\n"
+          "Raises ValueError when the quadrature misses more than 1 % of the volume, behind flat faces, or when the shape returns "
+          "a number that is not finite.")
       .def("surface_area", &surface_area, "m^2; accurate to 1e-3 for bodies with aspect ratios up to 5")
       .def(
           "projected_area",
