@@ -172,6 +172,10 @@ TEST_CASE("random pairs: no impact is missed, and a body that passes by has no c
     const BodyAhead body1 = moving(shape1, pose1, Vector3(-random.uniform(1, 80), 0, 0));
     const BodyAhead body2 = moving(shape2, pose2, Vector3(0, random.uniform(-5, 5), 0));
     const ContactManifold manifold = find(body1, body2);
+    const Pose far{pose1.position + 2 * Vector3::UnitX(), pose1.rotation};  // farther than they move in the step
+    const Proximity away = find_proximity(shape1, far, shape2, pose2);
+    CHECK(find_contacts_ahead(moving(shape1, far, body1.motion.velocity), body2, kTime, {}, away).deepest.evaluations ==
+          away.evaluations);
     double least = std::numeric_limits<double>::infinity();
     double last = 0;
     double deep = kTime;  // s; a time after the impact

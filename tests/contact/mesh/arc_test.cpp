@@ -4,11 +4,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <numbers>
 #include <vector>
 
+#include "supernormal/shapes/polytope.hpp"
 #include "support/draw.hpp"
 #include "support/mesh_samples.hpp"
 #include "support/relative.hpp"
@@ -105,6 +107,21 @@ TEST_CASE("a flat side across an edge touches in the point over the edge") {
   CHECK((found.normal - Vector3::UnitZ()).norm() < 1e-6);
   CHECK(found.point.x() == relative(0.3).epsilon(1e-6));
   CHECK(found.point.z() == relative(-0.5).epsilon(1e-6));
+}
+
+TEST_CASE("where the gap rises at both ends of an arc, the maximum before the lower end is found") {
+  // Two points, whose gaps are -cos(angle + 0.1) and -1.1 cos(angle - 1.1): from the first to the second they rise, fall, and rise
+  // again.
+  const Vector3 points[] = {{-std::cos(-0.1), -std::sin(-0.1), 0}, {-1.1 * std::cos(1.1), -1.1 * std::sin(1.1), 0}};
+  const Polytope body(points);
+  SupportProbe probe(body, Matrix3::Identity());
+  const Arc arc{.end = 1.2};
+  const ArcSample low = arc.sample(0, probe), high = arc.sample(arc.end, probe);
+  REQUIRE((low.slope > 0 && high.slope > 0 && high.gap < low.gap));
+  const ArcMaximum found = maximize_between(probe, arc, low, high, 1e-13, 1000);
+  const double equal = std::atan2(std::cos(0.1) - 1.1 * std::cos(1.1), std::sin(0.1) + 1.1 * std::sin(1.1));
+  CHECK(found.converged);
+  CHECK(found.gap == relative(-std::cos(equal + 0.1)).epsilon(1e-12));
 }
 
 TEST_CASE("a search of an arc that runs out of evaluations reports it") {
