@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <string>
 #include <supernormal/shapes/tessellation.hpp>
-#include <variant>
 #include <vector>
 
 #include "base/write_file.hpp"
@@ -179,8 +178,7 @@ void PovrayScene::finish(const std::string& /*summary*/) {
   for (std::size_t i = 0; i < contents_.walls.size(); ++i) {
     const WallPicture& wall = contents_.walls[i];
     const std::vector<Vector3>& last = vertices.emplace_back(vertices_of(wall, last_.wall_places[i], top));
-    const bool is_box = wall.name == "walls" && std::holds_alternative<Box>(contents_.scene->container);
-    if (is_box || wall.role == WallPicture::Role::Cell) held.insert(held.end(), last.begin(), last.end());
+    if (wall.name == "walls" || wall.role == WallPicture::Role::Cell) held.insert(held.end(), last.begin(), last.end());
   }
   const Camera camera = camera_on(last_, radius, held);
   // A ray passes more walls than POV-Ray's default of five; beyond them the picture would be black.

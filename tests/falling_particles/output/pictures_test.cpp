@@ -74,12 +74,17 @@ Vector3 corner_at(std::size_t index) {
 /// Writes the frames in one format and gives the folder to look at.
 class Written {
  public:
-  explicit Written(std::string_view format, const std::vector<double>& scales = {})
+  explicit Written(std::string_view format, const std::vector<double>& scales = {}, const Container& container = Box{{0.1, 0.1}})
       : scene_(scene_of_two_kinds()), out_(folder_.path(), "pictures", result_names()) {
+    scene_.container = container;
     const PictureFormat& found = *find_picture_format(format);
     const Contents contents{&scene_, {0, 1, 0, 1, 0}, walls_of_scene(scene_), scales};
     const std::unique_ptr<Picture> picture = found.make(out_, found, contents);
-    for (std::size_t index = 0; index < kFrames; ++index) picture->add(frame_at(index));
+    for (std::size_t index = 0; index < kFrames; ++index) {
+      Frame frame = frame_at(index);
+      frame.wall_places.insert(frame.wall_places.begin(), contents.walls.size() - frame.wall_places.size(), WallPlace{});
+      picture->add(frame);
+    }
     picture->finish(kSummary);
     for (const std::string_view file : found.files) CHECK(std::filesystem::exists(out_.file(std::string(file))));
   }
@@ -328,6 +333,29 @@ TEST_CASE("povray: a box has walls and edges, but none in front of the grains, a
   CHECK(unit * written.scene().smallest_half_axis() == doctest::Approx(10));
   CHECK(count_of(text, "scale Unit") ==
         count_of(text, "object { Kind") + count_of(text, "cylinder {") + count_of(text, "\nmesh {"));
+}
+
+TEST_CASE("povray: the walls of a box and of a hopper's tray are in the picture") {
+  for (const Container& container : {Container(Box{{0.1, 0.1}}), Container(Hopper{0.05, 30, 0.1, 0.1, 12, 0.05, 0.15, 0})}) {
+    const std::string text = Written("povray", {}, container).text("still.pov");
+    const auto read = [&text](std::size_t after, const char* name, const char* format) {
+      Vector3 v = Vector3::Zero();
+      std::sscanf(text.c_str() + text.find(name, after), format, &v[0], &v[1], &v[2]);
+      return v;
+    };
+    const Vector3 eye = read(0, "location", "location Unit * <%lf, %lf, %lf>");
+    const Vector3 back = (eye - read(0, "look_at", "look_at Unit * <%lf, %lf, %lf>")).normalized();
+    const Vector3 high = read(0, "max(", "max(%lf, %lf"), right = Vector3::UnitZ().cross(back).normalized();
+    const std::size_t walls = text.find("// walls");
+    int corners = 0;
+    for (std::size_t at = text.find("cylinder {", walls); at < text.find("// ", walls + 3); at = text.find("cylinder {", at + 1)) {
+      const Vector3 to = read(at, "cylinder", "cylinder { <%lf, %lf, %lf>") - eye;
+      CHECK(std::abs(to.dot(right)) <= -to.dot(back) * high[1] * (1 + 1e-12));
+      CHECK(std::abs(to.dot(back.cross(right))) <= -to.dot(back) * high[0] * (1 + 1e-12));
+      ++corners;
+    }
+    CHECK(corners == 8);
+  }
 }
 
 TEST_CASE("pictures show each body at its own size") {
