@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "observe/wall_mesh.hpp"
+#include "world/bonds.hpp"
 #include "world/grain.hpp"
 #include "world/stepper.hpp"
 #include "world/world.hpp"
@@ -139,6 +140,12 @@ void add_new_grains(Contents& contents, const World& world) {
     contents.kind_of_grain.push_back(contents.scene->kind_of(*world.grains()[i].kind));
     if (contents.scene->has_sizes()) contents.scale_of_grain.push_back(world.grains()[i].scale);
   }
+  if (world.bonds() == nullptr) return;
+  std::vector<BondPicture> all;
+  for (const Bond& bond : world.bonds()->all()) all.push_back({bond.first, bond.second});
+  for (const BondBreak& failure : world.bonds()->breaks()) all[failure.bond].until = failure.time;
+  std::erase_if(all, [](const BondPicture& bond) { return bond.first == Bond::kPart || bond.second == Bond::kPart; });
+  contents.bonds = std::move(all);
 }
 
 Frame frame_of(double time, const Energy& energy, const Contents& contents, const World& world, const Stepper* stepper,

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -74,12 +75,20 @@ struct Extent {
 /// The smallest box around spheres of `radius` (m) about the present grains; about the origin if there are none.
 Extent extent_of(const Frame& frame, double radius);
 
-/// The data of a run that do not change from frame to frame, except that inserted grains are appended. The scene must outlive it.
+/// A bond of two grains: a line between their centres.
+struct BondPicture {
+  std::size_t first, second;                               ///< indices of the grains
+  double until = std::numeric_limits<double>::infinity();  ///< s, when it broke
+};
+
+/// The data of a run that do not change from frame to frame, except that inserted grains are appended and bonds break. The scene
+/// must outlive it.
 struct Contents {
   const Scene* scene;
   std::vector<std::size_t> kind_of_grain;   ///< index into scene->kinds, for all grains so far
   std::vector<WallPicture> walls = {};      ///< of the container, then of Scene::parts()
   std::vector<double> scale_of_grain = {};  ///< factors on the grains' lengths; empty if all are 1
+  std::vector<BondPicture> bonds = {};      ///< of grains with grains
 
   const GrainKind& kind(std::size_t grain) const { return scene->kinds[kind_of_grain[grain]].kind; }
   double scale(std::size_t grain) const { return scale_of_grain.empty() ? 1 : scale_of_grain[grain]; }
@@ -92,7 +101,7 @@ Contents contents_of(const World& world, const Scene& scene, double top);
 /// Of a run that has not started.
 Contents contents_of(const World& world, const Scene& scene);
 
-/// Appends the grains that were inserted since the last call.
+/// Appends the grains that were inserted since the last call, and says which bonds have broken.
 void add_new_grains(Contents& contents, const World& world);
 
 /// `stepper`: null before the first step. `with_forces`: shows the contacts with their forces, if the step measured them.

@@ -2,6 +2,7 @@
 
 #include <tiny_gltf.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -17,6 +18,7 @@
 #include "frame.hpp"
 #include "model/grain_shape.hpp"
 #include "picture.hpp"
+#include "world/grain.hpp"
 
 namespace falling_particles {
 namespace {
@@ -24,6 +26,7 @@ namespace {
 /// scene.glb: glTF 2.0, binary. It has a mesh per kind of grain with smooth normals. Each grain is a node, in the order of the
 /// indices, with the mesh of its kind and a scale for its size. The translations and rotations of moving grains are animated;
 /// absent grains have scale 0. Each wall is a node, which is scaled when it changes. A root node rotates the z-axis upwards.
+/// A bond is a node with a line of length 1 from the centre of a grain along z, turned and scaled to the centre of the other.
 /// A wall has the colours and numbers of the first field with numbers on it, at the end of the run.
 /// Lengths are in m. The file is written at the end of a run; until then a grain needs 28 bytes per frame.
 class SceneGlb final : public Picture {
@@ -51,11 +54,14 @@ class SceneGlb final : public Picture {
   std::vector<float> times_;
   std::vector<Track> grains_;
   std::vector<Track> walls_;           // of the walls
+  std::vector<Track> bonds_;           // of the bonds
   std::vector<TriangleField> fields_;  // of the last frame
 };
 
 // Relative to the smallest half-axis of a grain: most grains have a few hundred triangles and no visible edges.
 constexpr double kAnimationChordError = 0.02;
+
+constexpr std::array<double, 4> kBondColour = {0.6, 0.02, 0.1, 1};  // linear
 
 constexpr std::array<double, 4> kWallColour = {0.25, 0.3, 0.37, 0.16};  // linear, and transparent
 
@@ -68,6 +74,8 @@ class Builder {
     model_.buffers.resize(1);
     for (std::size_t index = 0; index < contents.scene->kinds.size(); ++index) add_kind(contents.scene->kinds[index].kind, index);
     for (std::size_t wall = 0; wall < contents.walls.size(); ++wall) add_wall(contents.walls[wall], field_on(wall, fields));
+    if (!contents.bonds.empty())
+      add_wall({"bond", WallPicture::Role::Still, {{{0, 0, 0}, {0, 0, 1}}, {}}, {{0, 1}}}, {}, kBondColour);
     add_nodes(contents);
   }
 
@@ -220,7 +228,7 @@ class Builder {
   }
 
   /// Adds a wall: transparent triangles, and edges as lines. Viewers compute flat normals for triangles without normals.
-  void add_wall(const WallPicture& wall, const WallField& field) {
+  void add_wall(const WallPicture& wall, const WallField& field, const std::array<double, 4>& colour = kWallColour) {
     tinygltf::Mesh mesh;
     mesh.name = wall.name;
     const int positions = add_points(wall.mesh.vertices);
@@ -235,7 +243,7 @@ class Builder {
     };
     if (field.numbers.empty()) add(wall.mesh.triangles, TINYGLTF_MODE_TRIANGLES);
     add(wall.edges, TINYGLTF_MODE_LINE);
-    add_wall_material(wall.name, kWallColour);
+    add_wall_material(wall.name, colour);
     if (!field.numbers.empty()) add_coloured(wall, field, mesh);
     model_.meshes.push_back(std::move(mesh));
   }
@@ -293,7 +301,7 @@ class Builder {
     model_.materials.push_back(std::move(material));
   }
 
-  /// Adds a node per grain, then a node per wall, then the root above them.
+  /// Adds a node per grain, then a node per wall, then a node per bond, then the root above them.
   void add_nodes(const Contents& contents) {
     tinygltf::Node root;
     root.name = contents.scene->name;
@@ -306,10 +314,11 @@ class Builder {
       model_.nodes.push_back(std::move(node));
       root.children.push_back(static_cast<int>(grain));
     }
-    for (std::size_t wall = 0; wall < contents.walls.size(); ++wall) {
+    for (std::size_t k = 0; k < contents.walls.size() + contents.bonds.size(); ++k) {
+      const std::size_t mesh = std::min(k, contents.walls.size());  // all bonds have one
       tinygltf::Node node;
-      node.name = contents.walls[wall].name;
-      node.mesh = static_cast<int>(contents.scene->kinds.size() + wall);
+      node.name = k < contents.walls.size() ? contents.walls[k].name : "bond " + std::to_string(k - mesh);
+      node.mesh = static_cast<int>(contents.scene->kinds.size() + mesh);
       root.children.push_back(static_cast<int>(model_.nodes.size()));
       model_.nodes.push_back(std::move(node));
     }
@@ -371,6 +380,18 @@ void SceneGlb::add(const Frame& frame) {
     walls_[wall].add(place.position, place.quaternion, place.scale);
   }
   fields_ = frame.fields;
+  bonds_.resize(contents_.bonds.size());
+  for (std::size_t k = 0; k < bonds_.size(); ++k) {
+    const auto& [first, second, until] = contents_.bonds[k];
+    if (until <= frame.time) {
+      bonds_[k].repeat_last(0);
+      continue;
+    }
+    const Point& from = frame.grains[first].position;
+    const Vector3 along = to_vector(frame.grains[second].position) - to_vector(from);
+    const auto turn = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), along);
+    bonds_[k].add(from, {turn.w(), turn.x(), turn.y(), turn.z()}, along.norm());
+  }
 }
 
 void SceneGlb::add_grain(std::size_t grain, const GrainState& state) {
@@ -387,7 +408,7 @@ void SceneGlb::add_grain(std::size_t grain, const GrainState& state) {
 void SceneGlb::finish(const std::string& /*summary*/) {
   Builder builder(contents_, fields_);
   std::size_t node = 0;
-  for (const std::vector<Track>* tracks : {&grains_, &walls_}) {
+  for (const std::vector<Track>* tracks : {&grains_, &walls_, &bonds_}) {
     for (const Track& track : *tracks) {
       builder.place(node++, std::span(track.translations).first(3), std::span(track.rotations).first(4));
     }
@@ -398,14 +419,17 @@ void SceneGlb::finish(const std::string& /*summary*/) {
   for (std::size_t grain = 0; grain < grains_.size(); ++grain) {
     if (grains_[grain].scales.front() == 0) builder.scale(grain, std::span(grains_[grain].scales).first(3));
   }
+  const std::size_t first_bond = grains_.size() + walls_.size();
+  for (std::size_t k = 0; k < bonds_.size(); ++k) builder.scale(first_bond + k, std::span(bonds_[k].scales).first(3));
   if (times_.size() > 1) {
     builder.start_animation(times_);
     node = 0;
-    for (const std::vector<Track>* tracks : {&grains_, &walls_}) {
+    for (const std::vector<Track>* tracks : {&grains_, &walls_, &bonds_}) {
       for (const Track& track : *tracks) builder.move(node++, track.translations, track.rotations);
     }
     for (std::size_t wall = 0; wall < walls_.size(); ++wall) builder.resize(grains_.size() + wall, walls_[wall].scales);
     for (std::size_t grain = 0; grain < grains_.size(); ++grain) builder.resize(grain, grains_[grain].scales);
+    for (std::size_t k = 0; k < bonds_.size(); ++k) builder.resize(first_bond + k, bonds_[k].scales);
     builder.end_animation();
   }
   builder.write(path_);

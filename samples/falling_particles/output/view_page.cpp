@@ -169,6 +169,13 @@ void ViewPage::finish(const std::string& summary) {
   if (!contents_.scale_of_grain.empty()) {
     run["scales"] = packed(std::vector<float>(contents_.scale_of_grain.begin(), contents_.scale_of_grain.end()));
   }
+  std::vector<std::uint32_t> bonded;
+  std::vector<float> until;
+  for (const BondPicture& bond : contents_.bonds) {
+    bonded.insert(bonded.end(), {static_cast<std::uint32_t>(bond.first), static_cast<std::uint32_t>(bond.second)});
+    until.push_back(static_cast<float>(bond.until));
+  }
+  run["bonds"] = {{"bodies", packed(bonded)}, {"until", packed(until)}};
   for (const WallPicture& wall : contents_.walls) run["parts"].push_back(describe(wall));
   std::vector<std::string> contacts;
   for (PackedContacts::Packed& packed : contacts_.texts()) {

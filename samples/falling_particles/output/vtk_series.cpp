@@ -17,15 +17,15 @@
 namespace falling_particles {
 namespace {
 
-/// grains.pvd, contacts.pvd and container.pvd list the files of every frame in the folder vtk. These are in VTK's XML format for
-/// points, lines and polygons, as text.
+/// grains.pvd, contacts.pvd, container.pvd and, in a scene with bonds, bonds.pvd list the files of every frame in the folder vtk.
+/// These are in VTK's XML format for points, lines and polygons, as text.
 ///
 /// A grain is a point with its kind (from 0, in the order of the scene file), quaternion (w, x, y, z), half-axes (m), exponents
 /// (delta, epsilon), rounding (m), velocity (m/s) and angular velocity (rad/s). A compound has a point per component. A capsule
 /// is the ellipsoid of its size. In scenes with compounds, feeders or sinks, `grain` is the index of the point's grain. Absent
 /// grains are left out. A contact is a point with its normal (unit, towards grain 1), depth (m) and the two grains (-1: a wall). If
 /// the scene requests forces, it has the force on grain 1 (N). The container's triangles face the grains, and have the
-/// fields of measurements; there is a new file whenever a wall has changed.
+/// fields of measurements; there is a new file whenever a wall has changed. A bond is a line between the centres of its grains.
 class VtkSeries final : public Picture {
  public:
   VtkSeries(const OutputFolder& folder, const Contents& contents);
@@ -38,12 +38,12 @@ class VtkSeries final : public Picture {
   static void list(std::string& entries, double time, const std::string& name);
   std::string grains_of(const Frame& frame) const;
 
-  std::filesystem::path grains_file_, contacts_file_, container_file_, frames_folder_;
+  std::filesystem::path grains_file_, contacts_file_, container_file_, bonds_file_, frames_folder_;
   const Contents& contents_;
-  std::string grains_, contacts_, containers_;  // entries of the lists
-  std::string container_;                       // the latest file of the container
-  std::vector<WallPlace> wall_places_;          // of the walls in this file
-  std::vector<TriangleField> fields_;           // on the walls in this file
+  std::string grains_, contacts_, containers_, bonds_;  // entries of the lists
+  std::string container_;                               // the latest file of the container
+  std::vector<WallPlace> wall_places_;                  // of the walls in this file
+  std::vector<TriangleField> fields_;                   // on the walls in this file
   int frames_ = 0;
 };
 
@@ -118,6 +118,21 @@ std::string container_of(const std::vector<WallPicture>& walls, const Frame& fra
                        cells("Lines", edges) + cells("Polys", triangles));
 }
 
+/// The bonds that are not broken.
+std::string bonds_of(const Frame& frame, const std::vector<BondPicture>& bonds) {
+  std::vector<Point> points;
+  std::vector<std::array<unsigned int, 2>> lines;
+  for (const auto& [first, second, until] : bonds) {
+    if (until <= frame.time) continue;
+    const auto next = static_cast<unsigned int>(points.size());
+    lines.push_back({next, next + 1});
+    points.insert(points.end(), {frame.grains[first].position, frame.grains[second].position});
+  }
+  return poly_data(points.size(), {0, lines.size(), 0},
+                   "<Points>\n" + array("position", "Float64", points.size(), [&](std::size_t k) { return points[k]; }) +
+                       "</Points>\n" + cells("Lines", lines));
+}
+
 std::string contacts_of(const Frame& frame, bool has_forces) {
   const std::size_t count = frame.contacts.size();
   const auto& contacts = frame.contacts;
@@ -142,6 +157,7 @@ VtkSeries::VtkSeries(const OutputFolder& folder, const Contents& contents)
     : grains_file_(folder.file("grains.pvd")),
       contacts_file_(folder.file("contacts.pvd")),
       container_file_(folder.file("container.pvd")),
+      bonds_file_(folder.file("bonds.pvd")),
       frames_folder_(folder.file(std::string(kVtkFolder))),
       contents_(contents) {
   create_folder(frames_folder_);
@@ -150,6 +166,7 @@ VtkSeries::VtkSeries(const OutputFolder& folder, const Contents& contents)
 void VtkSeries::add(const Frame& frame) {
   list(grains_, frame.time, write("grains", grains_of(frame)));
   list(contacts_, frame.time, write("contacts", contacts_of(frame, contents_.scene->forces)));
+  if (!contents_.bonds.empty()) list(bonds_, frame.time, write("bonds", bonds_of(frame, contents_.bonds)));
   if (frames_ == 0 || frame.wall_places != wall_places_ || frame.fields != fields_) {
     container_ = write("container", container_of(contents_.walls, frame));
   }
@@ -163,6 +180,7 @@ void VtkSeries::finish(const std::string& /*summary*/) {
   write_list(grains_file_, grains_);
   write_list(contacts_file_, contacts_);
   write_list(container_file_, containers_);
+  if (!bonds_.empty()) write_list(bonds_file_, bonds_);
 }
 
 std::string VtkSeries::write(std::string_view what, const std::string& text) const {
@@ -197,7 +215,7 @@ std::string VtkSeries::grains_of(const Frame& frame) const {
 
 PictureFormat vtk_format() {
   return {"vtk",
-          {"grains.pvd", "contacts.pvd", "container.pvd", kVtkFolder},
+          {"grains.pvd", "contacts.pvd", "container.pvd", "bonds.pvd", kVtkFolder},
           [](const OutputFolder& folder, const PictureFormat&, const Contents& contents) -> std::unique_ptr<Picture> {
             return std::make_unique<VtkSeries>(folder, contents);
           }};

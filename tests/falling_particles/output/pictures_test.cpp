@@ -74,11 +74,12 @@ Vector3 corner_at(std::size_t index) {
 /// Writes the frames in one format and gives the folder to look at.
 class Written {
  public:
-  explicit Written(std::string_view format, const std::vector<double>& scales = {}, const Container& container = Box{{0.1, 0.1}})
+  explicit Written(std::string_view format, const std::vector<double>& scales = {}, const Container& container = Box{{0.1, 0.1}},
+                   const std::vector<BondPicture>& bonds = {})
       : scene_(scene_of_two_kinds()), out_(folder_.path(), "pictures", result_names()) {
     scene_.container = container;
     const PictureFormat& found = *find_picture_format(format);
-    const Contents contents{&scene_, {0, 1, 0, 1, 0}, walls_of_scene(scene_), scales};
+    const Contents contents{&scene_, {0, 1, 0, 1, 0}, walls_of_scene(scene_), scales, bonds};
     const std::unique_ptr<Picture> picture = found.make(out_, found, contents);
     for (std::size_t index = 0; index < kFrames; ++index) {
       Frame frame = frame_at(index);
@@ -86,7 +87,9 @@ class Written {
       picture->add(frame);
     }
     picture->finish(kSummary);
-    for (const std::string_view file : found.files) CHECK(std::filesystem::exists(out_.file(std::string(file))));
+    for (const std::string_view file : found.files) {
+      CHECK(std::filesystem::exists(out_.file(std::string(file))) == (file != "bonds.pvd" || !bonds.empty()));
+    }
   }
   std::string path(const std::string& name) const { return out_.file(name).string(); }
   std::string text(const std::string& name) const {
@@ -229,6 +232,42 @@ TEST_CASE("page: what it needs is in it, and names cannot end a script") {
   const std::size_t bodies = text.find("id=\"bodies\">\n");
   const std::string lines = text.substr(bodies, text.find("</script>", bodies) - bodies);
   CHECK(count_of(lines, "\n") == kFrames + 1);
+}
+
+TEST_CASE("bonds are lines between the centres of grains, until they break") {
+  const std::vector<BondPicture> bonds = {{0, 1}, {2, 3, 0.15}};
+  const Written series("vtk", {}, Box{{0.1, 0.1}}, bonds), animation("glb", {}, Box{{0.1, 0.1}}, bonds);
+  CHECK(count_of(series.text("bonds.pvd"), "<DataSet ") == kFrames);
+  CHECK(series.text("vtk/bonds_000001.vtp").find("NumberOfLines=\"2\"") != std::string::npos);
+  CHECK(series.text("vtk/bonds_000002.vtp").find("NumberOfLines=\"1\"") != std::string::npos);
+  CHECK(Written("page", {}, Box{{0.1, 0.1}}, bonds).text("view.html").find(R"("bodies":"AAAAAAEAAAACAAAAAwAAAA==")") !=
+        std::string::npos);
+  tinygltf::Model model;
+  std::string error, warning;
+  REQUIRE(tinygltf::TinyGLTF().LoadBinaryFromFile(&model, &error, &warning, animation.path("scene.glb")));
+  CHECK((error + warning).empty());
+  REQUIRE(model.nodes.size() == kBodies + 3 + bonds.size() + 1);
+  REQUIRE(model.meshes.size() == 6);
+  CHECK(model.nodes[kBodies + 3].name == "bond 0");
+  CHECK(read(model, model.meshes[5].primitives[0].attributes.at("POSITION")) == std::vector<float>{0, 0, 0, 0, 0, 1});
+  const auto sampler = [&](std::size_t node, const std::string& path) {
+    const auto& channels = model.animations[0].channels;
+    const auto found = std::ranges::find_if(channels, [&](const tinygltf::AnimationChannel& channel) {
+      return channel.target_node == static_cast<int>(node) && channel.target_path == path;
+    });
+    REQUIRE(found != channels.end());
+    return read(model, model.animations[0].samplers[static_cast<std::size_t>(found->sampler)].output);
+  };
+  const std::size_t last = kBodies + 4;
+  const std::vector<float> from = sampler(last, "translation"), scales = sampler(last, "scale");
+  for (std::size_t index = 0; index < kFrames; ++index) {
+    const Frame frame = frame_at(index);
+    const bool is_broken = frame.time > 0.15;
+    const Point &a = frame.grains[2].position, &b = frame.grains[3].position;
+    const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+    CHECK(scales[3 * index + 2] == (is_broken ? 0 : static_cast<float>(length)));
+    if (!is_broken) CHECK(from[3 * index] == static_cast<float>(a[0]));
+  }
 }
 
 TEST_CASE("lammps: diameters, quaternions with w last, roundness") {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "observe/energy.hpp"
 #include "observe/measurement.hpp"
 #include "observe/simulation.hpp"
+#include "output/frame.hpp"
 #include "output/lammps_input.hpp"
 #include "scenes.hpp"
 #include "support/temporary_folder.hpp"
@@ -488,6 +490,11 @@ TEST_CASE("bonds: a sink that removes a grain removes its bonds") {
   CHECK(run.simulation.world.present().size() == 2);
   CHECK(run.bonds().intact() == 1);
   CHECK(run.cause(0) == "removed");
+  const Contents pictures = contents_of(run.simulation.world, run.scene);
+  REQUIRE(pictures.bonds.size() == 2);
+  CHECK((pictures.bonds[0].first == 0 && pictures.bonds[0].second == 1));
+  CHECK(pictures.bonds[0].until == std::numeric_limits<double>::infinity());
+  CHECK(pictures.bonds[1].until == run.bonds().breaks()[0].time);
 }
 
 TEST_CASE("bonds: a run goes on from final_state.csv and final_bonds.csv") {

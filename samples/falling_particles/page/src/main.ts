@@ -21,6 +21,7 @@ const markTitles: Record<MarkName, string> = {
   manifolds: "Outlines",
   forces: "Forces",
   boxes: "Boxes",
+  bonds: "Bonds",
 };
 
 class Page {
@@ -84,7 +85,7 @@ class Page {
       if (this.painter.colouring === "speed") this.paint();
       void this.readContacts();
     }
-    this.marks.update(this.contacts, this.picked);
+    this.marks.update(this.contacts, this.picked, this.player.time);
     this.panel.showBody(this.picked, nearest, this.contacts);
     this.stage.redraw();
   }
@@ -98,7 +99,7 @@ class Page {
     if (frame !== this.shownFrame) return; // the player went on
     this.contacts = contacts;
     if (this.painter.colouring === "contacts") this.paint();
-    this.marks.update(contacts, this.picked);
+    this.marks.update(contacts, this.picked, this.player.time);
     this.panel.showBody(this.picked, frame, contacts);
     this.stage.redraw();
   }
@@ -141,7 +142,7 @@ class Page {
     if (isOn) this.marks.shown.add(name);
     else this.marks.shown.delete(name);
     byId<HTMLInputElement>(`show-${name}`).checked = isOn;
-    this.marks.update(this.contacts, this.picked);
+    this.marks.update(this.contacts, this.picked, this.player.time);
     void this.readContacts();
     this.stage.redraw();
   }
@@ -172,9 +173,11 @@ class Page {
     colour.addEventListener("change", () => this.colourBy(colour.value as Colouring));
     this.colourBy("kind");
     for (const name of markNames) {
-      const isMissing = name === "forces" && !this.run.hasForces;
-      const why = isMissing ? 'The scene measures none; "forces = true" in its section [output] does.' : "";
-      this.addToggle(name, markTitles[name], false, (isOn) => this.toggle(name, isOn), why);
+      let why = "";
+      if (name === "forces" && !this.run.hasForces) why = 'The scene measures none; "forces = true" in its section [output] does.';
+      if (name === "bonds" && this.run.bonds.length === 0) why = "The scene has no bonds of grains.";
+      this.addToggle(name, markTitles[name], name === "bonds" && why === "", (isOn) => this.toggle(name, isOn), why);
+      if (name === "bonds" && why === "") this.marks.shown.add(name);
     }
     this.addToggle("through", "See through", false, (isOn) => this.seeThrough(isOn));
     this.addToggle("container", "Container", true, (isOn) => this.showContainer(isOn));

@@ -18,7 +18,7 @@ import type { Bodies } from "./bodies";
 import type { Contact, Contacts, Run } from "./run";
 import { support } from "./shape";
 
-export const markNames = ["contacts", "normals", "manifolds", "forces", "boxes"] as const;
+export const markNames = ["contacts", "normals", "manifolds", "forces", "boxes", "bonds"] as const;
 export type MarkName = (typeof markNames)[number];
 
 const contactColour = 0xb3001b;
@@ -26,6 +26,7 @@ const normalColour = 0x111827;
 const manifoldColour = 0xb3001b;
 const forceColour = 0xff2fa0; // neither on the ramp nor of a kind
 const boxColour = 0x4b5a6a;
+const bondColour = 0xb3001b;
 
 export class Marks {
   readonly shown = new Set<MarkName>();
@@ -42,17 +43,18 @@ export class Marks {
   }
 
   get needContacts(): boolean {
-    return markNames.some((name) => name !== "boxes" && this.shown.has(name));
+    return markNames.some((name) => name !== "boxes" && name !== "bonds" && this.shown.has(name));
   }
 
-  /** Draws what is to be shown; of a body's own when one is picked. */
-  update(contacts: Contacts | null, picked: number | null): void {
+  /** Draws what is to be shown at a time; of a body's own when one is picked. */
+  update(contacts: Contacts | null, picked: number | null, time: number): void {
     for (const object of this.drawn) {
       this.world.remove(object);
       (object as LineSegments).geometry.dispose();
     }
     this.drawn = [];
     if (this.shown.has("boxes")) this.drawBoxes(picked);
+    if (this.shown.has("bonds")) this.drawBonds(picked, time);
     if (contacts === null || !this.needContacts) return;
     const list = contacts.list.filter(({ bodies }) => picked === null || bodies.includes(picked));
     if (list.length === 0) return;
@@ -112,6 +114,12 @@ export class Marks {
     const bodies = picked === null ? this.bodies.poses.keys() : [picked];
     for (const body of bodies) if (this.bodies.isShown[body]) addBox(ends, this.middleOf(body), this.halfExtents(body));
     this.addLines(ends, boxColour);
+  }
+
+  /** Lines between the centres of bonded bodies. */
+  private drawBonds(picked: number | null, time: number): void {
+    const shown = this.run.bonds.filter(({ bodies, until }) => until > time && (picked === null || bodies.includes(picked)));
+    this.addLines(shown.flatMap(({ bodies }) => bodies.map((body) => this.bodies.poses[body].position)), bondColour);
   }
 
   private halfExtents(body: number): Vector3 {

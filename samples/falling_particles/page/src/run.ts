@@ -75,6 +75,7 @@ interface Description {
   scales?: string; // of the bodies' lengths; all are 1 without it
   bodyCounts?: number[]; // of each frame, where bodies come or go
   periods?: number[]; // m, along x, y and z, of a scene that repeats along some; 0 where it does not
+  bonds: { bodies: string; until: string }; // pairs of bodies; s, when each broke
   parts: { name: string; points: string; triangles: string; edges: string; moves: boolean }[];
   contacts: { frame: number; count: number; length: number }[];
 }
@@ -123,6 +124,11 @@ export class Run {
   readonly scaleOfBody = this.description.scales
     ? floats(this.description.scales)
     : new Float32Array(this.kindOfBody.length).fill(1);
+  private readonly bonded = indices(this.description.bonds.bodies);
+  readonly bonds = Array.from(floats(this.description.bonds.until), (until, k) => ({
+    bodies: [this.bonded[2 * k], this.bonded[2 * k + 1]] as [number, number],
+    until,
+  }));
   /** Those that have been unpacked. */
   readonly frames: Frame[] = [];
 
