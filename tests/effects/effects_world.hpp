@@ -109,6 +109,7 @@ class EffectsWorld {
   static void near_callback(void* self, dGeomID o1, dGeomID o2) { static_cast<EffectsWorld*>(self)->collide(o1, o2); }
 
   void collide(dGeomID o1, dGeomID o2) {
+    if (dGeomIsSpace(o1) != 0 || dGeomIsSpace(o2) != 0) return dSpaceCollide2(o1, o2, this, near_callback);
     std::array<dContact, kRoom> found{};
     const int count = dCollide(o1, o2, kRoom, &found[0].geom, sizeof(dContact));
     if (count == 0) return;

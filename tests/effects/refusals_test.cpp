@@ -132,10 +132,11 @@ TEST_CASE("an effect is read by the names of its parameters") {
   };
   CHECK(std::get<Friction>(read("friction", {{"coefficient", {0.4}}})).coefficient == 0.4);
   CHECK(std::get<Gravity>(read("gravity", {{"acceleration", {1, 2, 3}}})).acceleration == supernormal::Vector3(1, 2, 3));
-  const auto sleep = std::get<AutoDisable>(read("auto_disable", {{"linear", {0.5}}, {"samples", {7}}}));
+  const auto sleep = std::get<AutoDisable>(read("auto_disable", {{"linear", {0.5}}, {"samples", {7}}, {"time", {3}}}));
   CHECK(sleep.linear == 0.5);
   CHECK(sleep.angular == AutoDisable().angular);
   CHECK(sleep.samples == 7);
+  CHECK(sleep.time == 3);
   CHECK_THROWS_WITH_AS(read("auto_disable", {{"samples", {2.5}}}), "samples = 2.5, but must be a whole number",
                        std::invalid_argument);
   CHECK_THROWS_WITH_AS(read("gravity", {{"acceleration", {1, 2}}}), doctest::Contains("acceleration has 2 numbers; allowed: 3"),

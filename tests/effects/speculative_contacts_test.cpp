@@ -1,7 +1,9 @@
 // Contacts before overlap with each effect: closed forms at long steps, and no force before touch.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <numeric>
+#include <span>
 
 #include "effects/effects_world.hpp"
 #include "support/relative.hpp"
@@ -592,11 +594,13 @@ TEST_CASE("speculative contacts: a wall behind has the restitution of its own ma
   enum class Met { Now, Never, AtItsAddress };
   for (const Met met : {Met::Now, Met::Never, Met::AtItsAddress}) {
     for (const double e : {0.5, 0.8}) {
+      const bool is_nested = e == 0.8;  // in a space of its own
       CAPTURE(static_cast<int>(met));
       CAPTURE(e);
       const auto balls = fx::MaterialSelector::between(0, 0), wall = fx::MaterialSelector::between(0, 1);
       EffectsWorld scene({fx::Restitution{1, 0, balls}, fx::Restitution{e, 0, wall}, fx::SpeculativeContacts{}}, 0.01);
-      dGeomID plane = dCreatePlane(scene.world.space(), 0, 0, 1, 0);
+      const dSpaceID space = is_nested ? dSimpleSpaceCreate(scene.world.space()) : scene.world.space();
+      dGeomID plane = dCreatePlane(space, 0, 0, 1, 0);
       fx::Material of_plane = 1;
       scene.material_of = [&](dGeomID geom) { return geom == plane ? of_plane : 0; };
       const dBodyID low = scene.add_ball(kRadius, kDensity, {0, 0, 2 * kRadius});
@@ -607,7 +611,7 @@ TEST_CASE("speculative contacts: a wall behind has the restitution of its own ma
         scene.step();
         dBodySetPosition(other, 1, 0, 1);
         dGeomDestroy(plane);
-        plane = dCreatePlane(scene.world.space(), 0, 0, 1, 0);
+        plane = dCreatePlane(space, 0, 0, 1, 0);
         of_plane = 2;
       }
       throw_body(high, {0, 0, -kSpeed * kRadius / 0.01});
@@ -620,6 +624,22 @@ TEST_CASE("speculative contacts: a wall behind has the restitution of its own ma
       CHECK(height_of(low) > 0);
     }
   }
+}
+
+TEST_CASE("speculative contacts: a body that is removed between its contacts and the step meets nothing") {
+  EffectsWorld scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, 0.01);
+  const dGeomID floor = dCreatePlane(scene.world.space(), 0, 0, 1, 0);
+  const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, 1.5 * kRadius});
+  throw_body(ball, {0, 0, -2});
+  std::array<dContact, 8> contacts{};
+  const int count = dCollide(dBodyGetFirstGeom(ball), floor, 8, &contacts[0].geom, sizeof(dContact));
+  REQUIRE(count == 1);
+  scene.effects.set_up_contacts(std::span(contacts).first(1), 0, 0);
+  scene.effects.remove_body(ball);
+  scene.effects.apply_forces();
+  dWorldQuickStep(scene.id(), dReal(0.01));
+  CHECK(speed_up(ball) == -2);
+  CHECK(height_of(ball) == relative(1.5 * kRadius - 0.02).epsilon(within_rounding(1e-14)));
 }
 
 TEST_CASE("speculative contacts: a heavy body that drives a light one into the end of a tube gains no energy") {

@@ -98,9 +98,9 @@ void check_differences(dGeomID g1, dGeomID g2, const snDerivatives& found) {
     twist[j] = 1;
     const snProximity ahead = at(twist, h), behind = at(twist, -h);
     CAPTURE(j);
-    CHECK(std::abs((ahead.gap - behind.gap) / (2 * h) - found.gap[j]) <= 1e-6);
+    CHECK(std::abs((ahead.gap - behind.gap) / (2 * h) - found.gap[j]) <= 2e-7);
     const auto check = [&](const dReal* before, const dReal* after, const dReal(&rows)[3][12]) {
-      for (std::size_t i = 0; i < 3; ++i) CHECK(std::abs((after[i] - before[i]) / (2 * h) - rows[i][j]) <= 1e-3);
+      for (std::size_t i = 0; i < 3; ++i) CHECK(std::abs((after[i] - before[i]) / (2 * h) - rows[i][j]) <= 3e-5);
     };
     check(behind.normal, ahead.normal, found.normal);
     check(behind.point1, ahead.point1, found.point1);
@@ -114,7 +114,7 @@ void check_differences(dGeomID g1, dGeomID g2, const snDerivatives& found) {
   if (dGeomGetClass(g1) == dPlaneClass || dGeomGetClass(g2) == dPlaneClass) {
     const double step = 1e-3;  // the gap is exact
     const double middle = proximity_of(g1, g2).gap;
-    CHECK(std::abs((at(along, step).gap - 2 * middle + at(along, -step).gap) / (step * step) - second) <= 1e-4);
+    CHECK(std::abs((at(along, step).gap - 2 * middle + at(along, -step).gap) / (step * step) - second) <= 1e-5);
     return;
   }
   // The twists along one direction commute, so the gradient's derivative is the second derivative of the gap.
