@@ -51,6 +51,10 @@ TEST_CASE("is_farther_than: right for all kinds, and 1.2 evaluations at most whe
         ++all.pairs;
         all.evaluations += evaluations;
         all.wrong += is_farther != (fraction < 1);
+        // The normal gives the bound.
+        const double bound = normal.dot(pair.pose2.position) - pair.shape1->support(normal) -
+                             pair.shape2->support(-(pair.pose2.rotation.transpose() * normal));
+        if (is_farther) CHECK(bound >= fraction * answer.gap * (1 - 1e-12));
         if (fraction != 0.5 || is_near) continue;
         ++twice.pairs;
         twice.evaluations += evaluations;
