@@ -86,9 +86,14 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   lines.add("steps", std::to_string(forecast.steps) + " of " + shortest(scene.time.step) + " s, " +
                          counted(static_cast<std::size_t>(forecast.frames), "frame"));
   if (const auto& accuracy = scene.solver.stepper) {
-    lines.add("solver", "stepper: " + std::to_string(accuracy->least) + " to " + std::to_string(accuracy->most) +
-                            " sub-steps a step; at rest contacts overlap by up to " + shortest(accuracy->sag) +
-                            " of the least radius of gyration");
+    std::string solver = "stepper: " + std::to_string(accuracy->least) + " to " + std::to_string(accuracy->most) +
+                         " sub-steps a step; at rest contacts overlap by up to " + shortest(accuracy->sag) +
+                         " of the least radius of gyration";
+    if (const double longest = longest_step(scene, true); std::isfinite(longest)) {
+      solver += "; time.step up to " + rounded(longest) + " s would do, with quickstep up to " +
+                rounded(longest_step(scene, false)) + " s";
+    }
+    lines.add("solver", solver);
   }
   std::string grains = std::to_string(scene.grains_at_start()) + " at the start: " + kinds_of(scene);
   if (!scene.feeders.empty()) grains += "; up to " + std::to_string(forecast.most_grains) + " with those of the feeders";

@@ -21,6 +21,10 @@ struct Fall {
 /// periodic container, and where the container is open.
 std::optional<Fall> fall_from_start(const Scene& scene);
 
+/// s; with longer steps, beds of grains that look ahead, or do not, sink and shake. README.md, "Before a run", has the measurement.
+/// Infinite without gravity, and where springs or a compression act.
+double longest_step(const Scene& scene, bool looks_ahead);
+
 /// Whether an effect gives contacts a stiffness of their own.
 bool has_springs(const Scene& scene);
 

@@ -71,21 +71,16 @@ void add_fast(const std::string& who, double speed, const std::string& remedy, c
                    rounded(scene.smallest_half_axis() / speed) + " s would do");
 }
 
-// Adds a doubt about a step in which gravity moves grains so far from rest that their beds sink. README.md, "Before a run", has the
-// measurement. A start on a lattice without look-ahead has the doubt about its fall.
+// Adds a doubt about a step in which gravity moves grains so far from rest that their beds sink. A start on a lattice without
+// look-ahead has the doubt about its fall.
 void add_sinking(const Scene& scene, std::vector<std::string>& doubts) {
-  constexpr double kFar = 0.1;      // of the smallest half-axis; twice as far, beds sink by up to 0.2 of it
-  constexpr double kFarAhead = 10;  // the same for grains that look ahead, which sink by up to 0.12
-  const auto* const gravity = scene.gravity();
-  if (gravity == nullptr || has_springs(scene) || scene.compression) return;
+  const double longest = longest_step(scene, scene.looks_ahead());
+  if (scene.time.step <= longest) return;
   const std::optional<Fall> fall = fall_from_start(scene);
   if (!scene.looks_ahead() && fall && fall->way > scene.smallest_half_axis()) return;
-  const double acceleration = gravity->acceleration.norm();
-  const double way = acceleration * scene.time.step * scene.time.step;
-  const double most = (scene.looks_ahead() ? kFarAhead : kFar) * scene.smallest_half_axis();
-  if (way <= most) return;
+  const double way = scene.gravity()->acceleration.norm() * scene.time.step * scene.time.step;
   doubts.push_back("from rest, grains fall " + rounded(way) + " m in a step, " + in_half_axes(way, scene) +
-                   ": their beds sink and shake; time.step up to " + rounded(std::sqrt(most / acceleration)) + " s would do");
+                   ": their beds sink and shake; time.step up to " + rounded(longest) + " s would do");
 }
 
 /// m/s, of grains that meet, as far as it is known: of a fall from the start, of a state, and of feeders.
@@ -139,6 +134,14 @@ std::string in_half_axes(double way, const Scene& scene) {
 
 std::string moves_too_far(const std::string& who, double way, const Scene& scene) {
   return who + " " + rounded(way) + " m in a step, " + in_half_axes(way, scene) + ": it may pass through what is in its way; ";
+}
+
+double longest_step(const Scene& scene, bool looks_ahead) {
+  constexpr double kFar = 0.1;      // of the smallest half-axis; twice as far, beds sink by up to 0.2 of it
+  constexpr double kFarAhead = 10;  // the same for grains that look ahead, which sink by up to 0.12
+  const auto* const gravity = scene.gravity();
+  if (gravity == nullptr || has_springs(scene) || scene.compression) return INFINITY;
+  return std::sqrt((looks_ahead ? kFarAhead : kFar) * scene.smallest_half_axis() / gravity->acceleration.norm());
 }
 
 std::optional<Fall> fall_from_start(const Scene& scene) {

@@ -63,6 +63,14 @@ TEST_CASE("check: a forecast counts steps, frames, grains and samples") {
   }
 }
 
+TEST_CASE("check: the step that the stepper takes is proposed, beside quickstep's") {
+  const Scene scene = scene_of(kSceneText, {"solver={kind = \"stepper\"}"});
+  const double fall = scene.smallest_half_axis() / scene.gravity()->acceleration.norm();  // s^2
+  const std::string line = "time.step up to " + rounded(std::sqrt(10 * fall)) + " s would do, with quickstep up to " +
+                           rounded(std::sqrt(0.1 * fall)) + " s";
+  CHECK(describe(scene, forecast(scene)).find(line) != std::string::npos);
+}
+
 TEST_CASE("check: effects on walls are told from those among grains") {
   const Scene scene = scene_of(replaced(kSceneText, "coefficient = 0.4", "coefficient = 0.4\nwalls = 0.1") +
                                "[[part]]\nname = \"p\"\nshape = \"box\"\nsize = [0.01, 0.01, 0.01]\nposition = [0.02, 0.02, 0.5]\n"
