@@ -426,11 +426,11 @@ SUPERNORMAL_ODE_API void snStepperDestroy(snStepperID stepper);
  *
  * The stepper solves the enabled joints of its bodies with one another and with the world: ball, hinge, slider, universal and fixed
  * joints, with their motors, stops and feedback. ODE does not tell what a hinge, a slider or a fixed joint holds: that is how its
- * bodies are in the first step with it. They are taken anew if its axis or its bodies change. After dJointSetFixed of bodies that
- * were moved, make one step with the joint disabled, and one of its bodies kinematic: else it falls in this step. Do so, too, after
- * a joint was destroyed and another one made for the same bodies, which may have its address. ERP and the fudge factor are not
- * used. A body is moved by quickstep, with all that touch it or are joined to it, if it has another joint, or one whose CFM or stop
- * CFM is above the world's, that bounces, or that ties it to a body that was not added. */
+ * bodies are in the first step with it. They are taken anew if its axis or its bodies change, and if one
+ * of its bodies is removed and added again. Do that after dJointSetFixed of bodies that were moved, and after a joint was destroyed
+ * and another one made for the same bodies, which may have its address. ERP and the fudge factor are not used. A body is moved by
+ * quickstep, with all that touch it or are joined to it, if it has another joint, or one whose CFM or stop CFM is above the
+ * world's, that bounces, or that ties it to a body that was not added. */
 SUPERNORMAL_ODE_API int snStepperAddBody(snStepperID stepper, dBodyID body);
 
 /** The stepper leaves this body, and forgets the contacts that it was given with it. Call it before dBodyDestroy. Returns 1; 0 (and
@@ -455,7 +455,7 @@ SUPERNORMAL_ODE_API dReal snStepperStep(snStepperID stepper, dReal step);
 SUPERNORMAL_ODE_API int snStepperMoves(snStepperID stepper, dBodyID body);
 
 /** sag: the largest overlap of a contact at rest, relative to the least radius of gyration of its bodies, in [1e-12, 1]; default
- * 2e-3. least and most: sub-steps of a step, in [1, 1000000]; default 8 and 64. The loads decide between them. Returns 1; 0 (and
+ * 2e-3. least and most: sub-steps of a step, in [1, 1000000]; default 8 and 128. The loads decide between them. Returns 1; 0 (and
  * snLastError) if refused. */
 SUPERNORMAL_ODE_API int snStepperSetAccuracy(snStepperID stepper, dReal sag, int least, int most);
 

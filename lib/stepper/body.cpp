@@ -16,8 +16,9 @@ using ode::require_finite;
 using ode::to_real;
 using ode::to_vector;
 
-// A body this far off its path, relative to its size, asks for new contacts. Half as much: more calls; without: what a bullet
-// throws on passes a wall (README).
+// Relative to the size: a body that is this far off its path, and will be that far at the end of the step, asks for new contacts
+// (README). Without, what a bullet throws on passes a wall.
+constexpr double kOff = 0.1;
 constexpr double kFarOff = 0.25;
 constexpr double kFarTurned = 0.5;  // rad; the same for a body as long as twice its size
 
@@ -138,10 +139,11 @@ void Body::advance(double time) {
   if (is_followed) world_inverse_inertia = rotation * inverse_inertia_ * rotation.transpose();
 }
 
-bool Body::has_left_path(double time) const {
+bool Body::has_left_path(double time, double left) const {
   const Vector3 away = moved - time * first_velocity_ - 0.5 * time * time * acceleration_;
+  const Vector3 away_then = away + left * (velocity - first_velocity_ - time * acceleration_);
   const Vector3 rotated_away = rotated - time * first_angular_velocity_;
-  return away.squaredNorm() > kFarOff * kFarOff * size * size || rotated_away.squaredNorm() > kFarTurned * kFarTurned;
+  return (away.norm() > kOff * size && away_then.norm() > kFarOff * size) || rotated_away.norm() > kFarTurned;
 }
 
 void Body::watch(double time) {

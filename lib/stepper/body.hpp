@@ -42,9 +42,9 @@ struct Body {
   /// auto-disabling for as long as they say.
   void watch(double time);
 
-  /// Whether the body is far from the path that it had when the step began, `time` (s) ago, so that its contacts are no longer
-  /// those that it meets.
-  bool has_left_path(double time) const;
+  /// Whether the body will be far from the path that it had when the step began, `time` (s) ago, when it ends after `left` (s), so
+  /// that its contacts are no longer those that it meets.
+  bool has_left_path(double time, double left) const;
 
   bool is_dynamic() const { return inverse_mass > 0; }
 

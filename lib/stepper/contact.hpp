@@ -162,14 +162,22 @@ struct System {
   /// rad/s; of body 1 against body 2.
   Vector3 spin(const Link& link) const { return body1(link).angular_velocity - body2(link).angular_velocity; }
 
-  /// After the bodies have moved: the gap of the places that touched or were nearest when the step began. A kinematic body turns
-  /// below the place of the other body: what rides on it takes the velocity that it has there.
+  /// A kinematic body turns below the place of the other body: what rides on it takes the velocity that it has where the other one
+  /// will be in `time` (s). In a biased sweep that is half a sub-step, so that it follows the arc and not the tangent.
+  void ride(Contact& contact, double time) const {
+    if (contact.moving >= 0) return;
+    const Body& one = body1(contact);
+    const Body& two = body2(contact);
+    const Vector3 apart = one.centre() - two.centre() + time * (one.velocity - two.velocity);
+    if (!two.is_dynamic()) contact.arm2 = contact.arm1 + apart;
+    if (!one.is_dynamic()) contact.arm1 = contact.arm2 - apart;
+  }
+
+  /// After the bodies have moved: the gap of the places that touched or were nearest when the step began.
   void update_gap(Contact& contact) const {
     if (contact.moving >= 0) return;
     const Body& one = body1(contact);
     const Body& two = body2(contact);
-    if (!two.is_dynamic()) contact.arm2 = one.centre() + contact.arm1 - two.centre();
-    if (!one.is_dynamic()) contact.arm1 = two.centre() + contact.arm2 - one.centre();
     const Vector3 moved = one.moved - two.moved + one.rotated.cross(contact.arm1) - two.rotated.cross(contact.arm2);
     contact.gap = contact.first_gap + contact.normal().direction.dot(moved);
   }

@@ -81,13 +81,13 @@ struct Striker {
 }  // namespace
 
 void bounce(System& system, double time) {
+  if (!system.has_bounces) return;
   Striker striker{system, time};
-  bool has_bounced = system.has_bounces;
+  bool has_bounced = true;
   for (int round = 0; has_bounced && round < kMostRounds; ++round) {
     has_bounced = false;
     for (const Pair& pair : system.pairs) has_bounced = striker.strike(pair) || has_bounced;
   }
-  if (!system.has_bounces) return;
   for (Contact& contact : system.contacts) {
     const Surface& surface = contact.surface();
     contact.will_bounce = surface.bounce > 0 && striker.approach(contact) > surface.bounce_speed && !striker.meets(contact);

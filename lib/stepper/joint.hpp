@@ -88,6 +88,12 @@ class Joints {
   /// Lists in `system` the joints that it solves. Sets is_held of bodies that another joint holds, too.
   void read(System& system, const std::unordered_map<dBodyID, int>& indices);
 
+  /// Forgets the joints of a body, and so how its bodies were when they were set.
+  void forget(dBodyID body) {
+    std::erase_if(known_,
+                  [=](const auto& entry) { return entry.second.joint.body(0) == body || entry.second.joint.body(1) == body; });
+  }
+
   /// Enables or disables those of its joints that a predicate selects.
   template <typename Predicate>
   void enable(const Predicate& selects, bool is_enabled) const {

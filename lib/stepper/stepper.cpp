@@ -64,7 +64,7 @@ double Stepper::step(double time) {
     settings.is_last = made + 1 == count;
     sub_step(made++, settings);
     done = made < count ? made * sub_step_time : time;
-  } while (made < count && !has_left_path(done));
+  } while (made < count && !has_left_path(done, time - done));
   left_ = time - done;
   if (!system_.contacts.empty() || !system_.joints.empty()) sub_steps_.learn(system_, done);  // what sleeps keeps its stiffness
   // In a far shorter step than the last an impulse is no force that lasts: times the next step it would throw the bodies.
@@ -123,8 +123,8 @@ void Stepper::sub_step(int number, SweepSettings settings) {
   for (Joint* const joint : system_.joints) joint->count_forces();
 }
 
-bool Stepper::has_left_path(double time) const {
-  return std::ranges::any_of(system_.bodies, [&](const Body& body) { return body.is_touched && body.has_left_path(time); });
+bool Stepper::has_left_path(double time, double left) const {
+  return std::ranges::any_of(system_.bodies, [&](const Body& body) { return body.is_touched && body.has_left_path(time, left); });
 }
 
 void Stepper::read_bodies(bool is_rest) {
@@ -307,6 +307,7 @@ void Stepper::remove_body(dBodyID body) {
   system_.bodies.pop_back();
   indices_.erase(body);
   memory_.forget(body);
+  joints_.forget(body);
 }
 
 void Stepper::add_contact(const dContact& contact, dBodyID body1, dBodyID body2) {

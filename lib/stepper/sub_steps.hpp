@@ -12,7 +12,7 @@ namespace supernormal::stepper {
 struct Accuracy {
   double sag = 2e-3;  ///< the largest overlap of a contact at rest, relative to the size of its body (the least radius of gyration)
   int least = 8;      ///< sub-steps of a step
-  int most = 64;
+  int most = 128;
 };
 
 /// A tall stack of soft contacts buckles as a column does, so the stiffness follows the load: no contact may give way to the force
@@ -33,15 +33,16 @@ class SubSteps {
   void learn(const System& system, double time);
 
   /// s; what it knows, for a stepper that goes on from here.
-  using State = std::array<double, 4>;
-  State state() const { return {duration_, spring_, needed_, turning_}; }
-  void set(const State& state) { std::tie(duration_, spring_, needed_, turning_) = std::tuple_cat(state); }
+  using State = std::array<double, 5>;
+  State state() const { return {duration_, spring_, needed_, turning_, heaviest_}; }
+  void set(const State& state) { std::tie(duration_, spring_, needed_, turning_, heaviest_) = std::tuple_cat(state); }
 
  private:
   double duration_ = 0;  // s, of a sub-step, if the step is long enough; 0 before the first step
   double spring_ = 0;    // s
   double needed_ = 0;    // s; the longest sub-step for the forces of the last step
   double turning_ = 0;   // s; the longest sub-step for the contacts that move
+  double heaviest_ = 1;  // the mass of a body over the mass that a contact of it feels, the largest one
 };
 
 }  // namespace supernormal::stepper

@@ -152,8 +152,10 @@ class Sweeper {
 }  // namespace
 
 void sweep(System& system, const SweepSettings& settings) {
-  if (settings.kind == Sweep::Relaxing) {
-    for (Contact& contact : system.contacts) system.update_gap(contact);
+  const bool is_relaxing = settings.kind == Sweep::Relaxing;
+  for (Contact& contact : system.contacts) {
+    system.ride(contact, is_relaxing ? 0 : settings.time / 2);
+    if (is_relaxing) system.update_gap(contact);
   }
   for (Body& body : system.bodies) body.struck = 0;
   const Sweeper sweeper(system, settings);

@@ -177,6 +177,27 @@ TEST_CASE("a beam of bricks that are fixed to one another and to the world stays
   CHECK(double{told[0].f1[2]} == relative(6 * mass_of(beam[0]) * kGravity).epsilon(1e-4));
 }
 
+TEST_CASE("a body that is removed and added again has its joints taken anew, as after it was moved and fixed there") {
+  for (const bool is_same : {false, true}) {  // the joint; else another one, which may have its address
+    StepperWorld scene(0.01);
+    dWorldSetGravity(scene.world.id(), 0, 0, 0);
+    const dBodyID one = scene.add_brick(8, 1000, {0, 0, 0});
+    const dBodyID two = scene.add_brick(8, 1000, {0.3, 0, 0});
+    dJointID joint = nullptr;
+    for (const Vec& at : {Vec{0.3, 0, 0}, Vec{0.5, 0.2, 0.1}}) {
+      dBodySetPosition(two, dReal(at[0]), dReal(at[1]), dReal(at[2]));
+      if (joint != nullptr && !is_same) dJointDestroy(joint);
+      if (joint == nullptr || !is_same) joint = dJointCreateFixed(scene.world.id(), nullptr);
+      dJointAttach(joint, one, two);
+      dJointSetFixed(joint);
+      REQUIRE(snStepperRemoveBody(scene.stepper, two) == 1);
+      REQUIRE(snStepperAddBody(scene.stepper, two) == 1);
+      scene.run(0.2);
+      CHECK(norm(place_of(two) - place_of(one) - at) < 1e-12);
+    }
+  }
+}
+
 TEST_CASE("two shafts that a universal joint ties turn as Cardan's angles say") {
   constexpr double kBend = 0.5;
   for (const double step : {0.002, 0.01}) {
