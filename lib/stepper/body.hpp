@@ -47,6 +47,7 @@ struct Body {
   bool has_left_path(double time, double left) const;
 
   bool is_dynamic() const { return inverse_mass > 0; }
+  bool is_of_quickstep() const { return is_held && is_free; }
 
   /// m/s^2, of forces; 0 for what no force moves.
   Vector3 acceleration() const { return is_dynamic() ? acceleration_ : Vector3::Zero(); }

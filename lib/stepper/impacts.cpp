@@ -63,18 +63,16 @@ struct Striker {
   void rub(Contact& contact, double impact) {
     if (impact == 0) return;
     const Vector3 velocity = system.velocity(contact);
-    std::array<double, 2> impulses{};
-    double beyond = 0;
+    std::array<double, 2> impulses{}, limits{};
     for (std::size_t k = 0; k < 2; ++k) {
-      const double largest = contact.surface().friction[k].of_impact(impact);
-      if (largest == 0) continue;
+      limits[k] = contact.surface().friction[k].of_impact(impact);
+      if (limits[k] == 0) continue;
       impulses[k] = contact.tangent_mass * (contact.surface().motion[k + 1] - velocity.dot(contact.rows[k + 1].direction));
-      beyond += impulses[k] / largest * (impulses[k] / largest);
     }
-    const double factor = beyond > 1 ? 1 / std::sqrt(beyond) : 1;
-    system.push_across(contact, factor * impulses[0], factor * impulses[1]);
+    limit_to_ellipse(impulses, limits);
+    system.push_across(contact, impulses[0], impulses[1]);
     contact.impact += impact;
-    for (std::size_t k = 0; k < 2; ++k) contact.rows[k + 1].total += factor * impulses[k];
+    for (std::size_t k = 0; k < 2; ++k) contact.rows[k + 1].total += impulses[k];
   }
 };
 

@@ -91,7 +91,7 @@ void Joint::push(System& system, int row, double impulse) {
 }
 
 void Joint::solve(System& system, const SweepSettings& settings) {
-  const bool is_biased = settings.kind == Sweep::Biased;
+  const bool is_biased = settings.is_biased;
   const Softness softness = is_biased ? settings.softness : Softness();
   Rows missing = -velocities(system).head(held_);
   if (is_biased) missing += aim_ - softness.rate * error_;
@@ -112,12 +112,13 @@ void Joint::solve(System& system, const SweepSettings& settings) {
 /// N s or N m s; the motor has what force it needs, up to its largest one, and the stops are stronger.
 double Joint::impulse_of(const FreeAxis& axis, int row, double velocity, const SweepSettings& settings) const {
   const Row& at = rows_[std::size_t(row)];
-  const bool is_biased = settings.kind == Sweep::Biased;
-  const double strongest = axis.strongest * settings.time * (is_biased ? part_before : 1);
+  const double strongest = axis.strongest * settings.time * (settings.is_biased ? part_before : 1);
   const double free = velocity - at.mobility * at.impulse;
   const double motor = std::clamp((axis.speed - free) / at.mobility, -strongest, strongest);
   // What is apart from a stop may close the gap; an overlap is corrected.
-  const auto reach = [&](double gap) { return gap >= 0 ? gap / settings.time : is_biased ? settings.softness.rate * gap : 0; };
+  const auto reach = [&](double gap) {
+    return gap >= 0 ? gap / settings.time : settings.is_biased ? settings.softness.rate * gap : 0;
+  };
   const double lowest = axis.low > -kAny ? -reach(axis.position - axis.low) : -kAny;
   const double highest = axis.high < kAny ? reach(axis.high - axis.position) : kAny;
   return (std::clamp(free + at.mobility * motor, lowest, std::max(lowest, highest)) - free) / at.mobility;

@@ -64,7 +64,9 @@ double Stepper::step(double time) {
     settings.is_last = made + 1 == count;
     sub_step(made++, settings);
     done = made < count ? made * sub_step_time : time;
-  } while (made < count && !has_left_path(done, time - done));
+  } while (made < count && std::ranges::none_of(system_.bodies, [&](const Body& body) {
+             return body.is_touched && body.has_left_path(done, time - done);
+           }));
   left_ = time - done;
   if (!system_.contacts.empty() || !system_.joints.empty()) sub_steps_.learn(system_, done);  // what sleeps keeps its stiffness
   // In a far shorter step than the last an impulse is no force that lasts: times the next step it would throw the bodies.
@@ -113,7 +115,7 @@ void Stepper::sub_step(int number, SweepSettings settings) {
   for (Body& body : system_.bodies) body.apply_forces(time * (1 - body.part_before()));
   for (Contact& contact : system_.contacts) system_.push_after(contact);
   for (Joint* const joint : system_.joints) system_.push_after(*joint);
-  settings.kind = Sweep::Relaxing;
+  settings.is_biased = false;
   settings.is_backward = !settings.is_backward;
   settings.elapsed += time;
   sweep(system_, settings);
@@ -121,10 +123,6 @@ void Stepper::sub_step(int number, SweepSettings settings) {
     for (Row& row : contact.rows) row.total += row.impulse;
   }
   for (Joint* const joint : system_.joints) joint->count_forces();
-}
-
-bool Stepper::has_left_path(double time, double left) const {
-  return std::ranges::any_of(system_.bodies, [&](const Body& body) { return body.is_touched && body.has_left_path(time, left); });
 }
 
 void Stepper::read_bodies(bool is_rest) {
@@ -138,7 +136,7 @@ void Stepper::read_bodies(bool is_rest) {
   spread(&Body::is_awake, &Body::stirs);
   spread(&Body::is_held, &Body::is_free);
   for (Body& body : system_.bodies) {
-    if (!body.is_awake || (body.is_held && body.is_free)) body.hold_still();
+    if (!body.is_awake || body.is_of_quickstep()) body.hold_still();
   }
   std::erase_if(system_.joints,
                 [&](const Joint* joint) { return !body(joint->body1).is_dynamic() && !body(joint->body2).is_dynamic(); });
@@ -182,8 +180,9 @@ void Stepper::step_others(double planned, double time) {
     dBodyDisable(body.id);
     stopped_.push_back(body.id);
   }
-  const auto is_held = [&](int index) { return body(index).is_held && body(index).is_free; };
-  const auto ours = [&](const Joint& joint) { return !is_held(joint.body1) && !is_held(joint.body2); };
+  const auto ours = [&](const Joint& joint) {
+    return !body(joint.body1).is_of_quickstep() && !body(joint.body2).is_of_quickstep();
+  };
   joints_.enable(ours, false);  // quickstep would wake bodies along them
   dWorldQuickStep(world_.get(), ode::to_real(time));
   joints_.enable(ours, true);
@@ -197,10 +196,7 @@ void Stepper::step_others(double planned, double time) {
 }
 
 bool Stepper::is_of_quickstep(const Given& given) const {
-  if (given.body1 < 0 || given.body2 < 0) return false;
-  const Body& one = body(given.body1);
-  const Body& two = body(given.body2);
-  return (one.is_held && one.is_free) || (two.is_held && two.is_free);
+  return given.body1 >= 0 && given.body2 >= 0 && (body(given.body1).is_of_quickstep() || body(given.body2).is_of_quickstep());
 }
 
 // Bodies that touch one another sleep together.

@@ -54,7 +54,6 @@ class Stepper {
   void centre();
   void sub_step(int number, SweepSettings settings);
   void keep_forces(double time);
-  bool has_left_path(double time, double left) const;
   void step_others(double planned, double time);
   void let_sleep(double time);
 

@@ -19,18 +19,6 @@ double metric(double limit, double largest) {
   return limit == largest || std::isinf(largest) ? 1 : limit / largest * (limit / largest);
 }
 
-/// Scales the impulses into the ellipse of the limits; one that has no limit leaves the other alone.
-void limit(Pairwise& impulses, const Pairwise& limits) {
-  double beyond = 0;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const double part = impulses[k] == 0 ? 0 : impulses[k] / limits[k];
-    beyond += part * part;
-  }
-  if (beyond <= 1) return;
-  const double factor = 1 / std::sqrt(beyond);
-  for (std::size_t k = 0; k < 2; ++k) impulses[k] *= std::isinf(limits[k]) ? 1 : factor;
-}
-
 class Sweeper {
  public:
   Sweeper(System& system, const SweepSettings& settings) : system_(system), settings_(settings) {}
@@ -82,9 +70,9 @@ class Sweeper {
     if (gap > 0) {
       // What may bounce in the next sub-step keeps its velocity, and what may meet in the next step, which has other contacts: an
       // edge between two tiles is none there.
-      if (!is_biased() && row.impulse == 0 && (surface.bounce > 0 || settings_.is_last)) return false;
+      if (!settings_.is_biased && row.impulse == 0 && (surface.bounce > 0 || settings_.is_last)) return false;
       velocity += gap / settings_.time;
-    } else if (is_biased() || surface.cfm > 0) {
+    } else if (settings_.is_biased || surface.cfm > 0) {
       softness = *contact.softness;
       const double overlap = std::min(std::max(0.0, -gap - settings_.layer), softness.deepest * contact.size);
       velocity -= std::min(softness.rate * overlap, settings_.fastest_out);
@@ -103,8 +91,7 @@ class Sweeper {
     if (contact.is_idle()) return;
     const double normal = contact.normal().impulse;
     const Surface& surface = contact.surface();
-    const double time = is_biased() ? settings_.time * contact.part_before : settings_.time;
-    const Pairwise limits = {surface.friction[0].in(time, normal), surface.friction[1].in(time, normal)};
+    const Pairwise limits = {surface.friction[0].in(acting(contact), normal), surface.friction[1].in(acting(contact), normal)};
     const double largest = std::max(limits[0], limits[1]);
     double mass = contact.tangent_mass;
     if (surface.slips()) mass /= 1 + mass * std::max(surface.slip[0], surface.slip[1]) / settings_.time;
@@ -117,7 +104,7 @@ class Sweeper {
       if (surface.slips()) sliding += surface.slip[k] / settings_.time * (row.impulse + pending(row));
       impulses[k] = row.impulse - mass * metric(limits[k], largest) * sliding;
     }
-    limit(impulses, limits);
+    limit_to_ellipse(impulses, limits);
     system_.push_across(contact, impulses[0] - contact.rows[1].impulse, impulses[1] - contact.rows[2].impulse);
     for (std::size_t k = 0; k < 2; ++k) contact.rows[k + 1].impulse = impulses[k];
   }
@@ -125,24 +112,24 @@ class Sweeper {
   void solve_rolling(const Contact& contact) const {
     Rolling* const torques = system_.rolling_of(contact);
     if (torques == nullptr) return;
-    const double time = is_biased() ? settings_.time * contact.part_before : settings_.time;
     for (std::size_t k = 0; k < 3; ++k) {
       Row& row = (*torques)[k];
       if (!(row.mobility > 0)) continue;
-      const double largest = contact.surface().rolling[k].in(time, contact.normal().impulse);
+      const double largest = contact.surface().rolling[k].in(acting(contact), contact.normal().impulse);
       const double impulse = std::clamp(row.impulse - row.direction.dot(system_.spin(contact)) / row.mobility, -largest, largest);
       system_.turn(contact, row, impulse - row.impulse);
       row.impulse = impulse;
     }
   }
 
-  bool is_biased() const { return settings_.kind == Sweep::Biased; }
+  /// s; in which its impulse acts so far.
+  double acting(const Contact& contact) const { return settings_.time * (settings_.is_biased ? contact.part_before : 1); }
 
   /// N s; what of the last impulse acts after the positions.
-  double pending(const Row& row) const { return is_biased() ? row.later : 0; }
+  double pending(const Row& row) const { return settings_.is_biased ? row.later : 0; }
 
   Vector3 centring(const Contact& contact) const {
-    return is_biased() && contact.moving >= 0 ? system_.centring[std::size_t(contact.moving)] : Vector3::Zero();
+    return settings_.is_biased && contact.moving >= 0 ? system_.centring[std::size_t(contact.moving)] : Vector3::Zero();
   }
 
   System& system_;
@@ -151,11 +138,21 @@ class Sweeper {
 
 }  // namespace
 
+void limit_to_ellipse(Pairwise& impulses, const Pairwise& limits) {
+  double beyond = 0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double part = impulses[k] == 0 ? 0 : impulses[k] / limits[k];
+    beyond += part * part;
+  }
+  if (beyond <= 1) return;
+  const double factor = 1 / std::sqrt(beyond);
+  for (std::size_t k = 0; k < 2; ++k) impulses[k] *= std::isinf(limits[k]) ? 1 : factor;
+}
+
 void sweep(System& system, const SweepSettings& settings) {
-  const bool is_relaxing = settings.kind == Sweep::Relaxing;
   for (Contact& contact : system.contacts) {
-    system.ride(contact, is_relaxing ? 0 : settings.time / 2);
-    if (is_relaxing) system.update_gap(contact);
+    system.ride(contact, settings.is_biased ? settings.time / 2 : 0);
+    if (!settings.is_biased) system.update_gap(contact);
   }
   for (Body& body : system.bodies) body.struck = 0;
   const Sweeper sweeper(system, settings);

@@ -1,16 +1,16 @@
 // What changes velocities: passes over all joints and contacts, each solved for itself (projected Gauss-Seidel), and restitution.
 #pragma once
 
+#include <array>
+
 #include "stepper/contact.hpp"
 
 namespace supernormal::stepper {
 
-/// A biased sweep comes before the positions and also takes a little of every overlap away. A relaxing sweep comes after them and
-/// takes the velocity of that away again.
-enum class Sweep { Biased, Relaxing };
-
 struct SweepSettings {
-  Sweep kind = Sweep::Biased;
+  /// A biased sweep comes before the positions and also takes a little of every overlap away. A relaxing sweep comes after them and
+  /// takes the velocity of that away again.
+  bool is_biased = true;
   bool is_backward = false;
   bool is_last = false;    ///< of the step
   double time = 0;         ///< s, of the sub-step
@@ -19,6 +19,9 @@ struct SweepSettings {
   double layer = 0;        ///< m; an overlap that is not corrected
   Softness softness;       ///< of joints
 };
+
+/// Scales the impulses along two axes into the ellipse of their limits; one that has no limit leaves the other alone.
+void limit_to_ellipse(std::array<double, 2>& impulses, const std::array<double, 2>& limits);
 
 void sweep(System& system, const SweepSettings& settings);
 
