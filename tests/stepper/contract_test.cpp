@@ -1,6 +1,7 @@
 // What the snStepper… functions promise besides motions.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
