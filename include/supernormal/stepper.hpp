@@ -57,7 +57,7 @@ class Stepper {
 
   /// sag: the largest overlap of a contact at rest, relative to the least radius of gyration of its bodies, in [1e-12, 1]. least
   /// and most: sub-steps of a step, in [1, 1000000].
-  void set_accuracy(dReal sag = dReal(2e-3), int least = 8, int most = 128) {
+  void set_accuracy(dReal sag = dReal(2e-3), int least = 8, int most = 64) {
     accepted(snStepperSetAccuracy(handle_.get(), sag, least, most));
   }
 

@@ -455,7 +455,7 @@ SUPERNORMAL_ODE_API dReal snStepperStep(snStepperID stepper, dReal step);
 SUPERNORMAL_ODE_API int snStepperMoves(snStepperID stepper, dBodyID body);
 
 /** sag: the largest overlap of a contact at rest, relative to the least radius of gyration of its bodies, in [1e-12, 1]; default
- * 2e-3. least and most: sub-steps of a step, in [1, 1000000]; default 8 and 128. The loads decide between them. Returns 1; 0 (and
+ * 2e-3. least and most: sub-steps of a step, in [1, 1000000]; default 8 and 64. The loads decide between them. Returns 1; 0 (and
  * snLastError) if refused. */
 SUPERNORMAL_ODE_API int snStepperSetAccuracy(snStepperID stepper, dReal sag, int least, int most);
 

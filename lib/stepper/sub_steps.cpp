@@ -17,9 +17,6 @@ constexpr double kSwing = 20;
 constexpr double kLittleLess = 0.95;
 constexpr double kLittleMore = 1.3;
 
-// Sub-steps of the first step. With more, what lands in the next steps spins by up to 1.6e-3 rad a step (README).
-constexpr int kFirst = 64;
-
 // rad; two bodies whose contact moves turn no farther against each other in a sub-step.
 constexpr double kLargestTurn = 0.03;
 
@@ -30,7 +27,7 @@ int SubSteps::choose(double time, double step) {
   const double shortest = step / accuracy.most;
   const double change = duration_ == 0 ? kChange : std::min(kChange, std::exp(time / (duration_ * kSwing * std::sqrt(heaviest_))));
   if (duration_ == 0) {
-    duration_ = std::max(shortest, step / kFirst);  // the first loads are not known
+    duration_ = shortest;  // the first loads are not known
   } else {
     double next = std::clamp(needed_, shortest, longest);
     if (next > kLittleLess * duration_ && next < kLittleMore * duration_) next = duration_;

@@ -12,7 +12,7 @@ namespace supernormal::stepper {
 struct Accuracy {
   double sag = 2e-3;  ///< the largest overlap of a contact at rest, relative to the size of its body (the least radius of gyration)
   int least = 8;      ///< sub-steps of a step
-  int most = 128;
+  int most = 64;
 };
 
 /// A tall stack of soft contacts buckles as a column does, so the stiffness follows the load: no contact may give way to the force

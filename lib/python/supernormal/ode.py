@@ -390,7 +390,7 @@ class Stepper:
         """
         return self._stepper.moves(self._number("body", body))
 
-    def setAccuracy(self, sag: float = 2e-3, least: int = 8, most: int = 128) -> None:
+    def setAccuracy(self, sag: float = 2e-3, least: int = 8, most: int = 64) -> None:
         """Sets the largest overlap of a contact at rest and the numbers of sub-steps of a step.
 
         sag: relative to the least radius of gyration of its bodies, in [1e-12, 1]; least and most: in [1, 1000000]. The loads decide

@@ -99,7 +99,7 @@ struct Time {
 struct Accuracy {
   double sag = 2e-3;  ///< largest overlap of a contact at rest, relative to the least radius of gyration of its bodies
   int least = 8;      ///< sub-steps of a step
-  int most = 128;
+  int most = 64;
 };
 
 struct Solver {
