@@ -141,7 +141,7 @@ std::optional<ContactManifold> find_after(const Pair& pair, const Proximity& now
   evaluations += there.evaluations;
   if (may_swing_in && -there.gap > held_back + graze && (there.normal - normal).norm() < kParallel) {
     ContactManifold contacts = contacts_at(free, there);
-    remove_overlaps(contacts);
+    limit_overlaps(contacts, 0);
     add_end(pair, ahead, contacts);
     contacts.deepest.evaluations = evaluations;
     return contacts;

@@ -436,16 +436,10 @@ bool MeshContactsAhead::is_apart_now(const Search& search, std::span<const MeshC
   return nearest.status != Status::InvalidInput && nearest.gap > 0;
 }
 
-/// The manifold of a contact with a face. Points that move in to a border stay on the body.
+/// The manifold of a contact with a face.
 ContactManifold MeshContactsAhead::manifold_of(const Search& search, const Pose& pose, const Proximity& there, double approach) {
-  const Shape& shape = search.body.shape;
-  ContactManifold manifold = find_plane_manifold_of_gaps(shape, pose, there, approach);
-  const std::array<ManifoldCorner, ContactManifold::kMaxCorners> corners = manifold.corners;
+  ContactManifold manifold = find_plane_manifold_of_gaps(search.body.shape, pose, there, approach);
   draw_in_corners(manifold, search.triangles);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(manifold.corner_count); ++k) {
-    Vector3& point = manifold.corners[k].point;
-    if (point != corners[k].point) put_on_boundary(manifold, point);
-  }
   return manifold;
 }
 

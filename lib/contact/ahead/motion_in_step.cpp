@@ -19,6 +19,24 @@ constexpr double kMet = 0.9;
 // Newton's method takes two or three steps. If it reaches this limit, the last position counts as the impact.
 constexpr int kMostSteps = 30;
 
+/// Moves contacts back by the displacements of the bodies, m, and their places by the mean. `closed_at(place)`: how much of the gap
+/// at a place, where it is now, the motion closes, m.
+template <class Closed>
+void move_back(ContactManifold& contacts, const Vector3& displacement1, const Vector3& displacement2, double share,
+               const Closed& closed_at) {
+  const Vector3 displacement = share * displacement1 + (1 - share) * displacement2;
+  Proximity& deepest = contacts.deepest;
+  deepest.point1 -= displacement1;
+  deepest.point2 -= displacement2;
+  deepest.contact -= displacement;
+  deepest.gap += closed_at(deepest.contact);
+  if (contacts.placed_on) contacts.placed_on->pose.position -= displacement;
+  for (ManifoldCorner& corner : contacts.corners) {
+    corner.point -= displacement;
+    corner.depth -= closed_at(corner.point);
+  }
+}
+
 }  // namespace
 
 double smaller_thickness(const Shape& shape1, const Shape& shape2) {
@@ -33,16 +51,9 @@ BodyAhead moved(const BodyAhead& body, double time) {
 }
 
 void take_back(ContactManifold& manifold, const Vector3& displacement1, const Vector3& displacement2, double share, double gap) {
-  const Vector3 displacement = share * displacement1 + (1 - share) * displacement2;
   const double closed = manifold.deepest.normal.dot(displacement1 - displacement2);
-  const double greatest_depth = std::max(0.0, -gap);
-  const auto depth_now = [&](double depth) { return std::min(depth - closed, greatest_depth); };
-  manifold.deepest.gap = -depth_now(-manifold.deepest.gap);
-  manifold.deepest.point1 -= displacement1;
-  manifold.deepest.point2 -= displacement2;
-  manifold.deepest.contact -= displacement;
-  if (manifold.placed_on) manifold.placed_on->pose.position -= displacement;
-  for (ManifoldCorner& corner : manifold.corners) corner = {corner.point - displacement, depth_now(corner.depth)};
+  move_back(manifold, displacement1, displacement2, share, [&](const Vector3& /*place*/) { return closed; });
+  limit_overlaps(manifold, std::max(0.0, -gap));
 }
 
 Meeting find_meeting(const BodyAhead& body1, const BodyAhead& body2, double time, double size, const Settings& settings,
@@ -119,17 +130,8 @@ void FreeMotion::stop_at(const ContactManifold& contacts) {
 }
 
 void FreeMotion::take_back(double share, ContactManifold& contacts) const {
-  const Vector3 displacement = time_ * (share * motion1_.velocity + (1 - share) * motion2_.velocity);
-  Proximity& deepest = contacts.deepest;
-  deepest.point1 -= time_ * motion1_.velocity;
-  deepest.point2 -= time_ * motion2_.velocity;
-  deepest.contact -= displacement;
-  deepest.gap += closed_at(deepest.contact, deepest.normal);
-  if (contacts.placed_on) contacts.placed_on->pose.position -= displacement;
-  for (ManifoldCorner& corner : contacts.corners) {
-    corner.point -= displacement;
-    corner.depth -= closed_at(corner.point, deepest.normal);
-  }
+  const auto closed = [&](const Vector3& place) { return closed_at(place, contacts.deepest.normal); };
+  move_back(contacts, time_ * motion1_.velocity, time_ * motion2_.velocity, share, closed);
 }
 
 BodyAhead without_forces(BodyAhead body) {
@@ -138,9 +140,9 @@ BodyAhead without_forces(BodyAhead body) {
   return body;
 }
 
-void remove_overlaps(ContactManifold& contacts) {
-  contacts.deepest.gap = std::max(0.0, contacts.deepest.gap);
-  for (ManifoldCorner& corner : contacts.corners) corner.depth = std::min(0.0, corner.depth);
+void limit_overlaps(ContactManifold& contacts, double greatest_depth) {
+  contacts.deepest.gap = std::max(-greatest_depth, contacts.deepest.gap);
+  for (ManifoldCorner& corner : contacts.corners) corner.depth = std::min(greatest_depth, corner.depth);
 }
 
 }  // namespace supernormal

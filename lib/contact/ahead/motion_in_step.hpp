@@ -131,8 +131,9 @@ class FreeMotion {
 /// The body as it moves without forces.
 BodyAhead without_forces(BodyAhead body);
 
-/// Takes overlaps as touch. Bodies that are apart do not overlap, although the tangent planes at the end may say so.
-void remove_overlaps(ContactManifold& contacts);
+/// Takes deeper overlaps as `greatest_depth` (m). Bodies that are apart do not overlap, although the tangent planes at the end may
+/// say so.
+void limit_overlaps(ContactManifold& contacts, double greatest_depth);
 
 /// The contacts of `find(motion)` for the free motion. A floor may bear the body. Then its motion is `borne`, without its weight,
 /// and a contact below the floor has the wrong normal. If this would take more than `graze` (m) away from `borne`, the contacts
@@ -147,7 +148,7 @@ auto choose_contacts(const FreeMotion& free, const FreeMotion& borne, double gra
     const auto beside = find(borne);
     if (beside && !(free.held_back_by(std::invoke(manifold, *beside)) > negligible)) contacts = beside;
   }
-  remove_overlaps(std::invoke(manifold, *contacts));
+  limit_overlaps(std::invoke(manifold, *contacts), 0);
   return contacts;
 }
 

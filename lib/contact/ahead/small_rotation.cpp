@@ -88,6 +88,9 @@ class LeverLimit {
   /// The overlap that would form under the centre of mass without contact forces, m.
   double approach() const { return approach_; }
 
+  /// Whether the middle of a body is off its centre of mass.
+  bool is_eccentric() const { return is_eccentric_; }
+
   /// The point of the tangent plane through `place` on the normal through the centre of mass.
   Vector3 under_centre(const Vector3& place) const { return centre_ + normal_.dot(place - centre_) * normal_; }
 
@@ -149,12 +152,12 @@ class LeverLimit {
   Matrix3 turning_;          // 1/m^2
   Vector3 rotation_;         // rad; by the present angular velocity
   double largest_rotation_;  // rad; limit for an impact
-  bool is_eccentric_;        // whether the middle is off the centre of mass
-  double height_;            // m; limit for the approach of the middles, neither beyond the plane
-  double slip_;              // m; along the plane, under the centre of mass
-  Vector3 along_;            // unit; of the slip, 0 without one
-  double impact_;            // m; the approach that an impact stops. The weight rolls the body in steps of any length
-  double approach_;          // m; with the weight
+  bool is_eccentric_;
+  double height_;    // m; limit for the approach of the middles, neither beyond the plane
+  double slip_;      // m; along the plane, under the centre of mass
+  Vector3 along_;    // unit; of the slip, 0 without one
+  double impact_;    // m; the approach that an impact stops. The weight rolls the body in steps of any length
+  double approach_;  // m; with the weight
   // rad; by friction, which is at most as large as the force of the impact, and ends when sliding ends. Its lever arm is the height
   // of the centre of mass over the contact plane.
   double by_friction_;
@@ -196,7 +199,8 @@ void limit_rotation(const BodyAhead& body1, const BodyAhead& body2, double time,
   if (!(limit.approach() > 0)) return;
   const auto move = [&](Vector3& point, const Vector3& shift) {
     point += shift;
-    if (!shift.isZero(0)) put_on_boundary(manifold, point);
+    // The centre of mass may be beside the body. The silhouette is then farther from it than the limit allows.
+    if (!shift.isZero(0)) put_on_boundary(manifold, point, limit.is_eccentric() ? Beside::Stays : Beside::MovesToSilhouette);
     point += limit.shift_for_friction(point);
   };
   Vector3& contact = manifold.deepest.contact;

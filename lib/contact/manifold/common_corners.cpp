@@ -22,7 +22,7 @@ class Side {
  public:
   /// A line gets the width `thin`, m, so that two lines have a region in common.
   Side(const SupportPolygon& polygon, const ContactFrame& frame, bool sees_it_from_below, double thin)
-      : axis_(frame.plane.project(polygon.axis())), area_(polygon.area()) {
+      : sees_it_from_below_(sees_it_from_below), axis_(frame.plane.project(polygon.axis())), area_(polygon.area()) {
     const Vector2 support_point = frame.project(polygon.support_point());
     const Vector2 across = thin * axis_;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -34,10 +34,19 @@ class Side {
 
   const ConvexPolygon& outline() const { return outline_; }
 
+  /// The vertex of the support polygon at a point of the outline; -1 if none is there.
+  int vertex_at(const Vector2& point) const {
+    for (int k = 0; k < outline_.size(); ++k) {
+      if (outline_[k] == point) return sees_it_from_below_ ? 3 - k : k;
+    }
+    return -1;
+  }
+
   /// The direction of the axes as a complex number, equal for all four of them. Its length increases as the body gets smaller.
   Vector2 direction() const { return fourth_power(axis_) / (area_ * area_); }
 
  private:
+  bool sees_it_from_below_;
   ConvexPolygon outline_;
   Vector2 axis_;
   double area_;
@@ -70,6 +79,8 @@ CornerList corners_of(const ConvexPolygon& region, const Side& side1, const Side
   for (std::size_t k = 0; k < nearest.size(); ++k) {
     corners.points[k] = frame.lift(nearest[k]);
     corners.separations[k] = slope.dot(nearest[k]);
+    corners.vertices[0][k] = side1.vertex_at(nearest[k]);
+    corners.vertices[1][k] = side2.vertex_at(nearest[k]);
   }
   return corners;
 }
@@ -97,6 +108,7 @@ CornerList corners_over_plane(const SupportPolygon& polygon, const Vector3& norm
     corners.separations[k] = polygon.slope().dot(polygon.vertices()[k]);
     // On the sloped face, without its rounding. So a body that rolls on a line rolls with the radius of its equator.
     corners.points[k] = polygon.support_point() + polygon.vertices()[k] - std::max(0.0, corners.separations[k]) * normal;
+    corners.vertices[0][k] = static_cast<int>(k);
   }
   return corners;
 }

@@ -19,8 +19,12 @@ inline constexpr double kShallow = 0.1;
 
 /// Points on which the bodies may rest, and the separation of the two tilted faces there, m.
 struct CornerList {
+  /// The vertex of the support polygon of each body at each point; -1 at a point that is no vertex.
+  using Vertices = std::array<int, ContactManifold::kMaxCorners>;
+
   std::array<Vector3, ContactManifold::kMaxCorners> points;
   std::array<double, ContactManifold::kMaxCorners> separations;
+  std::array<Vertices, 2> vertices;
 };
 
 /// Whether the body may rest on more than one point. Plates and segments have no thickness to overlap in. Nor have shapes thinner
@@ -35,8 +39,11 @@ std::optional<CornerList> find_common_corners(const SupportPolygon& polygon1, co
 /// The corners of a body over a plane; `normal` points from the body to the plane.
 CornerList corners_over_plane(const SupportPolygon& polygon, const Vector3& normal);
 
-/// Moves a point along the normal to the boundary of manifold.placed_on, if it is placed on a body and the line meets the body.
-/// Adds to the evaluations of the manifold.
-void put_on_boundary(ContactManifold& manifold, Vector3& point);
+/// What becomes of a point beside the silhouette of the body on which it is placed.
+enum class Beside { Stays, MovesToSilhouette };
+
+/// Moves a point along the normal to the boundary of manifold.placed_on, if it is placed on a body. Adds to the evaluations of the
+/// manifold.
+void put_on_boundary(ContactManifold& manifold, Vector3& point, Beside beside = Beside::MovesToSilhouette);
 
 }  // namespace supernormal

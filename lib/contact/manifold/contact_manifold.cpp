@@ -38,8 +38,8 @@ constexpr double kLeastWeight = 0.01;
 constexpr double kAllowedSeparation = 0.5;
 constexpr double kSmallPolygon = 0.5;
 
-// A manifold point is a vertex of the polygon if it differs by less than this fraction of the smallest extent along the plane.
-constexpr double kSameVertex = 1e-9;
+// A line inside of the silhouette by this fraction of the body's size meets the body, at any rounding.
+constexpr double kInside = 1e-9;
 
 /// At any depth: a resting body has a depth of rounding only, and a body that stands on one point for a step slides.
 bool overlaps(const Proximity& proximity) { return proximity.status != Status::Apart && proximity.gap < 0; }
@@ -171,22 +171,16 @@ void write_corners(const CornerList& corners, bool of_gaps, double allowed_separ
   manifold.corner_count = ContactManifold::kMaxCorners;
 }
 
-/// Moves the manifold points, which are in a plane along the tangent plane, to the boundary of manifold.placed_on.
-void put_on_body(const SupportPolygon& polygon, ContactManifold& manifold) {
+/// Moves the manifold points to the boundary of manifold.placed_on. `vertices` are the vertices of its polygon at the points.
+void put_on_body(const SupportPolygon& polygon, const CornerList::Vertices& vertices, ContactManifold& manifold) {
   if (!manifold.placed_on) return;
-  const Vector3& normal = manifold.placed_on->outwards;
-  for (ManifoldCorner& corner : manifold.corners) {
-    const Vector3 offset = corner.point - polygon.support_point();
-    const Vector3 place = offset - normal.dot(offset) * normal;
-    double separation = std::numeric_limits<double>::quiet_NaN();
-    for (std::size_t k = 0; k < polygon.vertices().size(); ++k) {
-      if ((polygon.vertices()[k] - place).norm() <= kSameVertex * polygon.size()) separation = polygon.separations()[k];
-    }
-    corner.point = polygon.support_point() + place;
-    if (std::isnan(separation)) {
-      put_on_boundary(manifold, corner.point);
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    Vector3& point = manifold.corners[k].point;
+    const auto vertex = static_cast<std::size_t>(vertices[k]);
+    if (vertices[k] < 0 || std::isnan(polygon.separations()[vertex])) {
+      put_on_boundary(manifold, point);
     } else {
-      corner.point -= separation * normal;
+      point = polygon.support_point() + polygon.vertices()[vertex] - polygon.separations()[vertex] * manifold.placed_on->outwards;
     }
   }
 }
@@ -209,7 +203,7 @@ ContactManifold find_manifold(const Shape& shape1, const Pose& pose1, const Shap
   if (corners) {
     const double allowed = std::min(allowed_separation(polygon1), allowed_separation(polygon2));
     write_corners(*corners, share.has_value(), allowed, proximity.gap, manifold);
-    put_on_body(share == 1 ? polygon1 : polygon2, manifold);
+    put_on_body(share == 1 ? polygon1 : polygon2, corners->vertices[share == 1 ? 0 : 1], manifold);
   }
   manifold.same_place = kSamePlace * std::min(polygon1.size(), polygon2.size());
   if (share) manifold.shallow = kShallow * manifold.same_place;
@@ -240,7 +234,7 @@ ContactManifold find_plane_manifold(const Shape& shape, const Pose& pose, const 
   if (!polygon.has_width()) return manifold;
   const CornerList corners = corners_over_plane(polygon, proximity.normal);
   write_corners(corners, of_gaps, allowed_separation(polygon), gap, manifold);
-  put_on_body(polygon, manifold);
+  put_on_body(polygon, corners.vertices[0], manifold);
   manifold.same_place = kSamePlace * polygon.size();
   if (of_gaps) manifold.shallow = kShallow * manifold.same_place;
   manifold.margin = std::max(0.0, polygon.largest_separation() + gap);
@@ -249,11 +243,20 @@ ContactManifold find_plane_manifold(const Shape& shape, const Pose& pose, const 
 
 }  // namespace
 
-void put_on_boundary(ContactManifold& manifold, Vector3& point) {
+void put_on_boundary(ContactManifold& manifold, Vector3& point, Beside beside) {
   if (!manifold.placed_on) return;
   const auto& [shape, pose, outwards] = *manifold.placed_on;
-  const RayHit hit = find_ray_hit(*shape, pose, point + 2 * shape->bounding_radius() * outwards, -outwards, HUGE_VAL);
+  const double far = 2 * shape->bounding_radius();
+  RayHit hit = find_ray_hit(*shape, pose, point + far * outwards, -outwards, HUGE_VAL);
   manifold.evaluations += hit.evaluations;
+  if (!hit.hit && beside == Beside::MovesToSilhouette) {
+    // On a side along the normal, the point nearest to the line is not unique. A line just inside meets the outermost of them.
+    const Proximity nearest = find_ray_proximity(*shape, pose, point + far * outwards, -outwards, HUGE_VAL);
+    point += nearest.point1 - nearest.point2 - kInside * far * nearest.normal;
+    hit = find_ray_hit(*shape, pose, point + far * outwards, -outwards, HUGE_VAL);
+    manifold.evaluations += nearest.evaluations + hit.evaluations;
+    if (!hit.hit) point = nearest.point1;
+  }
   if (hit.hit) point = hit.point;
 }
 

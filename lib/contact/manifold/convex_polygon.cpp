@@ -55,11 +55,13 @@ std::array<Vector2, 4> ConvexPolygon::nearest_to(const std::array<Vector2, 4>& p
   least.fill(HUGE_VAL);
   for (int k = 0; k < size_; ++k) {
     const Vector2 here = (*this)[k];
-    const Vector2 edge = (*this)[k + 1 < size_ ? k + 1 : 0] - here;
+    const Vector2& next = (*this)[k + 1 < size_ ? k + 1 : 0];
+    const Vector2 edge = next - here;
     const double length = edge.squaredNorm();
     const double divisor = length > 0 ? length : 1;
     for (std::size_t i = 0; i < nearest.size(); ++i) {
-      const Vector2 candidate = here + std::clamp(edge.dot(points[i] - here) / divisor, 0.0, 1.0) * edge;
+      const double share = std::clamp(edge.dot(points[i] - here) / divisor, 0.0, 1.0);
+      const Vector2 candidate = share < 1 ? Vector2(here + share * edge) : next;  // a vertex without rounding
       const double distance = (points[i] - candidate).squaredNorm();
       if (distance >= least[i]) continue;
       least[i] = distance;

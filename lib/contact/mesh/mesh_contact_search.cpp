@@ -187,7 +187,7 @@ void MeshContactSearch::find_on_arc(SupportProbe& probe, int f, int side, const 
   contact.feature_point = arc.edge_point + std::clamp(share, 0.0, 1.0) * edge;
   contact.place = contact.surface_point + contact.gap * contact.normal;
   const bool is_beyond_end = (contact.feature_point - contact.surface_point).norm() > surface_.rounding();
-  if (is_beyond_end && surface_.find_wall(top.normal, contact.feature_point, contact.surface_point) < 0) {
+  if (is_beyond_end && !surface_.has_wall(top.normal, contact.feature_point, contact.surface_point)) {
     find_on_vertex(probe, f, share < 0 ? side : next_corner(side), top.normal);
     return;
   }
@@ -219,7 +219,7 @@ void MeshContactSearch::find_beyond_rim(SupportProbe& probe, std::size_t p) {
   int side = 0;
   contact.feature_point = surface_.nearest_on_rim(patch, contact.surface_point, contact.face, side);
   const Face& face = surface_.faces()[at(contact.face)];
-  const bool goes_on_behind_wall = surface_.find_wall(patch.normal, contact.feature_point, contact.surface_point) >= 0;
+  const bool goes_on_behind_wall = surface_.has_wall(patch.normal, contact.feature_point, contact.surface_point);
   const bool goes_on_unknown =
       face.convexity[at(side)] == EdgeConvexity::Border && !has_complete_neighbourhood(probe, contact.feature_point);
   if (goes_on_unknown || goes_on_behind_wall) beyond_rim_.add(contact);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "contact/manifold/common_corners.hpp"
 #include "contact/mesh/mesh_triangle.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 
@@ -111,6 +112,7 @@ void draw_in_corners(ContactManifold& manifold, std::span<const MeshTriangle> tr
     const double fraction = fraction_on_floor(floor, triangles, corner.point);
     corner.point = middle.point + fraction * (corner.point - middle.point);
     corner.depth = middle.depth + fraction * (corner.depth - middle.depth);
+    put_on_boundary(manifold, corner.point);
   }
 }
 

@@ -373,11 +373,10 @@ bool Surface::is_behind(const Face& face, const Vector3& at, const Vector3& poin
   return face.normal.dot(reach) < -(rounding_ + 2 * face.rounding + kLevel * reach.norm());
 }
 
-int Surface::find_wall(const Vector3& normal, const Vector3& at, const Vector3& beyond, int first) const {
-  const auto found = std::find_if(faces_.begin() + first, faces_.end(), [&](const Face& face) {
+bool Surface::has_wall(const Vector3& normal, const Vector3& at, const Vector3& beyond) const {
+  return std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
     return is_behind(face, at, beyond) && touches(face, at) && rises(face, normal, at, contact_tolerance_);
   });
-  return found == faces_.end() ? -1 : static_cast<int>(found - faces_.begin());
 }
 
 bool Surface::violates_normal_cone(const Vector3& normal, const Vector3& at, const Vector3& foot) const {

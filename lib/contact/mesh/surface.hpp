@@ -58,9 +58,6 @@ class Surface {
   /// Points closer than this are equal up to rounding, m.
   double rounding() const { return rounding_; }
 
-  /// Features thinner than this (m) do not separate: slivers, and cracks between triangles that should meet.
-  double contact_tolerance() const { return contact_tolerance_; }
-
   /// Whether the point's projection into the face's plane is in the face or an adjacent crack, up to rounding.
   bool is_over(const Face& face, const Vector3& point) const;
 
@@ -73,10 +70,9 @@ class Surface {
   /// The point of the patch's rim nearest to `point`, with its face and edge. `point` must not be over a face of the patch.
   Vector3 nearest_on_rim(const CoplanarPatch& patch, const Vector3& point, int& face, int& side) const;
 
-  /// The first wall, from face `first` on, at the point `at` of the surface. A wall rises from the tangent plane with this normal,
-  /// and `beyond` is behind it. So the feature that ends at `at` continues inside the wall's solid up to `beyond`. Returns -1 if
-  /// there is none.
-  int find_wall(const Vector3& normal, const Vector3& at, const Vector3& beyond, int first = 0) const;
+  /// Whether there is a wall at the point `at` of the surface: a face that rises from the tangent plane with this normal, with
+  /// `beyond` behind it. So the feature that ends at `at` continues inside the wall's solid up to `beyond`.
+  bool has_wall(const Vector3& normal, const Vector3& at, const Vector3& beyond) const;
 
   /// Whether the normal is outside the normal cone of the surface at `at`: a face that touches `at` rises out of the tangent plane.
   /// A wall with `foot` behind it is ignored.
@@ -119,7 +115,7 @@ class Surface {
   int corner_count_ = 0;
   double largest_ = 0;
   double rounding_ = 0;
-  double contact_tolerance_ = 0;
+  double contact_tolerance_ = 0;  // m; thinner features do not separate: slivers, and cracks between triangles that should meet
 };
 
 }  // namespace supernormal

@@ -14,6 +14,7 @@
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
@@ -121,6 +122,25 @@ TEST_CASE("manifold points are on the body that moves: of faces and lines, of an
     }
   }
   CHECK(points > test::draws(2000));
+}
+
+TEST_CASE("points beside the silhouette of a leaning can or brick that falls are on its silhouette") {
+  const Box box({1, 1, 0.5});
+  const Cylinder can(0.007, 0.01);
+  const Box brick({0.01, 0.008, 0.005});
+  const BodyAhead floor = standing(box, {Vector3(0, 0, -0.5), Matrix3::Identity()});
+  test::Draw draw(62);
+  for (int i = 0; i < test::draws(1000); ++i) {
+    CAPTURE(i);
+    const Shape& body = i % 2 == 0 ? static_cast<const Shape&>(can) : brick;
+    const Matrix3 rotation = draw.rotation();
+    const double height = body.support(rotation.transpose() * -Vector3::UnitZ());
+    const BodyAhead there = moving(body, {Vector3(0, 0, height + 1e-4), rotation}, draw.uniform(0.1, 0.8) * Vector3(0.2, 0, -1));
+    const ContactManifold found = reduced_to(find(there, floor), 4);
+    for (int k = 0; k < found.corner_count; ++k) {
+      CHECK(std::abs(distance_from(there, found.corners[static_cast<std::size_t>(k)].point)) < 1e-9);
+    }
+  }
 }
 
 TEST_CASE("a ball that flies at a wall has one contact on the ball, with the present gap and the wall's normal") {
