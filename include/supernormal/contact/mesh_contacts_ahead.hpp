@@ -60,10 +60,10 @@ class SUPERNORMAL_API MeshContactsAhead {
                                                            std::span<const MeshTriangle> triangles);
   SUPERNORMAL_LOCAL MeshContact find_nearest_of_surface(const Search& search, const Pose& there,
                                                         std::span<const MeshTriangle> triangles);
-  SUPERNORMAL_LOCAL bool falls_through(const Search& search, const Pose& end, const ContactManifold& floor);
+  SUPERNORMAL_LOCAL bool goes_through(const Search& search, const Pose& now, const Pose& end, const Vector3& downwards,
+                                      const ContactManifold* floor);
   SUPERNORMAL_LOCAL std::span<const MeshTriangle> leave_in_front(const Search& search, std::span<const MeshTriangle> triangles,
                                                                  const ContactManifold& floor);
-  SUPERNORMAL_LOCAL bool is_in_surface(const Search& search, const Pose& pose, const Vector3& normal);
   SUPERNORMAL_LOCAL void add_overlaps(const Search& search);
   SUPERNORMAL_LOCAL void add_contacts(const Search& search, const Vector3& way);
   SUPERNORMAL_LOCAL bool slides(const Search& search) const;

@@ -276,7 +276,8 @@ void MeshContactsAhead::leave_free_motion(const Search& search) {
   const auto holds_back = [&](const MeshManifold& found) { return free.held_back_by(found.manifold) > negligible; };
   const Pose end = SurfaceFrame(search, free).pose_at_end(free);
   const auto others = std::partition(found_.begin(), found_.end(), [&](const MeshManifold& found) {
-    return holds_back(found) && (found.manifold.deepest.gap < 0 || falls_through(search, end, found.manifold));
+    return holds_back(found) && (found.manifold.deepest.gap < 0 ||
+                                 goes_through(search, search.now.pose, end, found.manifold.deepest.normal, &found.manifold));
   });
   FreeMotion borne(without_forces(search.now), without_forces(surface), search.time);
   std::span<const MeshTriangle> triangles = search.triangles;
@@ -330,16 +331,16 @@ MeshContact MeshContactsAhead::find_nearest_of_surface(const Search& search, con
   }
 }
 
-/// Whether a triangle behind the contact is between the highest point of the body now and its deepest point at `end`.
-bool MeshContactsAhead::falls_through(const Search& search, const Pose& end, const ContactManifold& floor) {
-  const Pose& now = search.now.pose;
-  const Vector3& downwards = floor.deepest.normal;
-  const Vector3 highest = now.position + now.rotation * search.now.shape.point(now.rotation.transpose() * -downwards);
-  const Vector3 deepest = end.position + end.rotation * search.now.shape.point(end.rotation.transpose() * downwards);
+/// Whether a triangle, behind the contact `floor` if there is one, is between the highest point of the body now and its deepest
+/// point at `end`. At one pose this proves an overlap.
+bool MeshContactsAhead::goes_through(const Search& search, const Pose& now, const Pose& end, const Vector3& downwards,
+                                     const ContactManifold* floor) {
+  const Shape& shape = search.body.shape;
+  const Vector3 highest = now.position + now.rotation * shape.point(now.rotation.transpose() * -downwards);
+  const Vector3 deepest = end.position + end.rotation * shape.point(end.rotation.transpose() * downwards);
   evaluations_ += 2;
-  const Plane plane = search.plane_of(floor);
   return std::any_of(search.triangles.begin(), search.triangles.end(), [&](const MeshTriangle& triangle) {
-    return plane.is_in_front_of(triangle) && is_between(triangle, highest, deepest);
+    return (floor == nullptr || search.plane_of(*floor).is_in_front_of(triangle)) && is_between(triangle, highest, deepest);
   });
 }
 
@@ -350,16 +351,6 @@ std::span<const MeshTriangle> MeshContactsAhead::leave_in_front(const Search& se
   const Plane plane = search.plane_of(floor);
   std::erase_if(in_front_, [&](const MeshTriangle& triangle) { return plane.is_in_front_of(triangle); });
   return in_front_;
-}
-
-/// Whether a triangle is between the deepest and the highest point of the body: a proof of an overlap.
-bool MeshContactsAhead::is_in_surface(const Search& search, const Pose& pose, const Vector3& normal) {
-  const Vector3 downwards = pose.rotation.transpose() * normal;
-  const Vector3 deepest = pose.position + pose.rotation * search.body.shape.point(downwards);
-  const Vector3 highest = pose.position + pose.rotation * search.body.shape.point(-downwards);
-  evaluations_ += 2;
-  return std::any_of(search.triangles.begin(), search.triangles.end(),
-                     [&](const MeshTriangle& triangle) { return is_between(triangle, deepest, highest); });
 }
 
 /// A body that already overlaps the surface keeps its present contacts, at any motion.
@@ -428,7 +419,7 @@ bool MeshContactsAhead::is_apart_now(const Search& search, std::span<const MeshC
     if (contact.proximity.gap >= 0) continue;
     overlaps = true;
     // A resting body overlaps by rounding. A triangle between its deepest and its highest point proves the overlap at once.
-    if (is_in_surface(search, pose, contact.proximity.normal)) return false;
+    if (goes_through(search, pose, pose, contact.proximity.normal, nullptr)) return false;
   }
   if (!overlaps) return false;
   const Proximity nearest = find_nearest_triangle(shape, pose, search.triangles, search.settings).proximity;

@@ -109,32 +109,6 @@ struct Interval {
   }
 };
 
-/// Samples sorted by angle.
-class Samples {
- public:
-  Samples(const ArcSample& low, const ArcSample& high) : samples_{low, high} {}
-
-  bool is_full() const { return count_ == samples_.size(); }
-  std::size_t count() const { return count_; }
-  const ArcSample& operator[](std::size_t i) const { return samples_[i]; }
-
-  void insert(const ArcSample& sample) {
-    std::size_t i = count_++;
-    for (; samples_[i - 1].angle > sample.angle; --i) samples_[i] = samples_[i - 1];
-    samples_[i] = sample;
-  }
-
-  std::size_t highest() const {
-    const auto* const end = samples_.begin() + count_;
-    const auto lower = [](const ArcSample& a, const ArcSample& b) { return a.gap < b.gap; };
-    return static_cast<std::size_t>(std::max_element(samples_.begin(), end, lower) - samples_.begin());
-  }
-
- private:
-  std::array<ArcSample, kMostSamples> samples_;
-  std::size_t count_ = 2;
-};
-
 }  // namespace
 
 Vector3 Arc::normal(double angle) const { return (std::cos(angle) * from + std::sin(angle) * towards).normalized(); }
@@ -191,21 +165,23 @@ ArcMaximum maximize_between(SupportProbe& probe, const Arc& arc, ArcSample low, 
 }
 
 bool find_higher_maximum(SupportProbe& probe, const Arc& arc, ArcSample& low, ArcSample& high, double known, double tolerance) {
-  Samples samples(low, high);
+  std::array<ArcSample, kMostSamples> samples{low, high};  // sorted by angle
+  std::size_t count = 2;
   const double to_beat = std::max({known, low.gap, high.gap}) + tolerance;
   while (true) {
-    const std::size_t best = samples.highest();
+    const auto lower = [](const ArcSample& a, const ArcSample& b) { return a.gap < b.gap; };
+    const auto best = static_cast<std::size_t>(std::max_element(samples.begin(), samples.begin() + count, lower) - samples.begin());
     double angle = 0;
     double bound = std::max(to_beat, samples[best].gap + tolerance);
     bool is_complete = true;
-    for (std::size_t i = 0; i + 1 < samples.count(); ++i) {
+    for (std::size_t i = 0; i + 1 < count; ++i) {
       const Interval interval(samples[i], samples[i + 1]);
       if (interval.bound <= bound) continue;
       bound = interval.bound;
       angle = interval.angle;
       is_complete = false;
     }
-    if (is_complete || samples.is_full()) {
+    if (is_complete || count == samples.size()) {
       if (samples[best].gap <= to_beat) return false;
       const std::size_t left = samples[best].slope >= 0 ? best : best - 1;
       low = samples[left];
@@ -214,7 +190,9 @@ bool find_higher_maximum(SupportProbe& probe, const Arc& arc, ArcSample& low, Ar
     }
     const ArcSample sample = arc.sample(angle, probe);
     if (sample.gap > 0) return false;  // the bodies are apart
-    samples.insert(sample);
+    std::size_t i = count++;
+    for (; samples[i - 1].angle > sample.angle; --i) samples[i] = samples[i - 1];
+    samples[i] = sample;
   }
 }
 
