@@ -307,7 +307,7 @@ ContactManifold reduced_to(ContactManifold manifold, int max_contacts) {
   join_near(manifold);
   for (ManifoldCorner& corner : std::span(corners).first(static_cast<std::size_t>(manifold.corner_count))) {
     const auto is_here = [&](const ManifoldCorner& other) { return other.point == corner.point; };
-    if (std::ranges::none_of(given, is_here)) put_on_boundary(manifold, corner.point);
+    if (std::ranges::none_of(given, is_here)) put_on_boundary(manifold, corner.point, Beside::Stays);
   }
   put_deepest_first({corners.begin(), static_cast<std::size_t>(manifold.corner_count)}, shallow);
   corners[0].depth = depth;  // equal up to rounding
