@@ -5,7 +5,7 @@
 ///     fx::Effects effects({fx::Gravity{{0, 0, -9.81}}, fx::Friction{.coefficient = 0.4}}, step);   // throws on bad parameters
 ///     effects.set_up(world);                                   // once
 ///     … in the near callback, with the contacts of one pair:
-///         n = effects.set_up_contacts({contacts, n});           // fills surface and fdir1; attach the first n
+///         n = effects.set_up_contacts(std::span(contacts, n));  // fills surface and fdir1; attach the first n
 ///     … before each step, and after its near callbacks:
 ///         effects.apply_forces();                               // visits the added bodies if a listed effect is a force
 ///
