@@ -25,7 +25,7 @@ struct MeshManifold {
 /// The body is moved along its velocity to the first face that it hits from outside, and from there along the faces that it hits,
 /// until `time` is over. MeshContacts finds the contacts at each of these places and at the end, for the body swept by a ball. The
 /// ball's radius is the distance within which a triangle counts as near. Sweeping does not change the normals, and reduces the gaps
-/// by the radius. The rule for the border of a sheet asks the body itself. A body that slides, and passes no face, has the contacts
+/// by the radius. The rule for the border of a sheet asks the body itself. A body that slides from face to face has the contacts
 /// at the end of its way alone, for its orientation there.
 ///
 /// If the surface is at rest, the contacts are points of the body's boundary, at present or with the orientation at the end of the
@@ -64,14 +64,15 @@ class SUPERNORMAL_API MeshContactsAhead {
                                       const ContactManifold* floor);
   SUPERNORMAL_LOCAL std::span<const MeshTriangle> leave_in_front(const Search& search, std::span<const MeshTriangle> triangles,
                                                                  const ContactManifold& floor);
-  SUPERNORMAL_LOCAL void add_overlaps(const Search& search);
+  SUPERNORMAL_LOCAL double add_overlaps(const Search& search);
   SUPERNORMAL_LOCAL void add_contacts(const Search& search, const Vector3& way);
   SUPERNORMAL_LOCAL bool slides(const Search& search) const;
-  SUPERNORMAL_LOCAL void add_contacts_at_end(const Search& search, BodyAhead& there, const Vector3& way);
+  SUPERNORMAL_LOCAL void find_at_end(const Search& search, BodyAhead& there, const Vector3& way);
   SUPERNORMAL_LOCAL void add_continued(const Search& search, const Vector3& way);
   SUPERNORMAL_LOCAL bool is_apart_now(const Search& search, std::span<const MeshContact> contacts);
+  SUPERNORMAL_LOCAL double approach_in_excess(const Search& search, const Proximity& there);
   SUPERNORMAL_LOCAL ContactManifold manifold_of(const Search& search, const Pose& pose, const Proximity& there, double approach);
-  SUPERNORMAL_LOCAL void add(const Search& search, const Proximity& there, int triangle, const Vector3& way);
+  SUPERNORMAL_LOCAL void add(const Search& search, Proximity there, int triangle, const Vector3& way);
 
   MeshContacts contacts_;
   std::vector<MeshManifold> found_;

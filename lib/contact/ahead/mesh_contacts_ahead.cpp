@@ -161,6 +161,7 @@ struct MeshContactsAhead::Search {
   double size;                        // m; the smallest half-extent of the body
   double graze;                       // m; a deeper overlap is an impact
   double rounding;                    // m; of the vertices
+  double overlap = 0;                 // m; at present
   const FreeMotion* slide = nullptr;  // to the place of the body, with its rotation; null: without
 
   /// The largest gap of a contact with this normal: what the body approaches in the step or on its way there may be no farther.
@@ -222,9 +223,9 @@ std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, con
   there.motion.velocity -= surface.velocity;
   double rounding = 0;
   for (const MeshTriangle& triangle : triangles) rounding = std::max(rounding, triangle.rounding);
-  const Search search{there, body,          surface, time, triangles, settings, near, share_of_first(body.motion, surface),
-                      size,  kGraze * size, rounding};
-  add_overlaps(search);
+  Search search{there, body,          surface, time, triangles, settings, near, share_of_first(body.motion, surface),
+                size,  kGraze * size, rounding};
+  search.overlap = add_overlaps(search);
   double left = time;
   const MeshContacts* passed = nullptr;
   for (int impact = 0; impact < kMostImpacts; ++impact) {
@@ -234,12 +235,11 @@ std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, con
     left -= first.time;
     there.pose.position += first.time * there.motion.velocity;
     const Vector3 way = there.pose.position - body.pose.position;
-    if (!first.hits && slides(search)) {
-      add_contacts_at_end(search, there, way);
+    add_contacts(search, way);
+    if (!first.hits) {
+      if (slides(search)) find_at_end(search, there, way);
       break;
     }
-    add_contacts(search, way);
-    if (!first.hits) break;
     if (!holds_back(there.motion.velocity)) add_continued(search, way);
     if (!holds_back(there.motion.velocity) && is_of_surface(first.there, contacts_)) {
       add(search, first.there, first.triangle, way);
@@ -353,14 +353,17 @@ std::span<const MeshTriangle> MeshContactsAhead::leave_in_front(const Search& se
   return in_front_;
 }
 
-/// A body that already overlaps the surface keeps its present contacts, at any motion.
-void MeshContactsAhead::add_overlaps(const Search& search) {
+/// A body that already overlaps the surface keeps its present contacts, at any motion. Returns the depth of the deepest, m.
+double MeshContactsAhead::add_overlaps(const Search& search) {
   const std::span<const MeshContact> contacts =
       contacts_.find(search.body.shape, search.body.pose, search.triangles, search.settings);
   evaluations_ += contacts_.evaluations();
+  double deepest = 0;
   for (const MeshContact& contact : contacts) {
     if (contact.proximity.gap <= -search.graze) add(search, contact.proximity, contact.triangle, Vector3::Zero());
+    deepest = std::max(deepest, -contact.proximity.gap);
   }
+  return deepest;
 }
 
 /// The sweep of a body that is apart from the surface overlaps it by no more than its radius. There are two exceptions, which are
@@ -379,17 +382,18 @@ void MeshContactsAhead::add_contacts(const Search& search, const Vector3& way) {
   }
 }
 
-/// Whether the body passes no face in the step: it slides on those that it meets on its way.
+/// Whether the body slides from face to face, and passes none in the step.
 bool MeshContactsAhead::slides(const Search& search) const {
   const double most = kSliding * search.size;
-  return shift_by_rotation(search.now.motion, search.time) < most && std::ranges::all_of(found_, [&](const MeshManifold& found) {
+  return found_.size() > 1 && shift_by_rotation(search.now.motion, search.time) < most &&
+         std::ranges::all_of(found_, [&](const MeshManifold& found) {
            const Proximity& contact = found.manifold.deepest;
            return approach_of(search.now.motion, search.surface, search.time, contact.normal, std::min(0.0, contact.gap)) < most;
          });
 }
 
 /// Replaces the contacts of a body that slides by those at the end of its way, for its orientation there.
-void MeshContactsAhead::add_contacts_at_end(const Search& search, BodyAhead& there, const Vector3& way) {
+void MeshContactsAhead::find_at_end(const Search& search, BodyAhead& there, const Vector3& way) {
   BodyAhead along = search.now;
   along.motion.velocity = search.surface.velocity + way / search.time;
   along.motion.acceleration.setZero();
@@ -427,6 +431,27 @@ bool MeshContactsAhead::is_apart_now(const Search& search, std::span<const MeshC
   return nearest.status != Status::InvalidInput && nearest.gap > 0;
 }
 
+/// How much more a point of the body at the border of a sheet approaches by the rotation of a step than the body does, m. The
+/// contact is no support point there, and its normal is not that of the body. So the points of a ball that rolls come down on the
+/// border, but the ball does not.
+double MeshContactsAhead::approach_in_excess(const Search& search, const Proximity& there) {
+  const Vector3 rotation = search.time * (search.body.motion.angular_velocity - search.surface.angular_velocity);
+  if (rotation.isZero(0)) return 0;
+  const Shape& shape = search.body.shape;
+  const Pose& pose = search.body.pose;
+  const Vector3& normal = there.normal;
+  ++evaluations_;
+  const double extent = shape.support(pose.rotation.transpose() * normal) + normal.dot(pose.position);
+  const double above = extent - normal.dot(there.contact);
+  if (above <= search.settings.tolerance * search.size) return 0;
+  const RayHit hit = find_ray_hit(shape, pose, there.contact + above * normal, -normal, above + search.size, search.settings);
+  evaluations_ += hit.evaluations;
+  const double cosine = hit.normal.dot(normal);
+  if (!hit.hit || !(cosine > 0)) return 0;
+  const Vector3 arm = there.contact - pose.position + search.now.pose.position - search.now.motion.centre;
+  return std::max(0.0, rotation.dot(arm.cross(normal - hit.normal / cosine)));
+}
+
 /// The manifold of a contact with a face.
 ContactManifold MeshContactsAhead::manifold_of(const Search& search, const Pose& pose, const Proximity& there, double approach) {
   ContactManifold manifold = find_plane_manifold_of_gaps(search.body.shape, pose, there, approach);
@@ -434,13 +459,15 @@ ContactManifold MeshContactsAhead::manifold_of(const Search& search, const Pose&
   return manifold;
 }
 
-void MeshContactsAhead::add(const Search& search, const Proximity& there, int triangle, const Vector3& way) {
+void MeshContactsAhead::add(const Search& search, Proximity there, int triangle, const Vector3& way) {
+  if (search.slide == nullptr) there.gap += approach_in_excess(search, there);
   const MotionAhead& motion = search.now.motion;
   const double overlap = approach_of(motion, search.surface, search.time, there.normal, there.gap + there.normal.dot(way)) +
                          growth_by_rotation(search.body, there.normal, there.point1, search.time);
   ContactManifold manifold = manifold_of(search, search.body.pose, there, overlap);
   if (search.slide != nullptr) {
     SurfaceFrame(search, *search.slide).take_back(*search.slide, search.share, manifold);
+    limit_overlaps(manifold, search.overlap);
   } else {
     take_back(manifold, way, Vector3::Zero(), search.share, manifold.deepest.gap);
   }

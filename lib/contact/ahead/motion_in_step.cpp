@@ -35,6 +35,13 @@ void move_back(ContactManifold& contacts, const Vector3& displacement1, const Ve
     corner.point -= displacement;
     corner.depth -= closed_at(corner.point);
   }
+  // Rotation makes another corner the deepest.
+  for (int k = 0; k < contacts.corner_count; ++k) {
+    const ManifoldCorner& corner = contacts.corners[static_cast<std::size_t>(k)];
+    if (corner.depth <= -deepest.gap) continue;
+    deepest.gap = -corner.depth;
+    deepest.contact = corner.point;
+  }
 }
 
 }  // namespace

@@ -488,7 +488,9 @@ double velocity_over_waves(const Vec& half_axes, double exponent, double step, b
 
 // Before contacts at the end of the way, a brick with exponent 8 lost 8 % at 20 ms and 11 % at 33 ms.
 TEST_CASE_FIXTURE(OdeSession, "a body slides over waves at 20 and 33 ms as fast as with plain contacts at 1 ms, to 3 %") {
-  for (const auto& [half_axes, exponent] : {std::pair(Vec{0.05, 0.05, 0.05}, 2.0), std::pair(Vec{0.1, 0.1, 0.05}, 8.0)}) {
+  for (const double exponent : {2.0, 8.0}) {
+    const double half_width = exponent == 2 ? 0.05 : 0.1;
+    const Vec half_axes{half_width, half_width, 0.05};
     const double plain = velocity_over_waves(half_axes, exponent, 1e-3, false);
     for (const double step : {0.02, 0.033}) {
       CAPTURE(exponent);
