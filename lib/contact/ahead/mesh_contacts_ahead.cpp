@@ -156,13 +156,13 @@ struct MeshContactsAhead::Search {
   double time;  // s
   std::span<const MeshTriangle> triangles;
   const Settings& settings;
-  double near;                        // m; a gap up to this is a contact
-  double share;                       // the body's share of the mobilities
-  double size;                        // m; the smallest half-extent of the body
-  double graze;                       // m; a deeper overlap is an impact
-  double rounding;                    // m; of the vertices
-  double overlap = 0;                 // m; at present
-  const FreeMotion* slide = nullptr;  // to the place of the body, with its rotation; null: without
+  double near;                         // m; a gap up to this is a contact
+  double share;                        // the body's share of the mobilities
+  double size;                         // m; the smallest half-extent of the body
+  double graze;                        // m; a deeper overlap is an impact
+  double rounding;                     // m; of the vertices
+  double overlap = 0;                  // m; at present
+  const SurfaceFrame* slid = nullptr;  // at the place of the body, to which it has slid and turned; null: it has not turned
 
   /// The largest gap of a contact with this normal: what the body approaches in the step or on its way there may be no farther.
   double reach_along(const Vector3& normal, const Vector3& way) const {
@@ -176,20 +176,21 @@ struct MeshContactsAhead::Search {
   }
 };
 
-/// The surface at the end of a motion.
+/// The surface at the end of a motion. The motion must outlive it.
 struct MeshContactsAhead::SurfaceFrame {
-  SurfaceFrame(const Search& search, const FreeMotion& free)
-      : motion{{}, free.motion2().velocity, free.motion2().angular_velocity, search.surface.centre},
+  SurfaceFrame(const Search& search, const FreeMotion& free_motion)
+      : free(free_motion),
+        motion{{}, free.motion2().velocity, free.motion2().angular_velocity, search.surface.centre},
         end(pose_at(motion, search.time)) {}
 
   /// The pose of the body in the frame of the surface.
-  Pose pose_at_end(const FreeMotion& free) const {
+  Pose pose_at_end() const {
     const Pose pose = free.end1();
     return {end.rotation.transpose() * (pose.position - end.position), end.rotation.transpose() * pose.rotation};
   }
 
   /// Moves contacts at the end, in the frame of the surface, back to the present poses.
-  void take_back(const FreeMotion& free, double share, ContactManifold& contacts) const {
+  void take_back(double share, ContactManifold& contacts) const {
     const auto to_end = [&](Vector3& place) { place = end.rotation * place + end.position; };
     contacts.deepest.normal = end.rotation * contacts.deepest.normal;
     for (Vector3* place : {&contacts.deepest.point1, &contacts.deepest.point2, &contacts.deepest.contact}) to_end(*place);
@@ -198,6 +199,7 @@ struct MeshContactsAhead::SurfaceFrame {
     free.take_back(share, contacts);
   }
 
+  const FreeMotion& free;
   Motion motion;
   Pose end;
 };
@@ -274,7 +276,7 @@ void MeshContactsAhead::leave_free_motion(const Search& search) {
   if (!free.bends()) return;
   const double negligible = search.settings.tolerance * search.size;
   const auto holds_back = [&](const MeshManifold& found) { return free.held_back_by(found.manifold) > negligible; };
-  const Pose end = SurfaceFrame(search, free).pose_at_end(free);
+  const Pose end = SurfaceFrame(search, free).pose_at_end();
   const auto others = std::partition(found_.begin(), found_.end(), [&](const MeshManifold& found) {
     return holds_back(found) && (found.manifold.deepest.gap < 0 ||
                                  goes_through(search, search.now.pose, end, found.manifold.deepest.normal, &found.manifold));
@@ -298,7 +300,7 @@ std::optional<MeshManifold> MeshContactsAhead::find_after(const Search& search, 
                                                           std::span<const MeshTriangle> triangles) {
   const Shape& shape = search.body.shape;
   const SurfaceFrame frame(search, motion);
-  const Pose there = frame.pose_at_end(motion);
+  const Pose there = frame.pose_at_end();
   MeshContact nearest = find_nearest_of_surface(search, there, triangles);
   if (nearest.proximity.status == Status::InvalidInput || !(nearest.proximity.gap > 0)) return std::nullopt;
   const Impact impact =
@@ -312,7 +314,7 @@ std::optional<MeshManifold> MeshContactsAhead::find_after(const Search& search, 
   }
   nearest.proximity.contact += (0.5 - search.share) * nearest.proximity.gap * nearest.proximity.normal;
   ContactManifold manifold = manifold_of(search, there, nearest.proximity, 0);
-  frame.take_back(motion, search.share, manifold);
+  frame.take_back(search.share, manifold);
   manifold.reach = search.reach_along(manifold.deepest.normal, Vector3::Zero());
   return MeshManifold{manifold, nearest.triangle};
 }
@@ -339,8 +341,9 @@ bool MeshContactsAhead::goes_through(const Search& search, const Pose& now, cons
   const Vector3 highest = now.position + now.rotation * shape.point(now.rotation.transpose() * -downwards);
   const Vector3 deepest = end.position + end.rotation * shape.point(end.rotation.transpose() * downwards);
   evaluations_ += 2;
+  const std::optional<Plane> plane = floor != nullptr ? std::optional(search.plane_of(*floor)) : std::nullopt;
   return std::any_of(search.triangles.begin(), search.triangles.end(), [&](const MeshTriangle& triangle) {
-    return (floor == nullptr || search.plane_of(*floor).is_in_front_of(triangle)) && is_between(triangle, highest, deepest);
+    return (!plane || plane->is_in_front_of(triangle)) && is_between(triangle, highest, deepest);
   });
 }
 
@@ -398,9 +401,10 @@ void MeshContactsAhead::find_at_end(const Search& search, BodyAhead& there, cons
   along.motion.velocity = search.surface.velocity + way / search.time;
   along.motion.acceleration.setZero();
   const FreeMotion slide(along, without_forces({search.now.shape, search.now.pose, search.surface}), search.time);
+  const SurfaceFrame frame(search, slide);
   Search at_end = search;
-  at_end.slide = &slide;
-  there.pose = SurfaceFrame(search, slide).pose_at_end(slide);
+  at_end.slid = &frame;
+  there.pose = frame.pose_at_end();
   found_.clear();
   add_contacts(at_end, way);
 }
@@ -460,13 +464,13 @@ ContactManifold MeshContactsAhead::manifold_of(const Search& search, const Pose&
 }
 
 void MeshContactsAhead::add(const Search& search, Proximity there, int triangle, const Vector3& way) {
-  if (search.slide == nullptr) there.gap += approach_in_excess(search, there);
+  if (search.slid == nullptr) there.gap += approach_in_excess(search, there);
   const MotionAhead& motion = search.now.motion;
   const double overlap = approach_of(motion, search.surface, search.time, there.normal, there.gap + there.normal.dot(way)) +
                          growth_by_rotation(search.body, there.normal, there.point1, search.time);
   ContactManifold manifold = manifold_of(search, search.body.pose, there, overlap);
-  if (search.slide != nullptr) {
-    SurfaceFrame(search, *search.slide).take_back(*search.slide, search.share, manifold);
+  if (search.slid != nullptr) {
+    search.slid->take_back(search.share, manifold);
     limit_overlaps(manifold, search.overlap);
   } else {
     take_back(manifold, way, Vector3::Zero(), search.share, manifold.deepest.gap);
