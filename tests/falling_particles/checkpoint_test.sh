@@ -26,7 +26,8 @@ forces = true
 # A belt that repeats across its way, with grains of two kinds and many sizes that come and go, a paddle that turns and a piston, and
 # five measurements.
 busy_scene() {
-  sed -e 's/^duration = .*/duration = 0.3/' -e 's/^speed = .*/speed = 1/' -e 's/^kg_per_second = .*/kg_per_second = 0.1/' \
+  sed -e 's/^duration = .*/duration = 0.3/' -e 's/velocity = \[0.4, 0, 0\]/velocity = [1, 0, 0]/;s/rpm = .* }/rpm = 954.9 }/' \
+    -e 's/^kg_per_second = .*/kg_per_second = 0.1/' -e '/^# The walls across y/,/^\[\[grain\]\]/{/^\[\[grain\]\]/!d}' \
     -e '/^name = "soybean"$/{n;s/^count = 0$/&\nsize = { distribution = "uniform", unit = "catalogue", smallest = 0.8, largest = 1.2 }/}' \
     -e 's/^until = 3.*/until = 0.25/' -e 's/^corner = \[0.3, 0, 0\].*/corner = [0.12, 0, 0.1]/' "$samples/scenes/feeder.toml"
   cat <<'END'

@@ -129,21 +129,6 @@ Drum read_drum(const TomlTable& table, const Time& time) {
   return drum;
 }
 
-ConveyorBelt read_conveyor_belt(const TomlTable& table, const Time& time) {
-  table.refuse_unknown_keys({"kind", "length", "width", "height", "thickness", "wall_height", "speed", "drop_length", "starts_at"});
-  ConveyorBelt belt{};
-  belt.length = read_length(table, "length");
-  belt.width = read_length(table, "width");
-  belt.height = read_length(table, "height");
-  belt.thickness = table.number("thickness", Interval::positive(belt.height, "m (up to container.height)"));
-  belt.wall_height = read_length(table, "wall_height");
-  belt.drop_length = table.number("drop_length", {belt.thickness / 2, kLargestLength, false, true, "m (beyond the last roller)"});
-  const double most = kLargestTurn * std::numbers::pi * belt.thickness / time.step;
-  belt.speed = table.number("speed", Interval::positive(most, "m/s (a roller rotates by a tenth of a revolution in time.step)"));
-  belt.starts_at = read_start(table, "starts_at", time);
-  return belt;
-}
-
 /// The lattice needs space for one cell. A cell holds the largest grain in any orientation.
 void check_width(const TomlTable& table, const Scene& scene) {
   const Rectangle plan = plan_of(scene.container);
@@ -206,14 +191,14 @@ std::string in_brackets(const Period& period) { return "[" + shortest(period.low
 
 /// The axes along which containers can be periodic.
 constexpr const char* kAllowed =
-    "allowed: periodic.x and periodic.y in a box or a container of kind \"none\"; periodic.y in a drum or a conveyor";
+    "allowed: periodic.x and periodic.y in a box or a container of kind \"none\"; periodic.y in a drum";
 
 /// The interval between the container's walls along an axis. Empty if the container cannot be periodic along it. A container
 /// without walls may have any period.
 std::optional<Period> between_walls(const Container& container, std::size_t axis) {
   const Rectangle plan = plan_of(container);
-  const bool is_open_along_y = std::holds_alternative<Drum>(container) || std::holds_alternative<ConveyorBelt>(container);
-  if (!std::holds_alternative<Box>(container) && !(is_open_along_y && axis == 1)) return std::nullopt;
+  const bool is_drum = std::holds_alternative<Drum>(container);
+  if (!std::holds_alternative<Box>(container) && !(is_drum && axis == 1)) return std::nullopt;
   return Period{plan.corner[axis], plan.width[axis]};
 }
 
@@ -253,14 +238,13 @@ Period read_period(const TomlTable& table, std::size_t axis, const Scene& scene)
 
 Container read_container(const TomlTable& root, const Time& time) {
   const TomlTable table = root.table("container");
-  const std::string kind = table.choice("kind", {"box", "hopper", "terrain", "periodic", "none", "drum", "conveyor", "cell"});
+  const std::string kind = table.choice("kind", {"box", "hopper", "terrain", "periodic", "none", "drum", "cell"});
   if (kind == "hopper") return read_hopper(table, time, root.has("start"));
   if (kind == "terrain") return read_terrain(table);
   if (kind == "periodic") return read_periodic(table);
   if (kind == "cell") return read_cell(table);
   if (kind == "none") return read_open(root, table);
   if (kind == "drum") return read_drum(table, time);
-  if (kind == "conveyor") return read_conveyor_belt(table, time);
   return read_box(table);
 }
 

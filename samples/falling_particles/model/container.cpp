@@ -10,11 +10,6 @@
 namespace falling_particles {
 namespace {
 
-/// A box between two opposite corners.
-Wall box(std::string name, const Vector3& lower, const Vector3& upper, std::vector<WallMotion> motions = {}) {
-  return {std::move(name), BoxShape{upper - lower}, {(lower + upper) / 2, Eigen::Quaterniond::Identity()}, std::move(motions)};
-}
-
 Wall side(std::string name, WallShape shape, const Vector3& position = Vector3::Zero()) {
   Wall wall{std::move(name), std::move(shape), {position, Eigen::Quaterniond::Identity()}};
   wall.role = WallRole::Side;
@@ -106,30 +101,10 @@ std::vector<Wall> walls_of(const Cell& cell) {
   return walls;
 }
 
-std::vector<Wall> walls_of(const ConveyorBelt& belt) {
-  const double t = belt.thickness;
-  const double top = belt.height + belt.wall_height;
-  const double middle = belt.height - t / 2;
-  const WallMotion running{Conveyor{{belt.speed, 0, 0}, {Vector3::UnitY(), Vector3::Zero(), 0}}, belt.starts_at};
-  const auto roller = [&](const char* name, double x) -> Wall {
-    const Vector3 position(x, belt.width / 2, middle);
-    const WallMotion turning{Conveyor{Vector3::Zero(), {Vector3::UnitY(), position, belt.roller_rpm()}}, belt.starts_at};
-    return {name, CylinderShape{t / 2, belt.width}, facing(position, std::numbers::pi / 2), {turning}};
-  };
-  return {box("belt", {0, 0, belt.height - t}, {belt.length, belt.width, belt.height}, {running}),
-          roller("first_roller", 0),
-          roller("last_roller", belt.length),
-          {"ground", PlaneShape{}},
-          box("first_wall", {-t, -t, 0}, {0, belt.width + t, top}),
-          box("last_wall", {belt.end(), -t, 0}, {belt.end() + t, belt.width + t, top}),
-          box("front_wall", {-t, -t, 0}, {belt.end() + t, 0, top}),
-          box("back_wall", {-t, belt.width, 0}, {belt.end() + t, belt.width + t, top})};
-}
-
 }  // namespace
 
 const char* kind_of(const Container& container) {
-  constexpr std::array kKinds = {"box", "hopper", "terrain", "periodic", "none", "drum", "conveyor", "cell"};
+  constexpr std::array kKinds = {"box", "hopper", "terrain", "periodic", "none", "drum", "cell"};
   return kKinds[container.index()];
 }
 

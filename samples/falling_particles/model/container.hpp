@@ -1,4 +1,4 @@
-// The container of a scene: a box, a cell, a hopper, a terrain, a periodic cell, a drum, a conveyor, or none.
+// The container of a scene: a box, a cell, a hopper, a terrain, a periodic cell, a drum, or none.
 #pragma once
 
 #include <algorithm>
@@ -80,27 +80,6 @@ struct Drum {
   bool contains(const Point& p) const { return p[1] > 0 && p[1] < length && std::hypot(p[0], p[2] - radius()) < outer_radius(); }
 };
 
-/// A belt around two rollers, from x = 0 to x = length, between two side walls. At its end grains drop to a floor at z = 0 with a
-/// wall at its end.
-struct ConveyorBelt {
-  double length;       ///< m, between the axes of the rollers
-  double width;        ///< m
-  double height;       ///< m, z of the belt
-  double thickness;    ///< m, of the belt and the walls, and the diameter of the rollers
-  double wall_height;  ///< m, height of the walls above the belt
-  double speed;        ///< m/s, along x
-  double drop_length;  ///< m, from the end of the belt to the last wall
-  double starts_at;    ///< s
-
-  double roller_rpm() const { return 60 / (2 * std::numbers::pi) * speed / (thickness / 2); }
-  double end() const { return length + drop_length; }  ///< m
-
-  Rectangle plan() const { return {{0, 0}, {length / 2, width}}; }
-  double lowest() const { return height; }
-  Region room() const { return {{0, 0, 0}, {end(), width, INFINITY}}; }
-  bool contains(const Point& p) const { return room().contains(p); }
-};
-
 /// A floor at z = 0 and four walls of infinite height at x = 0, x = width[0], y = 0 and y = width[1].
 struct Box {
   std::array<double, 2> width;  ///< m
@@ -129,7 +108,7 @@ struct Cell : Open {
   bool has_lid() const { return std::isfinite(start.size[2]); }
 };
 
-using Container = std::variant<Box, Hopper, Terrain, Periodic, Open, Drum, ConveyorBelt, Cell>;
+using Container = std::variant<Box, Hopper, Terrain, Periodic, Open, Drum, Cell>;
 
 /// The name in the scene file: "box", "hopper", …
 const char* kind_of(const Container& container);

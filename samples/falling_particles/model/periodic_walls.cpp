@@ -63,27 +63,15 @@ std::optional<Eigen::Index> own_axis(const Wall& wall, std::size_t axis) {
   return std::nullopt;
 }
 
-/// Moves the ends of a wall outwards.
-void lengthen(Wall& wall, std::size_t axis, const Ends& to) {
+/// Moves the ends of a prism outwards.
+void lengthen(MeshShape& prism, const WallPose& pose, std::size_t axis, const Ends& to) {
   const auto i = static_cast<Eigen::Index>(axis);
-  if (auto* mesh = std::get_if<MeshShape>(&wall.shape)) {
-    const double middle = (to.lower + to.upper) / 2;
-    for (std::array<float, 3>& vertex : mesh->vertices) {
-      Vector3 place = wall.start(Vector3(vertex[0], vertex[1], vertex[2]));
-      place[i] = place[i] < middle ? to.lower : to.upper;
-      const Vector3 own = wall.start.rotation.conjugate() * (place - wall.start.position);
-      vertex = {static_cast<float>(own.x()), static_cast<float>(own.y()), static_cast<float>(own.z())};
-    }
-    return;
+  for (std::array<float, 3>& vertex : prism.vertices) {
+    Vector3 place = pose(Vector3(vertex[0], vertex[1], vertex[2]));
+    place[i] = place[i] < (to.lower + to.upper) / 2 ? to.lower : to.upper;
+    const Vector3 own = pose.rotation.conjugate() * (place - pose.position);
+    vertex = {static_cast<float>(own.x()), static_cast<float>(own.y()), static_cast<float>(own.z())};
   }
-  const std::optional<Eigen::Index> own = own_axis(wall, axis);
-  if (!own) return;
-  if (auto* box = std::get_if<BoxShape>(&wall.shape)) {
-    box->size[*own] = to.upper - to.lower;
-  } else if (auto* cylinder = std::get_if<CylinderShape>(&wall.shape)) {
-    cylinder->length = to.upper - to.lower;
-  }
-  wall.start.position[i] = (to.lower + to.upper) / 2;
 }
 
 /// Whether a mesh is a prism along the axis. All its vertices are at its two ends, and both ends have the same section.
@@ -158,12 +146,11 @@ void open_container(const PeriodicAxes& axes, double reach, std::size_t of_conta
     of_container = static_cast<std::size_t>(kept - walls.begin());
     walls.erase(kept, end);
     for (std::size_t i = 0; i < of_container; ++i) {
-      double way = reach;
-      for (const WallMotion& motion : walls[i].motions) find_end_of_motion(walls[i], motion, axis, way);
+      auto* const mesh = std::get_if<MeshShape>(&walls[i].shape);
+      if (mesh == nullptr) continue;  // a plane
       const Ends ends = ends_of(walls[i], axis);
-      if (std::isfinite(ends.lower)) {
-        lengthen(walls[i], axis, {std::min(ends.lower, period.lower - way), std::max(ends.upper, period.upper() + way)});
-      }
+      lengthen(*mesh, walls[i].start, axis,
+               {std::min(ends.lower, period.lower - reach), std::max(ends.upper, period.upper() + reach)});
     }
   }
 }

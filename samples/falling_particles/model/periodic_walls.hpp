@@ -12,7 +12,7 @@
 namespace falling_particles {
 
 /// Opens a container along its periodic axes. The first `of_container` walls are the container's. Walls that close the cell, such
-/// as the ends of a drum, are removed. The others are lengthened until they extend beyond the cell by `reach` (m).
+/// as the ends of a drum, are removed. A drum is lengthened until it extends beyond the cell by `reach` (m).
 void open_container(const PeriodicAxes& axes, double reach, std::size_t of_container, std::vector<Wall>& walls);
 
 /// The reason why a wall is not uniform along a periodic axis: its shape or its motion. Empty if the wall is uniform from `reach`

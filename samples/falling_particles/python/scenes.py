@@ -490,7 +490,7 @@ class World:
 
         The sections of effects, such as [gravity] and [friction], and [solver] may change and be added, and None leaves an effect
         out: {"friction": None}. The run then continues from its saved state, as after a checkpoint, and all grains wake. Values of
-        motions may change, too: container.rpm of a drum, .speed of a conveyor, part[NAME].motion, and of part[NAME].drive: .force, .torque, .power,
+        motions may change, too: container.rpm of a drum, part[NAME].motion, and of part[NAME].drive: .force, .torque, .power,
         .largest_force, .largest_torque, .stress, .damping and .until, for a drive of the same kind. A side of a cell is container.SIDE in place of part[NAME]. A new motion starts now,
         from the pose of the wall, with axes, points and directions of the world. The summary lists each change with its time.
 

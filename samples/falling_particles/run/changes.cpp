@@ -26,19 +26,13 @@ struct Change {
   WallChange of_walls = WallChange::Motion;
 };
 
-/// The key of a container that sets the motions of its walls; null if none does.
-const char* motion_key_of(const Container& container) {
-  if (std::holds_alternative<ConveyorBelt>(container)) return "speed";
-  return std::holds_alternative<Drum>(container) ? "rpm" : nullptr;
-}
-
 /// The keys of a drive that may change. The inertia, the axis and the stops are those of the joint at the start.
 constexpr std::array kDriveKeys = {"force", "torque", "power", "largest_force", "largest_torque", "stress", "damping", "until"};
 
 std::string keys_that_change(const Scene& scene) {
   std::vector<std::string> keys = effect_sections();
   keys.emplace_back("solver");
-  if (const char* const key = motion_key_of(scene.container)) keys.push_back(std::string("container.") + key);
+  if (std::holds_alternative<Drum>(scene.container)) keys.emplace_back("container.rpm");
   std::vector<std::string> walls = {"part[NAME]"};
   if (std::holds_alternative<Cell>(scene.container)) walls.emplace_back("container.SIDE");
   for (const std::string& wall : walls) {
@@ -66,8 +60,7 @@ Change change_of_container(const std::string& key, std::string_view name, const 
   if (std::holds_alternative<Cell>(scene.container) && side.size() < name.size()) {
     return change_of_wall(key, std::string(side), name.substr(side.size()), scene);
   }
-  const char* const of_motion = motion_key_of(scene.container);
-  if (of_motion == nullptr || name != of_motion) refuse_key(key, scene);
+  if (!std::holds_alternative<Drum>(scene.container) || name != "rpm") refuse_key(key, scene);
   Change change;
   for (const Wall& wall : walls_in(scene.container)) {
     if (!wall.motions.empty()) change.walls.push_back(wall.name);

@@ -13,7 +13,7 @@ namespace falling_particles {
 /// the run. `load` loads it again, with the assignments of earlier changes and of this one.
 ///
 /// The sections of effects and [solver] may change as a whole: the run then continues from its saved state, as at a checkpoint.
-/// container.rpm of a drum and .speed of a conveyor may change, and part[NAME].motion, .drive.force, .torque, .power,
+/// container.rpm of a drum may change, and part[NAME].motion, .drive.force, .torque, .power,
 /// .largest_force, .largest_torque, .stress, .damping and .until. A side of a cell is container.SIDE in place of part[NAME]. A
 /// motion acts from the time of its change, from the pose that the wall has then. Its axes, points and directions are in the world.
 /// Motions that end before are left out.

@@ -102,11 +102,6 @@ const std::vector<Section>& sections() {
        "container={kind = \"drum\", diameter = 0.2, length = 0.1, segments = 24, rpm = 10}",
        {"kind"}},
       {"[container] kind = \"cell\"", "container", "container={kind = \"cell\", width = [0.1, 0.1], height = 0.1}", {"kind"}},
-      {"[container] kind = \"conveyor\"",
-       "container",
-       "container={kind = \"conveyor\", length = 0.3, width = 0.1, height = 0.1, thickness = 0.05, wall_height = 0.1, speed = 0.1, "
-       "drop_length = 0.1}",
-       {"kind"}},
       {"[periodic]", "periodic", ""},
       {"[compression]", "compression", ""},
       {"[query]", "query", ""},

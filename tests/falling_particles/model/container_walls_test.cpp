@@ -11,13 +11,11 @@
 
 #include "common/input_error.hpp"
 #include "model/container.hpp"
-#include "observe/leaks.hpp"
 #include "observe/simulation.hpp"
 #include "run/changes.hpp"
 #include "run/stepwise_run.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"
-#include "world/stepper.hpp"
 
 using namespace falling_particles;
 using supernormal::test::relative;
@@ -39,15 +37,6 @@ y_high.friction = 0.2
 y_high.motion = [{ kind = "velocity", velocity = [0, -0.1, 0] }]
 z_high.drive = { force = 0.5, mass = 0.1 })";
 
-constexpr const char* kBelt = R"(kind = "conveyor"
-length = 0.2
-width = 0.06
-height = 0.1
-thickness = 0.02
-wall_height = 0.05
-speed = 0.4
-drop_length = 0.1)";
-
 const Wall& find(const std::vector<Wall>& walls, const std::string& name) {
   const auto found = std::ranges::find(walls, name, &Wall::name);
   REQUIRE(found != walls.end());
@@ -64,12 +53,6 @@ std::vector<std::string> names_of(const std::vector<Wall>& walls) {
 std::array<double, 4> plane_of(const Wall& wall) {
   const Vector3 normal = wall.start.rotation * std::get<PlaneShape>(wall.shape).normal;
   return {normal.x(), normal.y(), normal.z(), normal.dot(wall.start.position)};
-}
-
-/// Velocity of the surface of a part at a point of the world, at the start.
-Vector3 surface_velocity(const Wall& wall, const Vector3& point) {
-  const WallVelocity v = conveyor_velocity(wall.start, wall.start, wall.motions, 1, 1.001);
-  return v.linear + v.angular.cross(point - wall.start.position);
 }
 
 }  // namespace
@@ -148,16 +131,11 @@ TEST_CASE("the shell of a drum is around its axis, at its radius, and looks inwa
 }
 
 TEST_CASE("grains in a drum that turns stay in it") {
-  Scene scene = scene_of(Drum{0.08, 0.04, 32, 60, 0.1}, {{lentil(), 60}});
-  Random random(1);
-  const World world(scene, place(scene, random));
-  Stepper stepper(world, scene);
-  LeakWatch leaks(world);
-  for (int step = 1; step <= 2200; ++step) {
-    stepper.step();
-    leaks.after_step(step * scene.time.step);
-  }
-  CHECK(leaks.count() == 0);
+  const Scene scene = scene_of(Drum{0.08, 0.04, 32, 60, 0.1}, {{lentil(), 60}});
+  Simulation simulation(scene, 1);
+  const World& world = simulation.world;
+  for (int step = 1; step <= 2200; ++step) simulation.advance(step * scene.time.step);
+  CHECK(simulation.watches.leaks.count() == 0);
   // It has turned once since 0.1 s.
   const WallState state = world.walls().state(0);
   CHECK((state.pose.rotation * Vector3::UnitX() - Vector3::UnitX()).norm() < 1e-12);
@@ -254,18 +232,6 @@ TEST_CASE("the stress and the motion of a side of a cell change during a run, an
              {"container.y_high.friction is fixed during a run", "container.SIDE.motion", "container.SIDE.drive.stress"});
 }
 
-TEST_CASE("the belt and its rollers have one speed where they meet") {
-  const Scene scene = scene_of(scene_in(kBelt));
-  CHECK((surface_velocity(find(scene.walls, "belt"), {0.1, 0.03, 0.1}) - Vector3(0.4, 0, 0)).norm() < 1e-12);
-  for (const double x : {0.0, 0.2}) {
-    const Wall& roller = find(scene.walls, x == 0 ? "first_roller" : "last_roller");
-    CHECK((surface_velocity(roller, {x, 0.03, 0.1}) - Vector3(0.4, 0, 0)).norm() < 1e-12);
-    CHECK((surface_velocity(roller, {x, 0.03, 0.08}) + Vector3(0.4, 0, 0)).norm() < 1e-12);
-    CHECK(std::abs((roller.start.rotation * Vector3::UnitZ()).y()) == doctest::Approx(1));
-  }
-  CHECK_FALSE(contains(scene.container, {0.31, 0.03, 0.05}));
-}
-
 TEST_CASE("the error of a moving container names the key, its value and the allowed values") {
   struct Wrong {
     const char* container;
@@ -286,9 +252,6 @@ TEST_CASE("the error of a moving container names the key, its value and the allo
       {kCell, {"y_high.friction = 0.2", "y_high.shape = \"box\"", {"unknown key \"shape\"", "container.y_high"}}},
       {"kind = \"cell\"\nwidth = [0.05, 0.06]\nx_low.drive = { stress = 1, gain = 1, largest_speed = 1 }",
        {"gain = 1,", "gain = 2,", {"container.x_low.drive.area is missing", "m^2"}}},
-      {kBelt, {"thickness = 0.02", "thickness = 0.2", {"container.thickness is 0.2", "container.height"}}},
-      {kBelt, {"speed = 0.4", "speed = 40", {"container.speed is 40", "a tenth"}}},
-      {kBelt, {"drop_length = 0.1", "drop_length = 0.01", {"container.drop_length is 0.01", "beyond the last roller"}}},
   };
   for (const Wrong& wrong : all) {
     const Mistake& mistake = wrong.mistake;
@@ -301,11 +264,9 @@ TEST_CASE("the sample scenes with parts are valid, and their grains start within
   for (const char* name : {"drum", "tray", "shear_cell", "conveyor", "piston", "cell"}) {
     CAPTURE(name);
     const Scene scene = load_scene(SUPERNORMAL_SAMPLES "/scenes/" + std::string(name) + ".toml");
-    Random random(scene.seed);
-    const World world(scene, place(scene, random));
+    Simulation simulation(scene, 1);
     CHECK_FALSE(scene.parts().empty());
-    Stepper stepper(world, scene);
-    for (int i = 0; i < 20; ++i) stepper.step();
-    for (const Grain& grain : world.grains()) CHECK(contains(scene.container, grain.position()));
+    for (int i = 0; i < 20; ++i) simulation.stepper.step();
+    for (const Grain& grain : simulation.world.grains()) CHECK(contains(scene.container, grain.position()));
   }
 }
