@@ -16,6 +16,7 @@
 #include "common/interval.hpp"
 #include "doubts.hpp"
 #include "observe/energy.hpp"
+#include "observe/region.hpp"
 #include "world/placement.hpp"
 
 namespace falling_particles {
@@ -134,13 +135,11 @@ void refuse_bad_bonds(const World& world) {
   refuse_stiff_bonds(world, scene.solver.iterations);
 }
 
-const Wall& wall_named(const std::string& name, const Scene& scene) { return *std::ranges::find(scene.walls, name, &Wall::name); }
-
 /// s, from when on two walls that no drive moves have no space between them; empty if they always have.
 std::optional<double> meeting_of(const FacingWalls& pair, const Scene& scene) {
   constexpr double kMost = 1e5;  // poses, which take 0.1 s
-  const Wall& first = wall_named(pair[0], scene);
-  const Wall& second = wall_named(pair[1], scene);
+  const Wall& first = wall_named(pair[0], scene.walls);
+  const Wall& second = wall_named(pair[1], scene.walls);
   if (first.drive || second.drive || (first.motions.empty() && second.motions.empty())) return std::nullopt;
   const double interval = std::max(scene.time.step, scene.time.duration / kMost);
   for (int i = 0; i * interval < scene.time.duration; ++i) {

@@ -28,6 +28,13 @@ class Writer {
   cereal::BinaryOutputArchive archive_{stream_};
 };
 
+template <typename... Values>
+std::string to_bytes(const Values&... values) {
+  Writer writer;
+  writer(values...);
+  return writer.bytes();
+}
+
 /// Returns the values in the same order. Throws std::exception if the bytes end too early.
 class Reader {
  public:

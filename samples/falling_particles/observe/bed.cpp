@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <memory>
 #include <numbers>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -125,27 +124,24 @@ constexpr int kSectors = 12;
 constexpr int kArcs = 24;
 constexpr int kRaysPerArc = 12;
 
-struct Line {
-  double slope, at_zero;
-};
-
-Line fit(std::span<const double> x, std::span<const double> y) {
-  const auto n = static_cast<double>(x.size());
-  double sx = 0;
-  double sy = 0;
-  double sxx = 0;
-  double sxy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    sx += x[i];
-    sy += y[i];
-    sxx += x[i] * x[i];
-    sxy += x[i] * y[i];
-  }
-  const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
-  return {slope, (sy - slope * sx) / n};
-}
-
 }  // namespace
+
+Line fit(const std::vector<std::array<double, 2>>& points) {
+  const auto n = static_cast<double>(points.size());
+  double x = 0, y = 0;
+  for (const auto& point : points) {
+    x += point[0] / n;
+    y += point[1] / n;
+  }
+  double xx = 0, xy = 0, yy = 0;
+  for (const auto& point : points) {
+    xx += (point[0] - x) * (point[0] - x);
+    xy += (point[0] - x) * (point[1] - y);
+    yy += (point[1] - y) * (point[1] - y);
+  }
+  const double slope = xy / xx;
+  return {slope, y - slope * x, std::sqrt(std::max(0.0, yy - slope * xy) / (n - 2) / xx)};
+}
 
 Bed measure_bed(const World& world, const Box& box, Random& random) { return measure(world, box, random); }
 
@@ -178,8 +174,7 @@ Heap measure_heap(const World& world, const Point& centre, double radius) {
   double height = 0;
   bool has_flank = false;
   for (int sector = 0; sector < kSectors; ++sector) {
-    std::vector<double> distances;
-    std::vector<double> heights;
+    std::vector<std::array<double, 2>> flank;  // m, distance and height
     for (int arc = 0; arc < kArcs; ++arc) {
       const double distance = radius * std::lerp(kFlankFrom, kFlankTo, (arc + 0.5) / kArcs);
       double mean = 0;
@@ -191,10 +186,9 @@ Heap measure_heap(const World& world, const Point& centre, double radius) {
         has_flank = has_flank || above > 0;
         mean += above / kRaysPerArc;
       }
-      distances.push_back(distance);
-      heights.push_back(mean);
+      flank.push_back({distance, mean});
     }
-    const Line line = fit(distances, heights);
+    const Line line = fit(flank);
     const double angle = std::atan(-line.slope) * 180 / std::numbers::pi;
     sum += angle;
     squares += angle * angle;

@@ -36,6 +36,14 @@ Bed measure_bed(const World& world, const Box& box, Random& random);
 /// Measures the bed in a closed hopper; heights are above the outlet.
 Bed measure_bed(const World& world, const Hopper& hopper, Random& random);
 
+struct Line {
+  double slope, at_zero;
+  double error;  ///< standard error of the slope
+};
+
+/// The line of least squares through at least three points.
+Line fit(const std::vector<std::array<double, 2>>& points);
+
 /// The surface of grains, which vertical rays find.
 class Tops {
  public:

@@ -61,12 +61,8 @@ std::string coordination_columns() {
   return text + ",grains_with_" + std::to_string(kMostCounted) + "_or_more";
 }
 
-void add_mean(TableText& table, std::size_t sum, std::size_t count) {
-  if (count == 0) {
-    table.blank();
-  } else {
-    table.add(static_cast<double>(sum) / static_cast<double>(count));
-  }
+std::optional<double> mean_of(std::size_t sum, std::size_t count) {
+  return count == 0 ? std::nullopt : std::optional(static_cast<double>(sum) / static_cast<double>(count));
 }
 
 void measure_coordination(const Sample& sample, TableText& table, const SamplingRegion& region, bool counts_walls,
@@ -91,10 +87,8 @@ void measure_coordination(const Sample& sample, TableText& table, const Sampling
       lasting += left[index];
     }
   }
-  table.add(sample.time).add(grains);
-  add_mean(table, contacts, grains);
-  table.add(rattlers);
-  add_mean(table, lasting, grains - rattlers);
+  table.add(sample.time).add(grains).add(mean_of(contacts, grains));
+  table.add(rattlers).add(mean_of(lasting, grains - rattlers));
   for (const std::size_t count : histogram) table.add(count);
   table.end_line();
 }

@@ -58,11 +58,7 @@ void write(const CellSums& sums, double volume, TableText& table) {
   int unknowns = 0;
   const double energy = energy_beside_field(sums, unknowns);
   const auto grains = static_cast<double>(sums.grains);
-  if (grains > unknowns) {
-    table.add(energy / sums.mass / 3 * grains / (grains - unknowns));
-  } else {
-    table.blank();
-  }
+  grains > unknowns ? table.add(energy / sums.mass / 3 * grains / (grains - unknowns)) : table.blank();
   table.add(sums.energy / sums.mass / 3).end_line();
 }
 

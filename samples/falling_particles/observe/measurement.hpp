@@ -1,7 +1,8 @@
 // Measurements and their kinds.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -26,6 +27,14 @@ class TableText {
   TableText& add(double value) { return add(std::string_view(shortest(value))); }
   TableText& add(std::size_t value) { return add(std::string_view(std::to_string(value))); }
   TableText& add(const Eigen::Vector3d& v) { return add(v[0]).add(v[1]).add(v[2]); }
+  TableText& add(const Eigen::Quaterniond& q) { return add(q.w()).add(q.vec()); }
+  template <std::size_t Count>
+  TableText& add(const std::array<double, Count>& values) {
+    for (const double value : values) add(value);
+    return *this;
+  }
+  /// Adds an empty field for a missing value.
+  TableText& add(const std::optional<double>& value) { return value ? add(*value) : blank(); }
   TableText& add(std::string_view field) {
     if (!is_start_) text_ += ',';
     text_ += field;

@@ -66,7 +66,7 @@ MeasurementKind nematic_order_kind() {
           .source = "de Gennes and Prost, The Physics of Liquid Crystals (1993)",
           .read = [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             const SamplingRegion region(table, scene, SamplingRegion::Without::Everywhere);
-            const std::string grain = read_grain(table, "grain", scene);
+            const std::string grain = table.choice("grain", names_of_grains(scene));
             const std::size_t axis = find_axis(table, scene, grain, table.choice("axis", {"longest", "shortest"}));
             return lines_of("time_s,grains,order,director_x,director_y,director_z,biaxiality",
                             [=](const Sample& sample, TableText& lines) { measure_order(sample, lines, region, grain, axis); });

@@ -92,11 +92,7 @@ class Passage final : public Measurement {
   bool has_unwritten() const override { return !passed_.empty(); }
   double bytes_of_event() const override { return per_grain_ ? kLineOfPassage : 0; }
 
-  std::string save() const override {
-    Writer writer;
-    writer(kinds_, passed_, sampled_at_, places_);
-    return writer.bytes();
-  }
+  std::string save() const override { return to_bytes(kinds_, passed_, sampled_at_, places_); }
   void restore(const std::string& memory) override { Reader{memory}(kinds_, passed_, sampled_at_, places_); }
 
  private:
@@ -160,10 +156,7 @@ class Passage final : public Measurement {
     for (const PassedGrain& passed : passed_) {
       const Grain& grain = sample.world.grains()[passed.grain];
       table.add(passed.time).add(passed.grain).add(grain.kind->name).add(grain.scale).add(grain.scale * grain.kind->sieve_size());
-      table.add(grain.mass.mass).add(passed.is_forward ? 1.0 : -1.0);
-      for (const double number : passed.position) table.add(number);
-      for (const double number : passed.velocity) table.add(number);
-      table.end_line();
+      table.add(grain.mass.mass).add(passed.is_forward ? 1.0 : -1.0).add(passed.position).add(passed.velocity).end_line();
     }
   }
 

@@ -55,10 +55,6 @@ Bounds bounds_between(const std::vector<FacingWalls>& pairs, const World& world)
   return bounds;
 }
 
-const Wall& wall_named(const std::string& name, const std::vector<Wall>& walls) {
-  return *std::ranges::find(walls, name, &Wall::name);
-}
-
 std::optional<FacingFaces> find_faces(const FacingWalls& pair, const std::vector<Wall>& walls) {
   const Wall& first = wall_named(pair[0], walls);
   const Wall& second = wall_named(pair[1], walls);
@@ -66,6 +62,10 @@ std::optional<FacingFaces> find_faces(const FacingWalls& pair, const std::vector
 }
 
 }  // namespace
+
+const Wall& wall_named(const std::string& name, const std::vector<Wall>& walls) {
+  return *std::ranges::find(walls, name, &Wall::name);
+}
 
 Stay Bounds::stay_of(const Vector3& a, const Vector3& b) const {
   double from = 0;
@@ -127,7 +127,7 @@ void SamplingRegion::read_between(const TomlTable& table, const Scene& scene) {
                    " has \"" + pair[0] + "\" and \"" + pair[1] + "\", which are not across x, y or z; allowed: walls that are");
     }
     for (const std::string& name : pair) {
-      if (keeps(*std::ranges::find(scene.walls, name, &Wall::name), faces.normal)) continue;
+      if (keeps(wall_named(name, scene.walls), faces.normal)) continue;
       table.refuse("between", " has \"" + name + "\", which rotates; allowed: walls that stay across x, y or z");
     }
     between_[axis] = pair;
@@ -233,10 +233,6 @@ std::vector<std::string> names_of_grains(const Scene& scene) {
   return names;
 }
 
-std::string read_grain(const TomlTable& table, const char* key, const Scene& scene) {
-  return table.choice(key, names_of_grains(scene));
-}
-
 std::vector<std::string> read_surfaces(const TomlTable& table, const Scene& scene) {
   const std::vector<std::string> names = names_of(scene.walls);
   if (names.empty()) {
@@ -272,34 +268,6 @@ std::vector<FacingWalls> read_facing_walls(const TomlTable& table, const char* k
     pairs.push_back(pair);
   }
   return pairs;
-}
-
-void LaceyGrid::add(std::size_t cell, bool is_first) {
-  for (Count* count : {&cells_[cell], &all_}) {
-    count->both += 1;
-    if (is_first) count->first += 1;
-  }
-}
-
-void LaceyGrid::write(TableText& table) const {
-  const double fraction = all_.both > 0 ? all_.first / all_.both : 0;
-  double occupied = 0;
-  double variance = 0;
-  for (const Count& cell : cells_) {
-    if (cell.both == 0) continue;
-    ++occupied;
-    const double excess = cell.first / cell.both - fraction;
-    variance += cell.both * excess * excess / all_.both;
-  }
-  const double segregated = fraction * (1 - fraction);
-  table.add(static_cast<std::size_t>(all_.both)).add(static_cast<std::size_t>(occupied));
-  if (segregated == 0 || occupied >= all_.both) {  // only one group, or as many cells as grains, for which the index is undefined
-    constexpr int kOtherColumns = 5;
-    table.blank(kOtherColumns);
-    return;
-  }
-  const double random = segregated * (occupied - 1) / (all_.both - 1);
-  table.add(fraction).add(variance).add(segregated).add(random).add((segregated - variance) / (segregated - random));
 }
 
 }  // namespace falling_particles

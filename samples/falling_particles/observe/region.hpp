@@ -1,4 +1,4 @@
-// The region of a measurement and its cells, and Lacey's index of mixing in them.
+// The region of a measurement, and its cells.
 #pragma once
 
 #include <array>
@@ -20,6 +20,9 @@ namespace falling_particles {
 /// `across` (unit or zero).
 std::vector<FacingWalls> read_facing_walls(const TomlTable& table, const char* key, std::size_t count,
                                            const std::vector<Wall>& walls, const Vector3& across);
+
+/// The first of a name, which must exist.
+const Wall& wall_named(const std::string& name, const std::vector<Wall>& walls);
 
 /// The faces of a pair at the start, in the order of the names. The walls must exist and have such faces.
 FacingFaces faces_at_start(const FacingWalls& pair, const std::vector<Wall>& walls);
@@ -92,37 +95,10 @@ CellCounts read_cells(const TomlTable& table);
 std::optional<std::size_t> cell_of(const Vector3& point, const Bounds& bounds, const CellCounts& cells);
 inline std::size_t number_of(const CellCounts& cells) { return cells[0] * cells[1] * cells[2]; }
 
-/// The name of a kind of the scene that `key` gives. Throws InputError.
-std::string read_grain(const TomlTable& table, const char* key, const Scene& scene);
 std::vector<std::string> names_of_grains(const Scene& scene);
 
 /// The names of walls under `surfaces` of a measurement, or those of all walls of the scene ("floor", "x_low", "x_high", "y_low",
 /// "y_high" of a box or a hopper's tray, "lid", "hopper", "dish", "ground"; names of parts). Throws InputError.
 std::vector<std::string> read_surfaces(const TomlTable& table, const Scene& scene);
-
-/// The grains of two groups in the cells of a grid, for M = (s0^2 - s^2) / (s0^2 - sr^2), by number. s^2 is the variance of the
-/// first group's fraction over the cells with grains, weighted by their grains; s0^2 = p (1 - p) is the variance of groups apart;
-/// sr^2 = p (1 - p) (K - 1) / (N - 1) is the mean of s^2 for N grains in random order in K cells. P. M. C. Lacey, Developments in
-/// the theory of particle mixing, J. Appl. Chem. 4 (1954) 257-268.
-class LaceyGrid {
- public:
-  explicit LaceyGrid(std::size_t cells) : cells_(cells) {}
-
-  /// `cell`: below the number of cells.
-  void add(std::size_t cell, bool is_first);
-
-  /// The columns of write().
-  static constexpr const char* kColumns = "grains,occupied_cells,fraction,variance,variance_segregated,variance_random,lacey";
-  /// All but the first two are empty if there is only one group, or no cell with two grains.
-  void write(TableText& table) const;
-
- private:
-  struct Count {
-    double first = 0;
-    double both = 0;
-  };
-  std::vector<Count> cells_;
-  Count all_;
-};
 
 }  // namespace falling_particles

@@ -94,11 +94,7 @@ class Residence final : public Measurement {
   bool has_unwritten() const override { return !ended_.empty(); }
   double bytes_of_event() const override { return per_visit_ ? kLineOfVisit : 0; }
 
-  std::string save() const override {
-    Writer writer;
-    writer(entered_, kinds_, ended_);
-    return writer.bytes();
-  }
+  std::string save() const override { return to_bytes(entered_, kinds_, ended_); }
   void restore(const std::string& memory) override { Reader{memory}(entered_, kinds_, ended_); }
 
  private:

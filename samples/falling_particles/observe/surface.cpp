@@ -22,35 +22,6 @@ struct Settings {
   double middle;        // fraction of the width to which the line is fitted
 };
 
-struct Slope {
-  double angle;           // degrees
-  double standard_error;  // degrees
-};
-
-/// Fits a straight line to at least three points by least squares.
-std::optional<Slope> fit(const std::vector<std::array<double, 2>>& points) {
-  if (points.size() < 3) return std::nullopt;
-  const auto n = static_cast<double>(points.size());
-  double x = 0;
-  double y = 0;
-  for (const auto& point : points) {
-    x += point[0] / n;
-    y += point[1] / n;
-  }
-  double xx = 0;
-  double xy = 0;
-  double yy = 0;
-  for (const auto& point : points) {
-    xx += (point[0] - x) * (point[0] - x);
-    xy += (point[0] - x) * (point[1] - y);
-    yy += (point[1] - y) * (point[1] - y);
-  }
-  const double slope = xy / xx;
-  const double error = std::sqrt(std::max(0.0, yy - slope * xy) / (n - 2) / xx);
-  const double degrees = 180 / std::numbers::pi;
-  return Slope{std::atan(slope) * degrees, error / (1 + slope * slope) * degrees};
-}
-
 std::string surface_columns(const Settings& settings) {
   std::string text = "time_s,angle_deg,standard_error_deg,fitted_columns";
   for (std::size_t i = 1; i <= settings.columns; ++i) text += ",height_" + std::to_string(i) + "_m";
@@ -94,13 +65,15 @@ void measure_surface(const Sample& sample, TableText& table, const SamplingRegio
     }
   }
   table.add(sample.time);
-  if (const std::optional<Slope> slope = fit(fitted)) {
-    table.add(slope->angle).add(slope->standard_error);
-  } else {
+  if (fitted.size() < 3) {
     table.blank(2);
+  } else {
+    const Line line = fit(fitted);
+    constexpr double kDegrees = 180 / std::numbers::pi;
+    table.add(std::atan(line.slope) * kDegrees).add(line.error / (1 + line.slope * line.slope) * kDegrees);
   }
   table.add(fitted.size());
-  for (const std::optional<double>& height : heights) height ? table.add(*height) : table.blank();
+  for (const std::optional<double>& height : heights) table.add(height);
   table.end_line();
 }
 

@@ -27,9 +27,7 @@ void write_trajectory(const Sample& sample, TableText& table) {
   const std::string time = shortest(sample.time);
   for (const Grain& grain : sample.world.present()) {
     table.add(time).add(sample.world.index_of(grain)).add(grain.kind->name);
-    for (const double number : grain.position()) table.add(number);
-    for (const double number : grain.quaternion()) table.add(number);
-    table.end_line();
+    table.add(grain.position()).add(grain.quaternion()).end_line();
   }
 }
 
@@ -38,11 +36,7 @@ void write_final_state(const Sample& sample, TableText& table) {
   const std::string time = shortest(sample.time);
   for (const Grain& grain : sample.world.present()) {
     table.add(time).add(sample.world.index_of(grain)).add(grain.kind->name).add(grain.scale);
-    for (const double number : grain.position()) table.add(number);
-    for (const double number : grain.quaternion()) table.add(number);
-    for (const double number : grain.velocity()) table.add(number);
-    for (const double number : grain.angular_velocity()) table.add(number);
-    table.end_line();
+    table.add(grain.position()).add(grain.quaternion()).add(grain.velocity()).add(grain.angular_velocity()).end_line();
   }
 }
 
@@ -83,9 +77,7 @@ void write_drive(const WallBodies& walls, std::size_t index, TableText& table) {
   const bool turns = driven != nullptr && walls.wall(index).drive->turns();
   driven != nullptr && !turns ? table.add(driven->push) : table.blank();
   turns ? table.add(driven->push) : table.blank();
-  const std::optional<double> stress = walls.servo_stress(index);
-  stress ? table.add(*stress) : table.blank();
-  table.end_line();
+  table.add(walls.servo_stress(index)).end_line();
 }
 
 /// The velocity of a part is the mean of the last step, without the motion of a conveyor's surface.
@@ -94,8 +86,7 @@ void write_parts(const Sample& sample, TableText& table) {
   for (std::size_t i = 0; i < walls.count(); ++i) {
     if (!walls.wall(i).moves()) continue;
     const auto& [pose, velocity] = walls.state(i);
-    const Eigen::Quaterniond& q = pose.rotation;
-    table.add(sample.time).add(walls.wall(i).name).add(pose.position).add(q.w()).add(q.x()).add(q.y()).add(q.z());
+    table.add(sample.time).add(walls.wall(i).name).add(pose.position).add(pose.rotation);
     table.add(velocity.linear).add(velocity.angular);
     write_drive(walls, i, table);
   }
@@ -155,8 +146,7 @@ void write_broken_bonds(const Sample& sample, TableText& table) {
     const Bond& bond = bonds.all()[failure.bond];
     table.add(failure.time);
     add_bond(sample.world.scene(), bond, table);
-    for (const double number : failure.place) table.add(number);
-    table.add(cause_of(failure, sample.world.scene().bonds[bond.rule]));
+    table.add(failure.place).add(cause_of(failure, sample.world.scene().bonds[bond.rule]));
     const auto& [tension, bending, shear, torsion] = failure.stress;
     table.add(tension).add(bending).add(shear).add(torsion).end_line();
   }
@@ -168,8 +158,7 @@ void write_final_bonds(const Sample& sample, TableText& table) {
     if (bond.is_broken) continue;
     table.add(sample.time);
     add_bond(sample.world.scene(), bond, table);
-    const Eigen::Quaterniond& q = bond.rest.rotation;
-    table.add(bond.radius).add(bond.rest.start).add(bond.rest.centre).add(q.w()).add(q.x()).add(q.y()).add(q.z()).end_line();
+    table.add(bond.radius).add(bond.rest.start).add(bond.rest.centre).add(bond.rest.rotation).end_line();
   }
 }
 

@@ -66,6 +66,21 @@ std::vector<Vector3> below(const Box3& box, const WallPose& pose, const Eigen::Q
   return corners;
 }
 
+/// A grid of samples by samples points, and two triangles in each of its squares.
+Mesh grid_of(unsigned int samples, const auto& point) {
+  Mesh mesh;
+  for (unsigned int j = 0; j < samples; ++j) {
+    for (unsigned int i = 0; i < samples; ++i) {
+      mesh.vertices.push_back(vertex(point(i, j)));
+      if (i == 0 || j == 0) continue;
+      const unsigned int highest = j * samples + i, lowest = highest - samples - 1;
+      mesh.triangles.push_back({lowest, lowest + 1, highest});
+      mesh.triangles.push_back({lowest, highest, highest - 1});
+    }
+  }
+  return mesh;
+}
+
 struct Mesher {
   const Box3& region;
   const WallPose& pose;
@@ -90,19 +105,11 @@ struct Mesher {
   }
   Mesh operator()(const MeshShape& mesh) const { return mesh; }
   Mesh operator()(const GroundShape& ground) const {
-    Mesh mesh;
     const auto samples = static_cast<unsigned int>(ground.samples);
     const auto place = [&](unsigned int index, std::size_t axis) { return (index - (samples - 1) / 2.0) * ground.spacing[axis]; };
-    for (unsigned int j = 0; j < samples; ++j) {
-      for (unsigned int i = 0; i < samples; ++i) {
-        mesh.vertices.push_back(vertex({place(i, 0), place(j, 1), ground.heights[std::size_t{j} * samples + i]}));
-        if (i == 0 || j == 0) continue;
-        const unsigned int highest = j * samples + i, lowest = highest - samples - 1;
-        mesh.triangles.push_back({lowest, lowest + 1, highest});
-        mesh.triangles.push_back({lowest, highest, highest - 1});
-      }
-    }
-    return mesh;
+    return grid_of(samples, [&](unsigned int i, unsigned int j) {
+      return Vector3(place(i, 0), place(j, 1), ground.heights[std::size_t{j} * samples + i]);
+    });
   }
 };
 
@@ -205,20 +212,11 @@ std::vector<WallPicture> pictures_of(const Hopper& hopper, double /*top*/) {
 
 /// The ground between the walls: all samples but the outermost, which lie beyond the walls.
 WallPicture ground_of(const Terrain& terrain) {
-  WallPicture wall{"ground", Role::Still, {}, {}};
-  const auto side = static_cast<unsigned int>(terrain.samples_per_side() - 2);
   const auto [dx, dy] = terrain.spacing();
-  for (unsigned int j = 0; j < side; ++j) {
-    for (unsigned int i = 0; i < side; ++i) wall.mesh.vertices.push_back(vertex(i * dx, j * dy, terrain.sample(i + 1, j + 1)));
-  }
-  for (unsigned int j = 0; j + 1 < side; ++j) {
-    for (unsigned int i = 0; i + 1 < side; ++i) {
-      const unsigned int lowest = j * side + i, highest = lowest + side + 1;
-      wall.mesh.triangles.push_back({lowest, lowest + 1, highest});
-      wall.mesh.triangles.push_back({lowest, highest, lowest + side});
-    }
-  }
-  return wall;
+  const auto point = [&, dx = dx, dy = dy](unsigned int i, unsigned int j) {
+    return Vector3(i * dx, j * dy, terrain.sample(i + 1, j + 1));
+  };
+  return {"ground", Role::Still, grid_of(static_cast<unsigned int>(terrain.samples_per_side() - 2), point), {}};
 }
 
 std::vector<WallPicture> pictures_of(const Terrain& terrain, double top) {

@@ -145,11 +145,7 @@ class Wear final : public Measurement {
     return {depth, volume};
   }
 
-  std::string save() const override {
-    Writer writer;
-    writer(work_);
-    return writer.bytes();
-  }
+  std::string save() const override { return to_bytes(work_); }
   void restore(const std::string& memory) override { Reader{memory}(work_); }
 
  private:

@@ -60,12 +60,8 @@ RecorderState Recorder::save() {
 }
 
 void log_frame(const Frame& frame, OutputFile& log) {
-  Writer writer;
-  writer(frame);
-  const std::string bytes = writer.bytes();
-  Writer head;
-  head(static_cast<std::uint64_t>(bytes.size()), hash_of(bytes));
-  log.write(head.bytes() + bytes);
+  const std::string bytes = to_bytes(frame);
+  log.write(to_bytes(static_cast<std::uint64_t>(bytes.size()), hash_of(bytes)) + bytes);
 }
 
 void replay_frames(const std::filesystem::path& path, std::uint64_t size, const std::function<void(const Frame&)>& visit) {

@@ -94,12 +94,8 @@ Origin origin_of(const Scene& scene, int every) {
 }
 
 std::string seal(const Checkpoint& checkpoint) {
-  Writer body;
-  body(kFormat, checkpoint.origin, checkpoint.state);
-  std::string bytes = std::string(kMagic) + body.bytes();
-  Writer checksum;
-  checksum(hash_of(bytes));
-  return bytes + checksum.bytes();
+  const std::string bytes = std::string(kMagic) + to_bytes(kFormat, checkpoint.origin, checkpoint.state);
+  return bytes + to_bytes(hash_of(bytes));
 }
 
 Checkpoint unseal(const std::string& bytes, const std::filesystem::path& path) {

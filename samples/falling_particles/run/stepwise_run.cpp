@@ -101,9 +101,7 @@ void StepwiseRun::save() {
   const Stopwatch::Lap lap(cost_.watch);
   ++cost_.number;
   const std::string state = simulation_->save();
-  Writer writer;
-  writer(SavedRun{step_, time_, cost_, state, measuring_->save(), recorder_->save()});
-  files_->checkpoints.write(writer.bytes());
+  files_->checkpoints.write(to_bytes(SavedRun{step_, time_, cost_, state, measuring_->save(), recorder_->save()}));
   make_simulation_again(state);
 }
 
