@@ -191,7 +191,8 @@ class Builder {
     mesh.name = kind.name;
     mesh.primitives.push_back(std::move(primitive));
     model_.meshes.push_back(std::move(mesh));
-    add_material(kind, index);
+    const auto& [red, green, blue] = colour_of_kind(index);
+    add_material(kind.name, {std::pow(red, 2.2), std::pow(green, 2.2), std::pow(blue, 2.2), 1}, 0.6, "OPAQUE");
   }
 
   static void bound(tinygltf::Accessor& positions, const supernormal::Tessellation& body) {
@@ -243,7 +244,7 @@ class Builder {
     };
     if (field.numbers.empty()) add(wall.mesh.triangles, TINYGLTF_MODE_TRIANGLES);
     add(wall.edges, TINYGLTF_MODE_LINE);
-    add_wall_material(wall.name, colour);
+    add_material(wall.name, colour, 1, "BLEND");
     if (!field.numbers.empty()) add_coloured(wall, field, mesh);
     model_.meshes.push_back(std::move(mesh));
   }
@@ -269,7 +270,7 @@ class Builder {
     primitive.attributes["COLOR_0"] = add_accessor(add_view(TINYGLTF_TARGET_ARRAY_BUFFER), colours, TINYGLTF_TYPE_VEC4);
     primitive.attributes['_' + field.name] = add_accessor(add_view(TINYGLTF_TARGET_ARRAY_BUFFER), numbers, TINYGLTF_TYPE_SCALAR);
     mesh.primitives.push_back(std::move(primitive));
-    add_wall_material(wall.name + ' ' + field.name, {1, 1, 1, 1});  // a factor on the colours
+    add_material(wall.name + ' ' + field.name, {1, 1, 1, 1}, 1, "BLEND");  // a factor on the colours
   }
 
   int add_points(const std::vector<std::array<float, 3>>& vertices) {
@@ -280,25 +281,14 @@ class Builder {
     return positions;
   }
 
-  void add_wall_material(std::string name, const std::array<double, 4>& colour) {
-    tinygltf::Material material;
+  /// `colour`: linear.
+  void add_material(std::string name, const std::array<double, 4>& colour, double roughness, const char* alpha) {
+    tinygltf::Material& material = model_.materials.emplace_back();
     material.name = std::move(name);
     material.pbrMetallicRoughness.baseColorFactor.assign(colour.begin(), colour.end());
     material.pbrMetallicRoughness.metallicFactor = 0;
-    material.pbrMetallicRoughness.roughnessFactor = 1;
-    material.alphaMode = "BLEND";
-    model_.materials.push_back(std::move(material));
-  }
-
-  void add_material(const GrainKind& kind, std::size_t index) {
-    const Colour colour = colour_of_kind(index);
-    tinygltf::Material material;
-    material.name = kind.name;
-    // glTF colours are linear.
-    for (std::size_t i = 0; i < 3; ++i) material.pbrMetallicRoughness.baseColorFactor[i] = std::pow(colour[i], 2.2);
-    material.pbrMetallicRoughness.metallicFactor = 0;
-    material.pbrMetallicRoughness.roughnessFactor = 0.6;
-    model_.materials.push_back(std::move(material));
+    material.pbrMetallicRoughness.roughnessFactor = roughness;
+    material.alphaMode = alpha;
   }
 
   /// Adds a node per grain, then a node per wall, then a node per bond, then the root above them.

@@ -57,7 +57,6 @@ RunEnd run_in(OutputFolder& folder, Checkpoints& checkpoints, const Scene& scene
   return {true, false, folder.path(), {}};
 }
 
-constexpr std::size_t kBarWidth = 30;
 constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
 
 }  // namespace
@@ -79,42 +78,20 @@ RunEnd run(const Scene& scene, const RunOptions& options) {
 }
 
 Progress::Progress(std::FILE* stream, int steps, int done)
-    : stream_(stream),
-      terminal_(isatty(fileno(stream)) == 1),
-      steps_(steps),
-      done_(done),
-      start_(Clock::now()),
-      last_draw_(start_) {}
+    : stream_(stream), terminal_(isatty(fileno(stream)) == 1), steps_(steps), done_(done), start_(Clock::now()), last_(start_) {}
 
 void Progress::update(int step, double simulated, std::size_t contacts) {
-  if (terminal_) {
-    const Clock::time_point now = Clock::now();
-    if (now - last_draw_ < kRedrawInterval && step < steps_) return;
-    last_draw_ = now;
-    draw(step, simulated, contacts);
-    return;
-  }
+  const Clock::time_point now = Clock::now();
   const int tenths = static_cast<int>(10LL * step / steps_);
-  if (tenths == tenths_) return;
+  if (terminal_ ? now - last_ < kRedrawInterval && step < steps_ : tenths == tenths_) return;
+  last_ = now;
   tenths_ = tenths;
-  std::fprintf(stream_, "%3d %%  t = %.3f s  %zu contacts  %.0f s left\n", 10 * tenths, simulated, contacts, seconds_left(step));
-  std::fflush(stream_);
-}
-
-void Progress::draw(int step, double simulated, std::size_t contacts) {
-  const double share = static_cast<double>(step) / steps_;
-  std::string bar(kBarWidth, '.');
-  bar.replace(0, static_cast<std::size_t>(share * static_cast<double>(kBarWidth)),
-              static_cast<std::size_t>(share * static_cast<double>(kBarWidth)), '#');
+  const double left = std::chrono::duration<double>(now - start_).count() * (steps_ - step) / (step - done_);
   // \033[K clears the rest of a longer line.
-  std::fprintf(stream_, "\r[%s] %3.0f %%  t = %.3f s  %zu contacts  %.0f s left\033[K", bar.c_str(), 100 * share, simulated,
-               contacts, seconds_left(step));
+  std::fprintf(stream_, "%s%3d %%  t = %.3f s  %zu contacts  %.0f s left%s", terminal_ ? "\r" : "",
+               terminal_ ? static_cast<int>(100LL * step / steps_) : 10 * tenths, simulated, contacts, left,
+               terminal_ ? "\033[K" : "\n");
   std::fflush(stream_);
-}
-
-double Progress::seconds_left(int step) const {
-  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-  return elapsed * (steps_ - step) / (step - done_);
 }
 
 Progress::~Progress() {

@@ -31,12 +31,12 @@ struct RunEnd {
 /// be resumed.
 RunEnd run(const Scene& scene, const RunOptions& options);
 
-/// Shows the progress of a run on a stream: a bar that is redrawn on a terminal, otherwise a line for every tenth.
+/// Shows the progress of a run on a stream: a line that is rewritten on a terminal, otherwise a line for every tenth.
 class Progress {
  public:
   /// `done`: the steps of the run before it was resumed.
   Progress(std::FILE* stream, int steps, int done = 0);
-  /// Ends the bar's line, whatever stops the run.
+  /// Ends the line, whatever stops the run.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -46,15 +46,13 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
-  void draw(int step, double simulated, std::size_t contacts);
-  double seconds_left(int step) const;
 
   std::FILE* stream_;
   bool terminal_;
   int steps_;
   int done_;
   Clock::time_point start_;
-  Clock::time_point last_draw_;
+  Clock::time_point last_;  // when it was written
   int tenths_ = 0;
 };
 
