@@ -10,11 +10,9 @@
 
 #include "common/random.hpp"
 #include "observe/discharge.hpp"
-#include "observe/leaks.hpp"
+#include "observe/simulation.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"
-#include "world/placement.hpp"
-#include "world/stepper.hpp"
 #include "world/world.hpp"
 
 using namespace falling_particles;
@@ -215,23 +213,16 @@ TEST_CASE("the bed in a hopper: one lying column of known volume") {
 
 TEST_CASE("grains rest on the lid, flow out when it is removed, and none leaks") {
   const Scene scene = scene_of(kHopper, {{soybean(), 30}});
-  Random random(2);
-  World world(scene, place(scene, random));
-  Stepper stepper(world, scene);
-  LeakWatch leaks(world);
-  Discharge discharge(world, kHopper, random);
-  constexpr int kSteps = 1600;  // 0.8 s
-  for (int step = 1; step <= kSteps; ++step) {
-    stepper.step();
-    const double time = step * scene.time.step;
-    leaks.after_step(time);
-    discharge.after_step(time);
+  Simulation simulation(scene, 1);
+  const World& world = simulation.world;
+  const Discharge& discharge = *simulation.watches.discharge;
+  for (int step = 1; step <= 1600; ++step) {  // to 0.8 s
+    simulation.advance(step * scene.time.step);
     if (step == 590) {
       for (const Grain& grain : world.grains()) CHECK(grain.position()[2] > kHopper.clearance);
     }
   }
-  CAPTURE(leaks.first() ? describe(*leaks.first()) : "");
-  CHECK(leaks.count() == 0);
+  CHECK(simulation.watches.leaks.count() == 0);
   CHECK(discharge.count() == 30);
   CHECK(discharge.last_passage() < 0.7);
   REQUIRE(discharge.mass_flow());

@@ -7,11 +7,9 @@
 #include <cmath>
 
 #include "common/random.hpp"
-#include "observe/leaks.hpp"
+#include "observe/simulation.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"
-#include "world/placement.hpp"
-#include "world/stepper.hpp"
 #include "world/world.hpp"
 
 using namespace falling_particles;
@@ -137,19 +135,11 @@ TEST_CASE("beyond the walls of a terrain is outside") {
 
 TEST_CASE("round, flat and boxy grains fall on a terrain and stay on it") {
   const Scene scene = scene_of(Terrain(kParameters), {{lentil(), 20}, {die(), 10}});
-  Random random(2);
-  const World world(scene, place(scene, random));
-  Stepper stepper(world, scene);
-  LeakWatch leaks(world);
-  constexpr int kSteps = 1600;  // 0.8 s
-  for (int step = 1; step <= kSteps; ++step) {
-    stepper.step();
-    leaks.after_step(step * scene.time.step);
-  }
-  CAPTURE(leaks.first() ? describe(*leaks.first()) : "");
-  CHECK(leaks.count() == 0);
-  CHECK(stepper.contacts() >= 30);
-  for (const Grain& grain : world.grains()) {  // on the ground or on one another, none in the air
+  Simulation simulation(scene, 1);
+  for (int step = 1; step <= 1600; ++step) simulation.advance(step * scene.time.step);  // to 0.8 s
+  CHECK(simulation.watches.leaks.count() == 0);
+  CHECK(simulation.stepper.contacts() >= 30);
+  for (const Grain& grain : simulation.world.grains()) {  // on the ground or on one another, none in the air
     const Point p = grain.position();
     CHECK(p[2] - std::get<Terrain>(scene.container).height(p[0], p[1]) < 0.02);
   }

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
 
+#include "common/read_file.hpp"
 #include "model/scene.hpp"
 #include "observe/wall_mesh.hpp"
 #include "output/picture.hpp"
@@ -92,10 +91,7 @@ class Written {
     }
   }
   std::string path(const std::string& name) const { return out_.file(name).string(); }
-  std::string text(const std::string& name) const {
-    std::ifstream stream(path(name));
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
+  std::string text(const std::string& name) const { return read_file(path(name)); }
   const Scene& scene() const { return scene_; }
 
  private:
@@ -103,15 +99,6 @@ class Written {
   Scene scene_;
   OutputFolder out_;
 };
-
-std::vector<float> read(const tinygltf::Model& model, int accessor) {
-  const tinygltf::Accessor& found = model.accessors[static_cast<std::size_t>(accessor)];
-  const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(found.bufferView)];
-  std::vector<float> numbers(found.count *
-                             static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(found.type))));
-  std::memcpy(numbers.data(), model.buffers[0].data.data() + view.byteOffset + found.byteOffset, numbers.size() * sizeof(float));
-  return numbers;
-}
 
 std::size_t count_of(const std::string& text, const std::string& part) {
   std::size_t count = 0;
@@ -123,12 +110,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 
 TEST_CASE("glb: a mesh a kind, and the tracks of the bodies that move") {
   const Written written("glb");
-  tinygltf::Model model;
-  tinygltf::TinyGLTF reader;
-  std::string error, warning;
-  REQUIRE(reader.LoadBinaryFromFile(&model, &error, &warning, written.path("scene.glb")));
-  CHECK(error.empty());
-  CHECK(warning.empty());
+  const tinygltf::Model model = read_glb(written.path("scene.glb"));
   REQUIRE(model.meshes.size() == 5);  // two of the grains, floor, walls and plate
   CHECK(model.meshes[2].name == "floor");
   CHECK(model.meshes[1].name == "die </script>");
@@ -174,10 +156,7 @@ TEST_CASE("glb: a wall with a field has a colour and a number for each triangle,
   for (std::size_t k = 0; k < 12; ++k) frame.fields[0].of_walls[2][k] = 1e-9 * static_cast<double>(k);
   picture->add(frame);
   picture->finish(kSummary);
-  tinygltf::Model model;
-  std::string error, warning;
-  REQUIRE(tinygltf::TinyGLTF().LoadBinaryFromFile(&model, &error, &warning, out.file("scene.glb").string()));
-  CHECK((error + warning).empty());
+  const tinygltf::Model model = read_glb(out.file("scene.glb"));
   const auto colour_of = [&](const tinygltf::Primitive& primitive) {
     return model.materials[static_cast<std::size_t>(primitive.material)].pbrMetallicRoughness.baseColorFactor;
   };
@@ -242,10 +221,7 @@ TEST_CASE("bonds are lines between the centres of grains, until they break") {
   CHECK(series.text("vtk/bonds_000002.vtp").find("NumberOfLines=\"1\"") != std::string::npos);
   CHECK(Written("page", {}, Box{{0.1, 0.1}}, bonds).text("view.html").find(R"("bodies":"AAAAAAEAAAACAAAAAwAAAA==")") !=
         std::string::npos);
-  tinygltf::Model model;
-  std::string error, warning;
-  REQUIRE(tinygltf::TinyGLTF().LoadBinaryFromFile(&model, &error, &warning, animation.path("scene.glb")));
-  CHECK((error + warning).empty());
+  const tinygltf::Model model = read_glb(animation.path("scene.glb"));
   REQUIRE(model.nodes.size() == kBodies + 3 + bonds.size() + 1);
   REQUIRE(model.meshes.size() == 6);
   CHECK(model.nodes[kBodies + 3].name == "bond 0");
@@ -401,10 +377,7 @@ TEST_CASE("pictures show each body at its own size") {
   const std::vector<double> scales = {1, 2, 0.5, 1, 1};
   {
     const Written written("glb", scales);
-    tinygltf::Model model;
-    tinygltf::TinyGLTF reader;
-    std::string error, warning;
-    REQUIRE(reader.LoadBinaryFromFile(&model, &error, &warning, written.path("scene.glb")));
+    const tinygltf::Model model = read_glb(written.path("scene.glb"));
     CHECK(model.meshes.size() == 5);  // still one a kind
     CHECK(model.nodes[0].scale.empty());
     CHECK(model.nodes[1].scale == std::vector{2.0, 2.0, 2.0});

@@ -2,13 +2,12 @@
 #include <doctest/doctest.h>
 #include <tiny_gltf.h>
 
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
+#include "common/read_file.hpp"
 #include "output/picture.hpp"
+#include "read_array.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace falling_particles;
@@ -47,10 +46,7 @@ class PictureOfChanges {
     picture->finish("");
   }
   std::string path(const std::string& file) const { return out_.file(file).string(); }
-  std::string text(const std::string& file) const {
-    std::ifstream stream(path(file));
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
+  std::string text(const std::string& file) const { return read_file(path(file)); }
 
  private:
   TemporaryFolder folder_;
@@ -74,12 +70,7 @@ std::vector<float> track(const tinygltf::Model& model, int node, const std::stri
     if (channel.target_node != node || channel.target_path != path) continue;
     const auto& sampler = model.animations[0].samplers[static_cast<std::size_t>(channel.sampler)];
     if (path == "scale") CHECK(sampler.interpolation == "STEP");
-    const auto& accessor = model.accessors[static_cast<std::size_t>(sampler.output)];
-    const auto& view = model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
-    std::vector<float> numbers(3 * accessor.count);
-    std::memcpy(numbers.data(), model.buffers[0].data.data() + view.byteOffset + accessor.byteOffset,
-                numbers.size() * sizeof(float));
-    return numbers;
+    return read(model, sampler.output);
   }
   return {};
 }
@@ -105,10 +96,7 @@ TEST_CASE("a still has the grains of the last frame") {
 
 TEST_CASE("glb: a node is scaled to nothing while its grain is not there") {
   const PictureOfChanges written("glb");
-  tinygltf::Model model;
-  tinygltf::TinyGLTF reader;
-  std::string error, warning;
-  REQUIRE(reader.LoadBinaryFromFile(&model, &error, &warning, written.path("scene.glb")));
+  const tinygltf::Model model = read_glb(written.path("scene.glb"));
   REQUIRE(model.nodes.size() == 3);
   CHECK(track(model, 0, "scale") == std::vector<float>{1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0});
   CHECK(track(model, 1, "scale") == std::vector<float>{0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1});

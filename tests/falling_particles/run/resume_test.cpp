@@ -128,13 +128,6 @@ std::string table_of(const Simulation& simulation, double time) {
   return measurement->columns() + '\n' + table.text();
 }
 
-void advance_by(Simulation& simulation, const Scene& scene, int steps) {
-  for (int step = 1; step <= steps; ++step) {
-    simulation.stepper.step();
-    simulation.watches.after_step(step * scene.time.step, simulation.stepper);
-  }
-}
-
 /// The largest difference of a member of two worlds' grains.
 template <std::size_t size>
 double difference(const WorldState& a, const WorldState& b, std::array<double, size> SavedGrain::*member) {
@@ -158,10 +151,10 @@ void check_goes_on(const std::string& name, std::vector<std::string> overrides, 
   {
     const Scene scene = load_scene(path, overrides);
     Simulation simulation(scene, 1);
-    advance_by(simulation, scene, steps);
+    advance(simulation, scene, 0, steps);
     folder.write("state.csv", table_of(simulation, 1));
     end = simulation.world.save();
-    advance_by(simulation, scene, 1);
+    advance(simulation, scene, 0, 1);
     next = simulation.world.save();
   }
   std::vector<std::string> from_state = overrides;
@@ -179,7 +172,7 @@ void check_goes_on(const std::string& name, std::vector<std::string> overrides, 
   CHECK(difference(start, end, &SavedGrain::velocity) == 0);
   CHECK(difference(start, end, &SavedGrain::angular_velocity) == 0);
   CHECK(difference(start, end, &SavedGrain::quaternion) < 1e-15);  // ODE scales quaternions to 1 when they are set
-  advance_by(simulation, scene, 1);
+  advance(simulation, scene, 0, 1);
   CHECK(difference(simulation.world.save(), next, &SavedGrain::position) < 1e-4 * scene.smallest_half_axis());
 }
 

@@ -15,6 +15,7 @@
 #include "observe/energy.hpp"
 #include "observe/leaks.hpp"
 #include "observe/measured.hpp"
+#include "observe/simulation.hpp"
 #include "observe/wall_mesh.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"
@@ -278,15 +279,10 @@ TEST_CASE("a drum that is periodic along its axis has no ends, and keeps its gra
   }
   CHECK(least <= -2 * scene.largest_bounding_radius() * (1 - 1e-6));
   CHECK(most >= 0.05 + 2 * scene.largest_bounding_radius() * (1 - 1e-6));
-  Random random(1);
-  const World world(scene, place(scene, random));
-  Stepper stepper(world, scene);
-  LeakWatch leaks(world);
-  for (int step = 1; step <= 2000; ++step) {
-    stepper.step();
-    leaks.after_step(step * scene.time.step);
-  }
-  CHECK(leaks.count() == 0);
+  Simulation simulation(scene, 1);
+  const World& world = simulation.world;
+  for (int step = 1; step <= 2000; ++step) simulation.advance(step * scene.time.step);
+  CHECK(simulation.watches.leaks.count() == 0);
   double x = 0;
   for (const Grain& grain : world.present()) x += grain.position()[0] / static_cast<double>(world.grains().size());
   CHECK(x < -0.003);  // it is carried up on the side to which the floor moves
@@ -310,16 +306,11 @@ size = [0.02, 0.02, 0.02]
       "[[feeder.grain]]\nname = \"pea\"\nfraction = 1\n");
   std::vector<std::vector<Point>> ends;
   for (const int threads : {1, 2}) {
-    World world(scene, {});
-    Population population(world, scene);
-    Stepper stepper(world, scene, threads);
-    LeakWatch leaks(world);
-    for (int step = 1; step <= 800; ++step) {
-      population.before_step(step * scene.time.step);
-      stepper.step();
-      leaks.after_step(step * scene.time.step);
-    }
-    CHECK(leaks.count() == 0);
+    Simulation simulation(scene, threads);
+    const World& world = simulation.world;
+    const Population& population = simulation.population;
+    for (int step = 1; step <= 800; ++step) simulation.advance(step * scene.time.step);
+    CHECK(simulation.watches.leaks.count() == 0);
     CHECK(population.fed().grains == 160);
     CHECK(population.taken().grains > 0);
     CHECK(population.present().grains == 160 - population.taken().grains);

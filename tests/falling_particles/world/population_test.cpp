@@ -10,12 +10,10 @@
 #include <vector>
 
 #include "model/grain_shape.hpp"
-#include "observe/energy.hpp"
-#include "observe/leaks.hpp"
+#include "observe/simulation.hpp"
 #include "scenes.hpp"
 #include "support/refusal.hpp"
 #include "support/relative.hpp"
-#include "world/stepper.hpp"
 #include "world/world.hpp"
 
 using namespace falling_particles;
@@ -44,26 +42,13 @@ Feeder feeder(Quantity rate) {
 constexpr Quantity grains(double number) { return {number, Quantity::Of::Grains}; }
 constexpr Quantity kilograms(double number) { return {number, Quantity::Of::Mass}; }
 
-/// A world and its population, stepped together.
-struct Plant {
-  explicit Plant(const Scene& scene, const std::vector<Placement>& placements = {})
-      : world(scene, placements), population(world, scene), stepper(world, scene), energy(world, scene), leaks(world) {}
-  void step() {
-    ++steps;
-    energy.exchange(population.before_step(steps * kStepOfChanges));
-    stepper.step();
-    energy.after_step();
-    leaks.after_step(steps * kStepOfChanges);
-  }
+/// A simulation that counts its steps.
+struct Plant : Simulation {
+  explicit Plant(const Scene& scene) : Simulation(scene, 1) {}
+  void step() { advance(++steps * kStepOfChanges); }
   void run_until(double time) {
     while ((steps + 0.5) * kStepOfChanges < time) step();
   }
-
-  World world;
-  Population population;
-  Stepper stepper;
-  EnergyWatch energy;
-  LeakWatch leaks;
   int steps = 0;
 };
 
@@ -220,7 +205,8 @@ TEST_CASE("mass is conserved through feeders and sinks, and removed grains keep 
   Scene scene = falling_scene({feeder(kilograms(0.05))});
   scene.kinds[0].count = 1;
   scene.sinks.insert(scene.sinks.begin(), {"side", Region{{0, -1, 0.02}, {1, 2, 0.03}}});
-  Plant plant(scene, {{0, {0, 0, 0.3}, {1, 0, 0, 0}}});
+  scene.start = StartState{.grains = {{.position = {0, 0, 0.3}}}};
+  Plant plant(scene);
   plant.run_until(1);
   const Population& population = plant.population;
   const auto both_sides = [](const Amount& a, const Amount& b) { return std::pair(a.grains + b.grains, a.mass + b.mass); };
@@ -242,9 +228,9 @@ TEST_CASE("mass is conserved through feeders and sinks, and removed grains keep 
     CHECK(grain_of(grain.geom) == &grain);
   }
   CHECK(there == population.present().grains);
-  CHECK(plant.leaks.count() == 0);  // below the plane is in the sink
+  CHECK(plant.watches.leaks.count() == 0);  // below the plane is in the sink
   // Grains in flight gain what a step's rounding of gravity brings, and what comes and goes is no gain.
-  CHECK(plant.energy.gained() < 1e-3 * 0.05 * 9.81 * 0.1);
+  CHECK(plant.watches.energy.gained() < 1e-3 * 0.05 * 9.81 * 0.1);
 }
 
 TEST_CASE("mistakes in feeders and sinks are refused with the reason") {

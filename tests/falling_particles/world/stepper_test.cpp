@@ -267,12 +267,7 @@ TEST_CASE("stepper: a hopper that is fed and drained runs, with the same digits 
   std::vector<std::vector<Point>> ends;
   for (int k = 0; k < 2; ++k) {
     Simulation simulation(scene, k + 1);
-    for (int step = 1; step <= 250; ++step) {
-      const double now = step * scene.time.step;
-      simulation.population.before_step(now);
-      simulation.stepper.step();
-      simulation.watches.after_step(now, simulation.stepper);
-    }
+    for (int step = 1; step <= 250; ++step) simulation.advance(step * scene.time.step);
     CHECK(simulation.population.fed().grains > 40);
     CHECK(simulation.population.taken().grains > 20);
     CHECK(simulation.watches.leaks.count() == 0);
