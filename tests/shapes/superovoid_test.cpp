@@ -37,18 +37,6 @@ Real implicit(const Superovoid& shape, const Vector3& point) {
   return std::pow(std::pow(x, delta) + std::pow(y, delta), epsilon / delta) + std::pow(std::abs(z), epsilon);
 }
 
-/// The gradient of the left side at a point off the coordinate planes, by central differences of the equation itself.
-Vector3 implicit_gradient(const Superovoid& shape, const Vector3& point) {
-  Vector3 gradient;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto f = [&](double step) {
-      return Vector3(static_cast<double>(implicit(shape, point + step * Vector3::Unit(axis))), 0, 0);
-    };
-    gradient[axis] = derivative(f, 0.02 / std::max(shape.delta(), shape.epsilon()) * std::abs(point[axis])).value.x();
-  }
-  return gradient;
-}
-
 /// Computes max over the heights z = s c of the width of the section plus n_z z by golden section, independently of the library.
 double slow_support(const Superovoid& shape, const Vector3& n) {
   const Real p = Real{shape.delta()} / (Real{shape.delta()} - 1), epsilon = shape.epsilon();
@@ -95,21 +83,6 @@ TEST_CASE("superovoid: h is the largest width over all heights") {
     }
   }
   CHECK(checked > draws(300));
-}
-
-TEST_CASE("superovoid: the normal is the gradient of the implicit equation") {
-  int checked = 0;
-  for (const Superovoid& shape : superovoids(1.3, 7.5)) {
-    for (const Vector3& n : random_normals(20, 6)) {
-      const Vector3 r = shape.point(n);
-      const Vector3 share = r.cwiseQuotient(shape.half_extents()).cwiseAbs();
-      if (share.minCoeff() < 0.05) continue;  // too narrow for a difference
-      ++checked;
-      const double angle = (implicit_gradient(shape, r).normalized() - n).norm();
-      if (!(angle <= 1e-9)) FAIL_CHECK(text(shape), " n ", text(n), " differs by ", angle);
-    }
-  }
-  CHECK(checked > draws(1500));
 }
 
 TEST_CASE("superovoid: with tapers 0 it is the superellipsoid, to rounding") {
