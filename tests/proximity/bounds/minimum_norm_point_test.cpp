@@ -247,21 +247,6 @@ TEST_CASE("points on one side of a plane surround no origin, however nearly they
   }
 }
 
-TEST_CASE("the hull only grows with its points: the nearest point comes nearer") {
-  PointDraw draw(76);
-  for (int trial = 0; trial < 200; ++trial) {
-    const Vector3 centre = 2 * draw.vector();
-    Points points;
-    double before = std::numeric_limits<double>::infinity();
-    for (int count = 0; count < 20; ++count) {
-      points.emplace_back(centre + draw.vector());
-      const double now = nearest_of(points).norm();
-      CHECK(now <= before + 8 * kRounding * largest_of(points));
-      before = now;
-    }
-  }
-}
-
 TEST_CASE("the unit of length, however small or large, changes nothing") {
   PointDraw draw(77);
   for (int trial = 0; trial < 100; ++trial) {
