@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ode/collider_fixture.hpp"
@@ -83,11 +84,30 @@ TEST_CASE_FIXTURE(OdeSession, "description: parameters and rounding of a body th
   std::array<dReal, 7> p{};
   CHECK(snGeomSuperovoidGetParams(egg, &p[0], &p[1], &p[2], &p[3], &p[4], &p[5], &p[6]) == 1);
   CHECK(p == std::array<dReal, 7>{1, 2, 3, 2.5, 2, 0.25, 0.125});
+  CHECK(snGeomSuperovoidSetParams(egg, 3, 2, 1, 4, 2, dReal(-0.25), dReal(0.25)) == 1);
+  CHECK(text_of(egg) ==
+        "Rounded(core=Superovoid(half_axes=(3, 2, 1), delta=4, epsilon=2, taper_x=-0.25, taper_y=0.25), radius=0.5)");
+  CHECK(snGeomSuperovoidSetParams(egg, 1, 2, 3, 2.5, 2, 0.25, 0.125) == 1);
   CHECK(snGeomSetRounding(egg, 0) == 1);
   CHECK(text_of(egg) == "Superovoid(half_axes=(1, 2, 3), delta=2.5, epsilon=2, taper_x=0.25, taper_y=0.125)");
   const Geom grain(snCreateFromDescription(nullptr, "Superellipsoid(half_axes=(1, 2, 3), delta=4, epsilon=5)"));
   CHECK(snGeomSuperellipsoidGetParams(grain, &p[0], &p[1], &p[2], &p[3], &p[4]) == 1);
   CHECK(std::array<dReal, 5>{p[0], p[1], p[2], p[3], p[4]} == std::array<dReal, 5>{1, 2, 3, 4, 5});
+}
+
+TEST_CASE_FIXTURE(OdeSession, "description: lengths and exponents are the ones that a body is created with") {
+  const std::pair<dGeomID, const char*> bodies[] = {
+      {snCreateEllipsoid(nullptr, 3, 2, 1), "Ellipsoid(half_axes=(3, 2, 1))"},
+      {snCreateSuperellipsoid(nullptr, 3, 2, 1, 4, 5), "Superellipsoid(half_axes=(3, 2, 1), delta=4, epsilon=5)"},
+      {snCreateCapsule(nullptr, 2, 5), "Capsule(radius=2, half_length=2.5)"},
+      {snCreateCapsule(nullptr, 1, 0), "Capsule(radius=1, half_length=0)"},
+      {snCreateSuperovoid(nullptr, 3, 2, 1, 2.5, 4, 0.5, 0.5),
+       "Superovoid(half_axes=(3, 2, 1), delta=2.5, epsilon=4, taper_x=0.5, taper_y=0.5)"}};
+  for (const auto& [id, text] : bodies) {
+    const Geom geom(id);
+    REQUIRE(id != nullptr);
+    CHECK(text_of(geom) == text);
+  }
 }
 
 TEST_CASE_FIXTURE(OdeSession, "description: a short array gets the beginning of the text, and the length of the whole") {

@@ -1,4 +1,4 @@
-// What a geom says of itself: mass, depth of a point, support, mesh; in ODE's conventions.
+// What a geom says of itself: mass, support, mesh; in ODE's conventions.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -11,15 +11,6 @@
 using namespace supernormal::test;
 
 namespace {
-
-// Checks the principal moments for mass 1 against the second moments, and that all products of inertia are 0.
-void check_inertia(const dMass& mass, const Vec& squares) {
-  const double m = mass.mass;
-  CHECK(mass.I[0] == relative(m * (squares[1] + squares[2])).epsilon(within_rounding(1e-12)));
-  CHECK(mass.I[5] == relative(m * (squares[0] + squares[2])).epsilon(within_rounding(1e-12)));
-  CHECK(mass.I[10] == relative(m * (squares[0] + squares[1])).epsilon(within_rounding(1e-12)));
-  for (const int off_diagonal : {1, 2, 4, 6, 8, 9}) CHECK(std::abs(mass.I[off_diagonal]) < 1e-14 * m);
-}
 
 // A ball of radius 1 with its centre off the origin: h(n) = 1 + offset.n.
 constexpr Vec kOffset = {0.2, -0.1, 0.3};
@@ -38,16 +29,13 @@ void oblique_point(const void* /*user*/, const dReal n[3], dReal point[3]) {
   for (std::size_t i = 0; i < 3; ++i) point[i] = dReal(r[i] / h);
 }
 
-// A point at signed distance `depth` inside the boundary point with a given normal. Inwards this is exact up to the smallest radius
-// of curvature; beyond it another boundary point is nearer.
-Vec point_at_depth(dGeomID geom, const Vec& direction, double depth) {
-  const dVector3 n = {dReal(direction[0]), dReal(direction[1]), dReal(direction[2]), 0};
-  dVector3 boundary;
-  REQUIRE(snGeomSupport(geom, n, boundary) == 1);
-  return to_vec(boundary) - depth * direction;
+/// The boundary point with this normal.
+Vec support(dGeomID geom, const Vec& normal) {
+  const dVector3 n = {dReal(normal[0]), dReal(normal[1]), dReal(normal[2]), 0};
+  dVector3 point;
+  REQUIRE(snGeomSupport(geom, n, point) == 1);
+  return to_vec(point);
 }
-
-double depth_of(dGeomID geom, const Vec& p) { return snGeomPointDepth(geom, dReal(p[0]), dReal(p[1]), dReal(p[2])); }
 
 double volume(const snMesh& mesh) {
   double sum = 0;
@@ -60,22 +48,6 @@ double volume(const snMesh& mesh) {
 }
 
 }  // namespace
-
-TEST_CASE_FIXTURE(OdeSession, "mass: an ellipsoid has the textbook's values") {
-  const Geom geom(snCreateEllipsoid(nullptr, 3, 2, 1));
-  dMass mass;
-  REQUIRE(snMassSet(&mass, 1000, geom) == 1);
-  CHECK(mass.mass == relative(1000 * 4.0 / 3 * std::acos(-1.0) * 6).epsilon(within_rounding(1e-14)));
-  check_inertia(mass, {9.0 / 5, 4.0 / 5, 1.0 / 5});
-  CHECK(dMassCheck(&mass) == 1);
-
-  const Geom sphere(snCreateEllipsoid(nullptr, 2, 2, 2));
-  dMass reference;
-  dMassSetSphere(&reference, 7, 2);
-  REQUIRE(snMassSet(&mass, 7, sphere) == 1);
-  CHECK(mass.mass == relative(reference.mass).epsilon(within_rounding(1e-14)));
-  for (const int i : {0, 5, 10}) CHECK(mass.I[i] == relative(reference.I[i]).epsilon(within_rounding(1e-14)));
-}
 
 TEST_CASE_FIXTURE(OdeSession, "mass: a total mass scales the inertia") {
   const Geom geom(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 3, 5));
@@ -131,48 +103,17 @@ TEST_CASE_FIXTURE(OdeSession, "mass: ODE accepts the mass of every body in its r
   }
 }
 
-TEST_CASE_FIXTURE(OdeSession, "point depth: a sphere has the radius minus the distance") {
-  Random random(13);
-  const Geom geom(snCreateEllipsoid(nullptr, 2, 2, 2));
-  const Geom reference(dCreateSphere(nullptr, 2));
-  const Vec centre = {1, -2, 3};
-  place(geom, centre);
-  place(reference, centre);
-  for (int i = 0; i < 300; ++i) {
-    const Vec p = centre + random.uniform(0, 10) * random.direction();
-    const double expected = dGeomSpherePointDepth(reference, dReal(p[0]), dReal(p[1]), dReal(p[2]));
-    CHECK(std::abs(depth_of(geom, p) - expected) < within_rounding(1e-12));
-  }
-  CHECK(depth_of(geom, centre) == relative(2).epsilon(1e-14));
-}
-
-TEST_CASE_FIXTURE(OdeSession, "point depth: superellipsoids in any pose have the distance along their normals") {
-  Random random(14);
-  for (int i = 0; i < 300; ++i) {
-    CAPTURE(i);
-    const Geom geom(random_body(random));
-    place(geom, {random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-9, 9)});
-    const Vec n = random.direction();
-    const double distance = random.uniform(0, 5);
-    CHECK(std::abs(depth_of(geom, point_at_depth(geom, n, -distance)) + distance) < within_rounding(2e-9));
-    CHECK(std::abs(depth_of(geom, point_at_depth(geom, n, 0))) < within_rounding(2e-9));
-  }
-}
-
 TEST_CASE_FIXTURE(OdeSession, "support: the farthest boundary point is returned for a direction of any length") {
   Random random(16);
   for (int i = 0; i < 100; ++i) {
     const Geom geom(random_body(random));
     place(geom, {4, 5, 6});
     const Vec n = random.direction();
-    const Vec farthest = point_at_depth(geom, n, 0);
-    for (int k = 0; k < 50; ++k) CHECK(dot(n, point_at_depth(geom, random.direction(), 0)) <= dot(n, farthest) + 1e-13);
+    const Vec farthest = support(geom, n);
+    for (int k = 0; k < 50; ++k) CHECK(dot(n, support(geom, random.direction())) <= dot(n, farthest) + 1e-13);
     for (const double length : {1e-200, 0.1, 7.0, 1e200}) {
       if (length < double{std::numeric_limits<dReal>::min()} || length > double{std::numeric_limits<dReal>::max()}) continue;
-      const dVector3 scaled = {dReal(length * n[0]), dReal(length * n[1]), dReal(length * n[2]), 0};
-      dVector3 point;
-      REQUIRE(snGeomSupport(geom, scaled, point) == 1);
-      CHECK(norm(to_vec(point) - farthest) < within_rounding(1e-13));
+      CHECK(norm(support(geom, length * n) - farthest) < within_rounding(1e-13));
     }
   }
 }
@@ -187,11 +128,8 @@ TEST_CASE_FIXTURE(OdeSession, "a mesh has the volume of its geom, and its vertic
   CHECK(volume(mesh) == relative(mass.mass).epsilon(1e-3));
   CHECK(volume(mesh) < mass.mass);  // its vertices are on the boundary of a convex body
   for (int k = 0; k < mesh.points; ++k) {
-    const dReal* n = mesh.normal + 3 * k;
-    const dVector3 direction = {n[0], n[1], n[2]};
-    dVector3 point;
-    REQUIRE(snGeomSupport(geom, direction, point) == 1);
-    for (int i = 0; i < 3; ++i) CHECK(std::abs(point[i] - mesh.position[3 * k + i]) < within_rounding(1e-12));
+    const Vec apart = support(geom, to_vec(mesh.normal + 3 * k)) - to_vec(mesh.position + 3 * k);
+    for (const double along : apart) CHECK(std::abs(along) < within_rounding(1e-12));
   }
   snMeshRelease(&mesh);
   CHECK(mesh.position == nullptr);

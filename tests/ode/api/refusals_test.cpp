@@ -1,6 +1,7 @@
 // Tests that invalid parameters are refused with the parameter, its value and the range, and that nothing changes.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -74,6 +75,11 @@ TEST_CASE_FIXTURE(OdeSession, "refusals: half-axes and exponents at creation") {
     check_refused(snCreateSuperellipsoid(nullptr, c.a, c.b, c.c, c.delta, c.epsilon), "snCreateSuperellipsoid", c.value, c.range);
   }
   check_refused(snCreateEllipsoid(nullptr, 1, 1, -2), "snCreateEllipsoid", "half-axis c = -2 m", "[1e-30, 1e+30] m");
+  check_refused(snCreateCapsule(nullptr, 0, 1), "snCreateCapsule", "radius = 0", "");
+  check_refused(snCreateCapsule(nullptr, 1, -1), "snCreateCapsule", "length = -1", "");
+  check_refused(snCreateSuperovoid(nullptr, 1, -1, 1, 2, 3, 0, 0), "snCreateSuperovoid", "half-axis b = -1 m", "");
+  check_refused(snCreateSuperovoid(nullptr, 1, 1, 1, 2, 3, dReal(0.25), dReal(0.5)), "snCreateSuperovoid",
+                "taper_x = 0.25 and taper_y = 0.5 differ, but with epsilon = 3", "");
   snClose();
   CHECK(snGeomClass() == -1);  // no refused geom is alive
 }
@@ -104,6 +110,14 @@ TEST_CASE_FIXTURE(OdeSession, "refusals: a refused change leaves the geom unchan
     check_refused(snGeomSetRounding(geom, radius), "snGeomSetRounding", "radius = ", "[0, 1e+30] m");
   }
   CHECK(Parameters(geom) == before);
+  const Geom egg(snCreateSuperovoid(nullptr, 1, 1, 2, 2, 2, dReal(-0.25), dReal(0.25)));
+  check_refused(snGeomSuperovoidSetParams(egg, 1, 1, 2, 2, 2, dReal(0.75), 0), "snGeomSuperovoidSetParams", "taper_x = 0.75",
+                "[-0.70710678118");
+  dReal taper_x = 0, other = 0;
+  check_refused(snGeomSuperovoidGetParams(egg, &other, &other, &other, &other, &other, &other, nullptr),
+                "snGeomSuperovoidGetParams", "taper_y = NULL", "");
+  REQUIRE(snGeomSuperovoidGetParams(egg, &other, &other, &other, &other, &other, &taper_x, &other) == 1);
+  CHECK(taper_x == dReal(-0.25));
   dGeomSetPosition(geom, 0, 0, 0);  // so that ODE computes the box again
   dGeomGetAABB(geom, box_after);
   for (int i = 0; i < 6; ++i) CHECK(box_before[i] == box_after[i]);
@@ -125,6 +139,17 @@ TEST_CASE_FIXTURE(OdeSession, "refusals: geoms of another class or of another ki
     check_refused(snMassSetTotal(&mass, 1, wrong), "snMassSetTotal", what, "must be");
     check_refused(snGeomSetSolver(wrong, SN_SOLVER_HYBRID, dReal(1e-9), 10), "snGeomSetSolver", what, "must be");
   }
+  const Geom egg(snCreateSuperovoid(nullptr, 3, 2, 1, 2, 2, 0, 0)), ellipsoid(snCreateEllipsoid(nullptr, 3, 2, 1));
+  const snShape shape = {[](const void*, const dReal*) { return dReal(1); },
+                         [](const void*, const dReal* n, dReal* point) { std::copy_n(n, 3, point); }, nullptr, nullptr, nullptr};
+  const Geom user(snCreateConvex(nullptr, &shape));
+  check_refused(snGeomSuperovoidSetParams(ellipsoid, 1, 1, 1, 2, 2, 0, 0), "snGeomSuperovoidSetParams", "geom is a superellipsoid",
+                "must be a superovoid");
+  check_refused(snGeomSuperellipsoidSetParams(egg, 1, 1, 1, 2, 2), "snGeomSuperellipsoidSetParams", "geom is a superovoid",
+                "must be an ellipsoid or a superellipsoid");
+  check_refused(snGeomSuperellipsoidSetParams(user, 1, 1, 1, 2, 2), "snGeomSuperellipsoidSetParams", "user-defined body", "");
+  check_refused(snGeomSuperellipsoidGetParams(user, &value, &value, &value, &value, &value), "snGeomSuperellipsoidGetParams",
+                "user-defined body", "");
   CHECK(value == 7);
 }
 

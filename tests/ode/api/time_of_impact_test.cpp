@@ -153,25 +153,6 @@ TEST_CASE_FIXTURE(
   CHECK(gap_of(ball, floor) > 0);
 }
 
-TEST_CASE_FIXTURE(OdeSession, "time of impact: touching geoms that separate, fly-bys and overlaps have the right status") {
-  const World world;
-  const Geom ball(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.5), dReal(0.5)));
-  const Geom wall(dCreateBox(nullptr, 2, 2, 2));
-  Mover mover(world.id(), ball);
-  mover.set({0, 0, 1.5}, {0, 0, 1}, {0, 3, 0});
-  CHECK(impact_of(ball, wall, 1).hits == 0);
-  mover.set({0, 0, 1.5}, {0, 0, -1}, {0, 3, 0});
-  CHECK(impact_of(ball, wall, 1).hits == 1);
-  CHECK(impact_of(ball, wall, 1).time == 0);
-  mover.set({0, 0, 1.2}, {0, 0, 1}, {0, 3, 0});
-  CHECK(impact_of(ball, wall, 1).time == 0);
-  CHECK(impact_of(ball, wall, 1).hits == 1);
-  for (const double clearance : {5e-4, -5e-4}) {
-    mover.set({-20, 0, 1.5 + clearance}, {1000, 0, 0}, {0, 900, 0});
-    CHECK(impact_of(ball, wall, 0.05).hits == (clearance > 0 ? 0 : 1));
-  }
-}
-
 TEST_CASE_FIXTURE(OdeSession, "time of impact: invalid arguments are refused") {
   const World world;
   const Geom ball(snCreateEllipsoid(nullptr, 1, 1, 1));

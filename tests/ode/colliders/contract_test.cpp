@@ -64,12 +64,19 @@ void check_no_contact(dGeomID one, dGeomID other) {
 constexpr double kMissedShare = 0.001;
 constexpr double kMissedMost = 0.01;
 
-/// Moves the body out by 0.96 of the depth, and by another 0.08, and returns whether the pair touched.
-bool check_separation(dGeomID body, dGeomID collider, bool body_first) {
+/// Moves the body out by 0.96 of the depth, and by another 0.08, and returns whether the pair touched. A pair of convex geoms has
+/// one normal: the other contacts are the manifold points of a flat overlap.
+bool check_separation(dGeomID body, dGeomID collider, bool body_first, bool is_convex = false) {
   const dGeomID g1 = body_first ? body : collider;
   const dGeomID g2 = body_first ? collider : body;
   const auto contacts = collide(g1, g2);
   if (contacts.empty()) return false;
+  if (is_convex) check_contact(contacts[0], g1, g2);
+  for (const dContactGeom& contact : contacts) {
+    CHECK(contact.depth >= 0);
+    CHECK(contact.depth <= contacts[0].depth);
+    if (is_convex) CHECK(to_vec(contact.normal) == to_vec(contacts[0].normal));
+  }
   const Vec out = (body_first ? 1.0 : -1.0) * double{contacts[0].depth} * to_vec(contacts[0].normal);
   move(body, 0.96 * out);
   CHECK(!collide(g1, g2).empty());
@@ -92,24 +99,7 @@ TEST_CASE_FIXTURE(OdeSession, "moved out by 0.96 of a contact's depth geoms stil
       const Geom body(draw_body(random));
       const ColliderGeom collider = kind == ColliderKind::Body ? ColliderGeom(draw_body(random)) : ColliderGeom(kind, random);
       overlap(body, collider, random.uniform(within_rounding(0, 30), 0.3) * size_of(body), random);
-      const bool body_first = i % 2 == 0;
-      const dGeomID g1 = body_first ? body : collider;
-      const dGeomID g2 = body_first ? collider : body;
-      const auto contacts = collide(g1, g2);
-      if (contacts.empty()) continue;
-      ++touching;
-      check_contact(contacts[0], g1, g2);
-      // The other contacts are the manifold points of a flat overlap.
-      for (const dContactGeom& contact : contacts) {
-        CHECK(contact.depth >= 0);
-        CHECK(contact.depth <= contacts[0].depth);
-        CHECK(to_vec(contact.normal) == to_vec(contacts[0].normal));
-      }
-      const Vec out = (body_first ? 1.0 : -1.0) * double{contacts[0].depth} * to_vec(contacts[0].normal);
-      move(body, 0.96 * out);
-      CHECK(!collide(g1, g2).empty());
-      move(body, 0.08 * out);
-      CHECK(collide(g1, g2).empty());
+      touching += check_separation(body, collider, i % 2 == 0, true);
     }
     CHECK(touching > 0.98 * repetitions);
   }

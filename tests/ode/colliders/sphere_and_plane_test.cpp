@@ -1,14 +1,12 @@
-// Bodies of ours that ODE has, too: spheres, capsules and eggs, beside ODE's own geoms and closed forms.
+// Bodies of ours that ODE has, too: spheres and capsules, beside ODE's own geoms.
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
+#include <vector>
 
 #include "support/ode_fixture.hpp"
 #include "support/ode_world.hpp"
-#include "support/relative.hpp"
 
 using namespace supernormal::test;
 
@@ -55,16 +53,6 @@ Pair make_sphere(double radius, int kind) {
   return pair;
 }
 
-constexpr dReal kRadius = 2, kLength = 5;
-
-struct EggParameters {
-  dReal a = 0, b = 0, c = 0, delta = 0, epsilon = 0, taper_x = 0, taper_y = 0;
-  explicit EggParameters(dGeomID geom) {
-    REQUIRE(snGeomSuperovoidGetParams(geom, &a, &b, &c, &delta, &epsilon, &taper_x, &taper_y) == 1);
-  }
-  bool operator==(const EggParameters&) const = default;
-};
-
 }  // namespace
 
 TEST_CASE_FIXTURE(OdeSession, "spherical bodies collide as dSphere does with dSphere, dPlane and one another") {
@@ -100,34 +88,6 @@ TEST_CASE_FIXTURE(OdeSession, "spherical bodies collide as dSphere does with dSp
   }
 }
 
-TEST_CASE_FIXTURE(OdeSession, "capsule: size, mass and depth are equal to ODE's") {
-  const Geom ours(snCreateCapsule(nullptr, kRadius, kLength));
-  REQUIRE(ours != nullptr);
-  const Geom odes(dCreateCapsule(nullptr, kRadius, kLength));
-  dMatrix3 turn;
-  dRFromAxisAndAngle(turn, 1, dReal(0.5), dReal(0.2), dReal(0.7));
-  std::array<std::array<dReal, 6>, 2> boxes{};
-  for (const auto geom : {static_cast<dGeomID>(ours), static_cast<dGeomID>(odes)}) {
-    dGeomSetRotation(geom, turn);
-    dGeomGetAABB(geom, boxes[geom == static_cast<dGeomID>(odes) ? 1 : 0].data());
-  }
-  // Ours is wider by the rounding error that it must cover.
-  const double tolerance = within_rounding(1e-6, kRadius + 0.5 * kLength);
-  for (std::size_t i = 0; i < 6; ++i) {
-    const double wider = (i % 2 == 0 ? -1 : 1) * (double{boxes[0][i]} - double{boxes[1][i]});
-    CHECK(wider < tolerance);
-    CHECK(wider > -0.1 * tolerance);
-  }
-  dMass mass, expected;
-  REQUIRE(snMassSet(&mass, 3, ours) == 1);
-  dMassSetCapsule(&expected, 3, 3, kRadius, kLength);
-  CHECK(mass.mass == relative(expected.mass).epsilon(1e-6));
-  for (const int i : {0, 5, 10}) CHECK(mass.I[i] == relative(expected.I[i]).epsilon(1e-6));
-  for (const dReal x : {dReal(0), dReal(1), dReal(3)}) {
-    CHECK(std::abs(snGeomPointDepth(ours, x, 1, 2) - dGeomCapsulePointDepth(odes, x, 1, 2)) < 1e-6);
-  }
-}
-
 TEST_CASE_FIXTURE(
     OdeSession,
     "capsule: a capsule that falls on its side, slightly tilted, stays still at any step and max_contacts, on any geom") {
@@ -159,53 +119,4 @@ TEST_CASE_FIXTURE(
       }
     }
   }
-}
-
-TEST_CASE_FIXTURE(OdeSession, "capsule: invalid parameters are refused") {
-  CHECK(refused(snCreateCapsule(nullptr, 0, 1), "snCreateCapsule: radius = 0"));
-  CHECK(refused(snCreateCapsule(nullptr, 1, -1), "snCreateCapsule: length = -1"));
-  const Geom ball(snCreateCapsule(nullptr, 1, 0));
-  CHECK(ball != nullptr);
-}
-
-TEST_CASE_FIXTURE(OdeSession, "superovoid: parameters are kept, changed and refused") {
-  const Geom egg(snCreateSuperovoid(nullptr, 3, 2, 1, 2.5, 4, 0.5, 0.5));
-  REQUIRE(egg != nullptr);
-  const EggParameters first(egg);
-  CHECK(first.c == 1);
-  CHECK(first.epsilon == 4);
-  CHECK(first.taper_y == dReal(0.5));
-  dReal box[6];
-  dGeomGetAABB(egg, box);
-  CHECK(box[5] == relative(1));
-
-  CHECK(snGeomSuperovoidSetParams(egg, 1, 1, 2, 2, 2, dReal(-0.25), dReal(0.25)) == 1);
-  dGeomGetAABB(egg, box);
-  CHECK(box[5] == relative(2));
-  const EggParameters second(egg);
-  CHECK(refused(snGeomSuperovoidSetParams(egg, 1, 1, 2, 2, 2, dReal(0.75), 0),
-                "snGeomSuperovoidSetParams: taper_x = 0.75 is outside [-0.70710678118"));
-  CHECK(EggParameters(egg) == second);
-  CHECK(refused(snGeomSuperovoidGetParams(egg, box, box, box, box, box, box, nullptr), "taper_y = NULL"));
-
-  CHECK(refused(snCreateSuperovoid(nullptr, 1, 1, 1, 2, 3, dReal(0.25), dReal(0.5)),
-                "snCreateSuperovoid: taper_x = 0.25 and taper_y = 0.5 differ, but with epsilon = 3"));
-  CHECK(refused(snCreateSuperovoid(nullptr, 1, -1, 1, 2, 3, 0, 0), "half-axis b = -1 m"));
-}
-
-TEST_CASE_FIXTURE(OdeSession, "superovoid: the functions of one kind of body refuse other kinds") {
-  const Geom egg(snCreateSuperovoid(nullptr, 3, 2, 1, 2, 2, 0, 0));
-  const Geom ellipsoid(snCreateEllipsoid(nullptr, 3, 2, 1));
-  CHECK(refused(snGeomSuperovoidSetParams(ellipsoid, 1, 1, 1, 2, 2, 0, 0), "geom is a superellipsoid, but must be a superovoid"));
-  CHECK(refused(snGeomSuperellipsoidSetParams(egg, 1, 1, 1, 2, 2),
-                "geom is a superovoid, but must be an ellipsoid or a superellipsoid"));
-}
-
-TEST_CASE_FIXTURE(OdeSession, "superovoid: an egg has the mass and the centre of mass of the closed form") {
-  const double a = 0.3, c = 0.4, taper = 0.3, density = 1000;
-  const Geom egg(snCreateSuperovoid(nullptr, dReal(a), dReal(a), dReal(c), 2, 2, dReal(taper), dReal(taper)));
-  dMass mass;
-  REQUIRE(snMassSet(&mass, dReal(density), egg) == 1);
-  CHECK(mass.mass == relative(density * 4 / 3 * std::numbers::pi * a * a * c * (1 + taper * taper / 5)).epsilon(1e-6));
-  CHECK(mass.c[2] == relative(c * 2 * taper / 5 / (1 + taper * taper / 5)).epsilon(1e-6));
 }

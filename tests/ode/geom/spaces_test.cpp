@@ -178,34 +178,11 @@ TEST_CASE_FIXTURE(OdeSession,
   dSpaceDestroy(space);
 }
 
-TEST_CASE_FIXTURE(OdeSession, "a body inside a dGeomTransform has the contacts of the body itself") {
-  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is accurate to the root of the tolerance
-  Random random(5);
-  const Geom transform(dCreateGeomTransform(nullptr));
-  std::vector<ColliderGeom> others;
-  for (const ColliderKind kind : kColliderKinds) {
-    others.emplace_back(kind, random);
-    if (kind != ColliderKind::Plane) place(others.back(), {0, 0, -0.8});
-  }
-  int touching = 0;
-  for (int i = 0; i < 100; ++i) {
-    const auto a = dReal(random.uniform(0.5, 1.5));
-    const Geom inner(snCreateSuperellipsoid(nullptr, a, 1, dReal(0.7), 3, dReal(2.5)));
-    const Geom direct(snCreateSuperellipsoid(nullptr, a, 1, dReal(0.7), 3, dReal(2.5)));
-    wrap(transform, inner, direct, random);
-    dReal box1[6], box2[6];
-    dGeomGetAABB(transform, box1);
-    dGeomGetAABB(direct, box2);
-    for (int k = 0; k < 6; ++k) CHECK(box1[k] == relative(box2[k]).epsilon(1e-13));
-    for (const ColliderGeom& other : others) touching += check_same_contacts(transform, direct, other);
-  }
-  CHECK(touching > 200);
-}
-
-TEST_CASE_FIXTURE(OdeSession, "a collider inside a dGeomTransform has the contacts of the collider itself") {
+TEST_CASE_FIXTURE(OdeSession,
+                  "a body of ours or a collider inside a dGeomTransform has the contacts and the box of the geom itself") {
   snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is accurate to the root of the tolerance
   Random random(8);
-  const Geom transform(dCreateGeomTransform(nullptr));
+  const Geom transform(dCreateGeomTransform(nullptr)), plane(dCreatePlane(nullptr, 0, 0, 1, dReal(0.5)));
   for (const ColliderKind kind : kSolidKinds) {
     CAPTURE(name_of(kind));
     int touching = 0;
@@ -217,6 +194,10 @@ TEST_CASE_FIXTURE(OdeSession, "a collider inside a dGeomTransform has the contac
       const Geom body(random_body(random));
       wrap(transform, inner, direct, random);
       touching += check_same_contacts(transform, direct, body);
+      if (kind != ColliderKind::Body) continue;
+      check_same_contacts(transform, direct, plane);
+      const Box box(transform), expected(direct);
+      for (std::size_t k = 0; k < 6; ++k) CHECK(box.side[k] == relative(expected.side[k]).epsilon(1e-13));
     }
     CHECK(touching > 10);
   }

@@ -126,16 +126,6 @@ TEST_CASE_FIXTURE(OdeSession, "user shape: release is called once, when the geom
   CHECK(egg.released == 1);
 }
 
-TEST_CASE_FIXTURE(OdeSession, "user shape: the parameters of a superellipsoid are refused") {
-  Egg egg;
-  const snShape shape = describe(egg, false);
-  const Geom geom(snCreateConvex(nullptr, &shape));
-  dReal a = 7;
-  CHECK(snGeomSuperellipsoidGetParams(geom, &a, &a, &a, &a, &a) == 0);
-  CHECK(refused(snGeomSuperellipsoidSetParams(geom, 1, 1, 1, 2, 2), "user-defined body"));
-  CHECK(a == 7);
-}
-
 TEST_CASE_FIXTURE(OdeSession, "user shape: an exception in a callback becomes the error of the call and does not reach ODE") {
   Egg egg;
   const snShape shape = describe(egg, true);

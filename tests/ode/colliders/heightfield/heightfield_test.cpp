@@ -120,30 +120,6 @@ TEST_CASE_FIXTURE(OdeSession, "a level heightfield gives the contacts of a plane
   }
 }
 
-TEST_CASE_FIXTURE(OdeSession, "a sloped heightfield gives the contacts of a plane, before and after its grid is known") {
-  Random random(42);
-  for (const bool is_bumpy : {false, true}) {
-    CAPTURE(is_bumpy);
-    const Terrain terrain({33, 33, 32, 32},
-                          [&](int i, int j) { return 0.375 * i - 0.25 * j + (is_bumpy && i < 3 ? 0.1 * (i + j) : 0); });
-    const Geom heightfield(terrain.create());
-    const Geom visitor(snCreateEllipsoid(nullptr, 2, 2, 2));
-    place(visitor, {-14, terrain.surface(-14, 0), 0.5});
-    REQUIRE(!collide(visitor, heightfield).empty());
-    const double length = std::sqrt(1 + 0.375 * 0.375 + 0.25 * 0.25);
-    const Vec up = {-0.375 / length, 1 / length, 0.25 / length};
-    const Geom plane(dCreatePlane(nullptr, dReal(up[0]), dReal(up[1]), dReal(up[2]), dReal(up[1] * terrain.surface(0, 0))));
-    for (int k = 0; k < 200; ++k) {
-      CAPTURE(k);
-      const Geom body(random_body(random));
-      const double x = random.uniform(-8, 12);
-      const double z = random.uniform(-12, 12);
-      place(body, {x, terrain.surface(x, z) + random.uniform(-0.2, 1.6), z});
-      check_same(collide(body, heightfield), collide(body, plane), 1e-12);
-    }
-  }
-}
-
 TEST_CASE_FIXTURE(OdeSession,
                   "any body on rough ground has the contacts with all triangles, from every source, repeated, rotated and moved") {
   Random random(45);
@@ -341,42 +317,5 @@ TEST_CASE_FIXTURE(OdeSession, "small bodies dropped on ridges and peaks stay abo
       CAPTURE(aside);
       CHECK(lowest_height(create_our_sphere, c.terrain, start + Vec{aside, 0, 0.3 * aside}) > 0.09);
     }
-  }
-}
-
-TEST_CASE_FIXTURE(OdeSession, "50 bodies on a terrain for 20 s do not fall through") {
-  Random random(61);
-  World world;
-  set_up(world);
-  // The ground is rough, and higher towards the border, so the bodies stay on it.
-  const Terrain terrain({25, 25, 6, 6}, [](int i, int j) {
-    const double r = std::max(std::abs(i - 12), std::abs(j - 12)) / 12.0;
-    return rough(62, 0.15)(i, j) + 2 * r * r * r;
-  });
-  terrain.create(false, world.space());
-  std::vector<dBodyID> bodies;
-  std::vector<dGeomID> geoms;
-  for (int k = 0; k < 50; ++k) {
-    const auto a = dReal(random.uniform(0.05, 0.15));
-    const auto b = dReal(random.uniform(0.05, 0.15));
-    const auto c = dReal(random.uniform(0.05, 0.15));
-    const auto exponent = dReal(k % 3 == 0 ? 2 : random.uniform(1.5, 8));
-    geoms.push_back(snCreateSuperellipsoid(world.space(), a, b, c, exponent, exponent));
-    bodies.push_back(add(world, geoms.back()));
-    dBodySetPosition(bodies.back(), dReal(random.uniform(-2, 2)), dReal(0.5 + 0.04 * k), dReal(random.uniform(-2, 2)));
-    dBodySetLinearVel(bodies.back(), dReal(random.uniform(-1, 1)), -1, dReal(random.uniform(-1, 1)));
-  }
-  for (int step = 0; step < 4000; ++step) {
-    world.quick_step(0.005);
-    if (step % 40 > 0) continue;
-    for (const dBodyID body : bodies) {
-      const Vec p = to_vec(dBodyGetPosition(body));
-      REQUIRE(std::max(std::abs(p[0]), std::abs(p[2])) < 3);
-      REQUIRE(p[1] > terrain.surface(p[0], p[2]));
-    }
-  }
-  // At rest they are on the ground and not in it.
-  for (const dGeomID geom : geoms) {
-    for (const dContactGeom& contact : collide(geom, dSpaceGetGeom(world.space(), 0), 20)) CHECK(contact.depth < 0.01);
   }
 }
