@@ -94,8 +94,10 @@ struct ProximityDerivatives {
 /// 1's frame, so a large distance from the world's origin costs no digits.
 ///
 /// The relative error is about 1e-7 or less, as long as the radii of curvature of the Minkowski difference differ by less than 1e9.
-/// A radius of curvature above 1e8 times the smallest half-extent counts as infinite. Beside a radius
-/// above about 1e10 half-extents, a LinearImage or a Superovoid may not tell the other radius to 1e-6: the status is Degenerate.
+/// Within some 1e-9 rad of the axis of a superellipsoid, where a radius is zero or infinite, it is as much as a rotation by
+/// rounding changes. A radius of curvature above 1e8 times the smallest half-extent counts as infinite. Beside a radius above about
+/// 1e10 half-extents, a LinearImage or a Superovoid may not tell the other radius to 1e-6: the status is Degenerate. It is so, too,
+/// if Newton's method ends where these derivatives still change by 1e-6.
 SUPERNORMAL_API ProximityDerivatives find_proximity_derivatives(const Shape& shape1, const Pose& pose1, const Shape& shape2,
                                                                 const Pose& pose2, const Proximity& proximity,
                                                                 const DerivativeSettings& settings = {});

@@ -20,6 +20,11 @@ constexpr double kSmallStep = 1e-10;
 // normal. After a smaller displacement they are known well enough.
 constexpr double kSmallMove = 1e-10;
 
+// Of each component of a body's normal: beside a flat side the radii of curvature are powers of it. After a smaller tilt they are
+// known to 1e-8. Without it 11 of 1307 nearly flat pairs are off by more than 1e-7, up to 2e-4. With 1e-7 or 1e-9 none is, after 2
+// % fewer or 3 % more evaluations.
+constexpr double kSmallTilt = 1e-8;
+
 // In sizes of the smaller body: after a larger one, that is not rounding, the radii of curvature may be off by 1e-6. Newton's
 // method ends there where they change faster than the normal.
 constexpr double kLargestMove = 1e-8;
@@ -158,6 +163,11 @@ CommonNormal::CommonNormal(GapFunction& gap, const Vector3& start)
     best = 1 - best;
   }
   finish(places[best]);
+  // Where it ends before the radii are known, the next normal tells whether that matters.
+  const double largest = std::max(gap_.shape1().half_extents().norm(), gap_.shape2().half_extents().norm());
+  const TangentResponse &here = places[best].response, &beside = places[1 - best].response;
+  is_strict_ = is_strict_ && (is_settled(places[best]) || here.kind != TangentResponse::Kind::Regular ||
+                              here.is_near(places[best].plane, beside, places[1 - best].plane, kLeastDigits, largest));
   // The answer is a maximum. A lower one is another.
   is_converged_ = is_converged_ && s_ >= least_gap;
 }
@@ -172,10 +182,20 @@ bool CommonNormal::is_opposite(const Place& place, double move) const {
   return apart <= move * std::min(gap_.shape1().half_extents().norm(), gap_.shape2().half_extents().norm());
 }
 
+/// Whether the step leaves the radii of curvature as they are, but for tilts below `rounding` (rad).
+bool CommonNormal::keeps_radii(const Place& place, double rounding) const {
+  if (place.has_active_set) return true;
+  const Vector3 dn = place.plane.lift(place.response.G * place.across);  // along an infinite radius nothing changes
+  const auto is_small = [rounding](const ShapeTraits& traits, const Vector3& tilt, const Vector3& own) {
+    return !traits.has_flat_faces || (tilt.array().abs() <= kSmallTilt * own.array().abs() + rounding).all();
+  };
+  return is_small(gap_.traits1(), dn, place.jet.n) && is_small(gap_.traits2(), gap_.rotation().transpose() * dn, place.jet.m);
+}
+
 /// Whether both the normal and the radii of curvature are known.
 bool CommonNormal::is_settled(const Place& place) const {
   const double step = place.step.norm();
-  return step <= kSmallStep && is_opposite(place, kSmallMove);
+  return step <= kSmallStep && is_opposite(place, kSmallMove) && keeps_radii(place, std::numeric_limits<double>::epsilon());
 }
 
 bool CommonNormal::look_at(const Vector3& n, Place& place) {
@@ -197,8 +217,21 @@ bool CommonNormal::look_at(const Vector3& n, Place& place) {
   }
   place.response = TangentResponse::of(place.body1, place.body2, jet.s, gap_.length_unit());
   if (!place.has_active_set) place.step = place.response.G * place.across;
+  if (!has_nonsmooth_points_) {
+    add_flat_step(place.body1, jet.jet1.H, Matrix3::Identity(), place);
+    add_flat_step(place.body2, jet.jet2.H, gap_.rotation().transpose(), place);
+  }
   place.rest = place.across.dot(place.response.G * place.across);
   return std::isfinite(place.rest) && all_finite(place.step);
+}
+
+/// The response has an infinite radius in place of one above kFlattest, and no step along it.
+void CommonNormal::add_flat_step(const BodyCurvature& body, const Matrix3& H, const Matrix3& to_body, Place& place) const {
+  for (int k = 0; k < body.flat_count; ++k) {
+    const Vector2& t = body.flat[static_cast<std::size_t>(k)];
+    const Vector3 own = to_body * place.plane.lift(t);
+    place.step += t * (t.dot(place.across) / own.dot(H * own));
+  }
 }
 
 /// Finds which vertices of both bodies support the maximum of the model, the witness points between them, and the step. Then the
@@ -356,8 +389,7 @@ void CommonNormal::finish(const Place& place) {
   response_ = place.response;
   active_set_ = place.has_active_set;
   is_strict_ = place.is_strict && (place.body1.rounding + place.body2.rounding) * place.response.G.norm() <= kLeastDigits;
-  n_ = place.has_active_set ? (place.jet.n + place.plane.lift(place.step)).normalized()
-                            : (place.jet.n + place.plane.lift(place.response.G * place.across)).normalized();
+  n_ = (place.jet.n + place.plane.lift(place.step)).normalized();
   point1_ = place.point1 + place.plane.lift(place.response.B1.transpose() * place.across);
   lever2_ = R * place.point2 - place.plane.lift(place.response.B2.transpose() * place.across);
   s_ = place.jet.s;

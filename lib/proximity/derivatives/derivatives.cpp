@@ -192,19 +192,10 @@ struct Change {
   }
 };
 
-/// Whether the Jacobians at two poses that are nearly the same are so, too. They consist of these matrices. `largest`: m, the size
-/// of the larger body. A radius of curvature that is much longer belongs to a flat side, whose normal hardly moves.
+/// Whether the Jacobians at two poses that are nearly the same are so, too.
 bool has_same_jacobians(const CommonNormal& common, const CommonNormal& found, double largest) {
   if (common.response().kind != TangentResponse::Kind::Regular) return true;  // there are none
-  if (found.response().kind != TangentResponse::Kind::Regular || !found.is_strict()) return false;
-  Matrix2 turn;
-  turn << common.plane().t1.dot(found.plane().t1), common.plane().t1.dot(found.plane().t2), common.plane().t2.dot(found.plane().t1),
-      common.plane().t2.dot(found.plane().t2);
-  const auto is_same = [&](const Matrix2& here, const Matrix2& there, double unit) {
-    return (turn * there * turn.transpose() - here).norm() <= kBend * std::max(here.norm(), unit);
-  };
-  return is_same(common.response().G, found.response().G, 1 / largest) && is_same(common.response().B1, found.response().B1, 1) &&
-         is_same(common.response().B2, found.response().B2, 1);
+  return found.is_strict() && common.response().is_near(common.plane(), found.response(), found.plane(), kBend, largest);
 }
 
 /// What a motion of body 2 does. Newton's method finds the common normal there, from what the derivatives foresee. Where it ends

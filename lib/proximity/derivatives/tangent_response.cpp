@@ -1,5 +1,6 @@
 #include "proximity/derivatives/tangent_response.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace supernormal {
@@ -120,6 +121,17 @@ TangentResponse TangentResponse::of(const BodyCurvature& body1, const BodyCurvat
   (body1.flat_count == 2 ? out.B1 : out.B2).setIdentity();
   out.W = dense(body1.flat_count == 2 ? body2.A : body1.A);
   return out;
+}
+
+bool TangentResponse::is_near(const TangentPlane& plane, const TangentResponse& other, const TangentPlane& others, double part,
+                              double largest) const {
+  if (kind != Kind::Regular || other.kind != Kind::Regular) return false;
+  Matrix2 turn;
+  turn << plane.t1.dot(others.t1), plane.t1.dot(others.t2), plane.t2.dot(others.t1), plane.t2.dot(others.t2);
+  const auto is_same = [&](const Matrix2& here, const Matrix2& there, double unit) {
+    return (turn * there * turn.transpose() - here).norm() <= part * std::max(here.norm(), unit);
+  };
+  return is_same(G, other.G, 1 / largest) && is_same(B1, other.B1, 1) && is_same(B2, other.B2, 1);
 }
 
 }  // namespace supernormal

@@ -52,6 +52,11 @@ struct TangentResponse {
   /// `s` and `length_unit` in m. Singular if M is not positive definite beyond rounding in the directions of finite radius, Free if
   /// the flat parts of both bodies share a direction.
   static TangentResponse of(const BodyCurvature& body1, const BodyCurvature& body2, double s, double length_unit);
+
+  /// Whether this response, in `plane`, and `other` in a plane nearby are Regular and differ by at most this part. `largest`: m,
+  /// the size of the larger body. A radius of curvature that is much longer belongs to a flat side, whose normal hardly moves.
+  bool is_near(const TangentPlane& plane, const TangentResponse& other, const TangentPlane& others, double part,
+               double largest) const;
 };
 
 }  // namespace supernormal
