@@ -167,7 +167,9 @@ std::vector<fit::FittedBody> fit_alike(const std::vector<std::string>& paths, co
     const fit::Scan scan = fit::read_scan(paths[i], options);
     fit::FitSettings settings = settings_of(options, scan);
     settings.progress = {};
-    by_axis.push_back(fit::fit_each_axis(fitted[i], family, scan.points, settings));
+    const bool is_tessellated = fitted[i].is_tessellated;
+    if (is_tessellated) settings.volume.reset();
+    by_axis.push_back(fit::fit_each_axis(fitted[i], family, is_tessellated ? scan.data.vertices : scan.points, settings));
   }
   const std::size_t axis = fit::common_axis(by_axis);
   const bool is_given = family == fit::Family::Ellipsoid || options.limits.has_round_section;

@@ -56,6 +56,33 @@ expect 0 "$fit" egg.xyz --quick --out nowhere
 expect 3 "$fit" cross.xyz --quick --outliers keep
 says "warning: the root mean square distance of the data from the surface is"
 
+# tessellated DELTA EPSILON NOISE: 1600 vertices on a superellipsoid, and the triangles between them
+tessellated() {
+  awk -v d="$1" -v e="$2" -v noise="$3" 'BEGIN {
+    srand(1); print "OFF\n1600 3120 0"
+    for (i = 0; i < 40; ++i) for (j = 0; j < 40; ++j) {
+      u = (i + 0.5) * 3.14159265358979 / 40; v = j * 3.14159265358979 / 20; x = sin(u) * cos(v); y = sin(u) * sin(v); z = cos(u)
+      r = ((((x / 3) ^ 2) ^ (d / 2) + ((y / 2) ^ 2) ^ (d / 2)) ^ (e / d) + (z ^ 2) ^ (e / 2)) ^ (-1 / e) + noise * (rand() - 0.5)
+      printf "%.17g %.17g %.17g\n", r * x, r * y, r * z
+    }
+    for (i = 0; i < 39; ++i) for (j = 0; j < 40; ++j) {
+      a = i * 40 + j; b = i * 40 + (j + 1) % 40
+      printf "3 %d %d %d\n3 %d %d %d\n", a, a + 40, b, b, a + 40, b + 40
+    }
+  }'
+}
+
+# Facets lie below a body. Where the vertices lie on it, they give its exponents.
+for exponents in "4 6" "1.5 2.5" "20 3"; do
+  read -r delta epsilon <<<"$exponents"
+  tessellated "$delta" "$epsilon" 0 >mesh.off
+  expect 0 "$fit" mesh.off --quick --shape superellipsoid
+  says "the vertices are fitted" "$(printf '  %-22s %14s ±' delta "$delta")" "$(printf '  %-22s %14s ±' epsilon "$epsilon")"
+done
+tessellated 4 6 0.05 >noise.off
+expect 0 "$fit" noise.off --quick
+silent "the vertices are fitted"
+
 # Units and what is open are in the JSON.
 expect 0 "$fit" egg.xyz --unit mm --density 2600 --out units
 grep -q '"metres_per_unit_of_file": 0.001' units/egg.json && grep -q '"density": 2600.0' units/egg.json || fail "$(cat units/egg.json)"

@@ -76,6 +76,8 @@ struct FittedBody {
   /// Whether the body was kept from extending beyond the data (Sides). A body that fits within the noise is not: its hidden sides
   /// follow from those that the data show.
   bool is_bounded_by_data = false;
+  /// Whether the points are the vertices of a mesh, which lie on the body, with facets below.
+  bool is_tessellated = false;
 };
 
 /// The bodies of fits, and all points that these ignore.

@@ -124,7 +124,7 @@ std::vector<std::string> doubts_about(std::span<const FittedBody> fitted, const 
   // quick fit.
   const bool is_free = error.is_hull && !is_bounded;
   const bool follows = is_free && error.volume_error > 0 && error.volume_error < kMostVolume * error.body.volume;
-  if (!follows)
+  if (!follows && !fitted.front().is_tessellated)
     add("the surface extends beyond the data by", error.reach / error.radius, kMostReach, "their radius",
         is_free ? "scan more sides" : kMoreBodies);
   if (!error.is_hull)

@@ -13,6 +13,13 @@
 namespace fit {
 namespace {
 
+// A few vertices lie on many bodies: those of a box on an ellipsoid.
+constexpr std::size_t kFewestVertices = 100;
+
+// Vertices of a tessellated body are nearer to it than to the body that fits its facets, and the facets little farther: in standard
+// deviations of that fit.
+constexpr double kVertices = 0.1, kFacets = 4;
+
 constexpr std::size_t kSurfacePoints = 50000;  // of a mesh: their spacing is about 1.5 % of its extent
 
 /// The points to fit. For a mesh: random points of its triangles, as many as it has vertices, within bounds.
@@ -20,6 +27,16 @@ Cloud points_of(const Data& data, bool uses_vertices) {
   if (data.triangles.empty() || uses_vertices) return data.vertices;
   const std::size_t count = std::clamp<std::size_t>(data.vertices.points.size(), 2000, 20000);
   return sample_triangles(data.vertices.points, data.triangles, count, 1);
+}
+
+/// Whether the vertices of a mesh lie on a body near the one that fits its facets. The facets then lie below, and exponents that
+/// are fitted to them are too small by many standard errors.
+bool is_tessellated(const Scan& scan, const FittedBody& to_facets, const FitSettings& settings) {
+  const Cloud& vertices = scan.data.vertices;
+  if (scan.data.triangles.empty() || vertices.points.size() < kFewestVertices) return false;
+  const FittedBody found = refine_body(to_facets.body, vertices, settings);
+  const double sigma = to_facets.uncertainty.sigma;
+  return found.uncertainty.sigma <= kVertices * sigma && find_distances(scan, {found}).rms <= kFacets * sigma;
 }
 
 }  // namespace
@@ -70,9 +87,16 @@ FitSettings settings_of(const Options& options, const Scan& scan) {
 
 std::vector<FittedBody> fit_scan(const Scan& scan, const Options& options) {
   try {
-    return fit_union(scan.points, options.bodies, settings_of(options, scan), [](int count, int largest) {
+    FitSettings settings = settings_of(options, scan);
+    std::vector<FittedBody> fitted = fit_union(scan.points, options.bodies, settings, [](int count, int largest) {
       say("looking for " + std::to_string(count) + " of at most " + std::to_string(largest) + " bodies");
     });
+    settings.volume.reset();  // of the facets
+    if (fitted.size() > 1 || !is_tessellated(scan, fitted.front(), settings)) return fitted;
+    say("the vertices of the mesh lie on a body, and its facets below: the vertices are fitted");
+    fitted = {fit_body(scan.data.vertices, settings)};
+    fitted.front().is_tessellated = true;
+    return fitted;
   } catch (const std::invalid_argument& error) {
     throw InputError(scan.path + ": " + error.what());
   }
