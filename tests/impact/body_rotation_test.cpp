@@ -14,6 +14,7 @@
 #include "supernormal/shapes/capsule.hpp"
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
@@ -33,11 +34,15 @@ struct Turned {
   Vector3 axis;
 };
 
+const std::vector<Vector3> kWedge = {
+    {0.5, -0.4, 0.3}, {0.5, 0.1, 0.3}, {-0.1, 0.1, 0.3}, {0.2, 0, -0.1}};  // no box about its origin
+
 std::vector<Turned> turned_shapes() {
   const Vector3 none = Vector3::Zero(), x = Vector3::UnitX(), z = Vector3::UnitZ();
   const auto can = std::make_shared<Cylinder>(0.4, 0.1);
   return {{"box", std::make_shared<Box>(Vector3(0.5, 0.4, 0.3)), false, none},
           {"brick", std::make_shared<Superellipsoid>(Vector3(0.5, 0.4, 0.3), 20, 20), false, none},
+          {"wedge", std::make_shared<Polytope>(kWedge), false, none},
           {"ovoid", std::make_shared<Superovoid>(Vector3(0.5, 0.4, 0.3), 2, 2, 0.3, 0.2), false, none},
           {"ball", std::make_shared<Sphere>(0.4), true, none},
           {"capsule", std::make_shared<Capsule>(0.1, 0.5), true, z},
