@@ -21,6 +21,9 @@ TEST_CASE_FIXTURE(OdeSession, "after the first call no collider, bounding box or
     const long before = allocations();
     const Geom counted(snCreateEllipsoid(nullptr, 1, 1, 1));
     REQUIRE(allocations() > before);  // the counter counts the library's allocations
+    const Geom beside(snCreateEllipsoid(nullptr, 1, 1, dReal(0.9)));
+    for (int i = 0; i < 2; ++i) collide(counted, beside);
+    CHECK(statistics().queries_warm == 1);  // in a new program queries start from the last normals
   }
   Random random(26);
   std::vector<Geom> bodies;
