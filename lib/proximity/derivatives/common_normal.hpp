@@ -52,7 +52,6 @@ class CommonNormal {
   };
 
   bool look_at(const Vector3& n, Place& place);
-  bool is_opposite(const Place& place, double move) const;
   bool keeps_radii(const Place& place, double rounding) const;
   bool is_settled(const Place& place) const;
   void add_flat_step(const BodyCurvature& body, const Matrix3& H, const Matrix3& to_body, Place& place) const;
