@@ -276,6 +276,8 @@ TEST_CASE("the end of a needle that swings into a floor within a step comes down
     CHECK(known < overlap + 1e-9);
     const ContactManifold found = find(body, floor);
     CHECK(taken_away(body, found) == doctest::Approx(known).epsilon(1e-6));
+    // At the start, of the tangent planes at the end, and at the end.
+    CHECK(found.deepest.evaluations >= find_proximity(needle, body.pose, block, floor.pose).evaluations + 2);
     // Each place is on the body, as it is now or with its orientation at the end of the step.
     for (int k = 0; k < found.corner_count; ++k) {
       const ManifoldCorner& corner = found.corners[static_cast<std::size_t>(k)];
