@@ -337,10 +337,15 @@ TEST_CASE("sides with the bodies of the geoms give the same contacts as material
   dBodySetAngularVel(other, 1, 2, 3);
   std::array<dContact, 1> a{};
   REQUIRE(dCollide(dBodyGetFirstGeom(ball), dBodyGetFirstGeom(other), 1, &a[0].geom, sizeof(dContact)) == 1);
-  std::array<dContact, 1> b = a;
+  std::array<dContact, 1> b = a, c = a;
   CHECK(scene.effects.set_up_contacts(a) == 1);
   CHECK(scene.effects.set_up_contacts(b, {0, dGeomGetBody(b[0].geom.g1)}, {0, dGeomGetBody(b[0].geom.g2)}) == 1);
   CHECK(a[0].surface.motionN == b[0].surface.motionN);
   CHECK(a[0].surface.rho == b[0].surface.rho);
   CHECK(std::equal(a[0].fdir1, a[0].fdir1 + 3, b[0].fdir1));
+  // So does a velocity that both have besides.
+  dBodySetLinearVel(ball, 3, dReal(-0.7), 2);
+  dBodySetLinearVel(other, 2, -1, 2);
+  CHECK(scene.effects.set_up_contacts(c) == 1);
+  for (int i = 0; i < 3; ++i) CHECK(std::abs(a[0].fdir1[i] - c[0].fdir1[i]) < 1e-6);
 }
