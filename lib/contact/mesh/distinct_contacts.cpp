@@ -22,14 +22,12 @@ constexpr double kBehindPlane = 1e-8;
 // cos 2.6°. Closer normals belong to a body that lies flat on two tips.
 constexpr double kNearlyParallel = 0.999;
 
-// Cosine below which two normals are on the two sides of a plate. They belong together although the connecting rim is far away.
-constexpr double kOpposite = -0.5;
-
 }  // namespace
 
-void DistinctContacts::clear(double length_unit) {
+void DistinctContacts::clear(double length_unit, const Vector3& middle) {
   contacts_.clear();
   length_unit_ = length_unit;
+  middle_ = middle;
 }
 
 void DistinctContacts::add(const SurfaceContact& contact) {
@@ -62,17 +60,17 @@ std::optional<double> DistinctContacts::shortest_separation(int part) const {
   return largest;
 }
 
-bool DistinctContacts::are_of_one_part(const SurfaceContact& a, const SurfaceContact& b) const {
-  if (a.part != b.part && a.normal.dot(b.normal) > kOpposite) return false;
-  const Vector3 from_a_to_b = b.feature_point - a.feature_point;
-  const double b_before_a = a.normal.dot(from_a_to_b);
-  const double a_before_b = -b.normal.dot(from_a_to_b);
-  if (std::max(b_before_a, a_before_b) > kOnPlane * length_unit_) return false;
+bool DistinctContacts::are_of_one_part(const SurfaceContact& deeper, const SurfaceContact& other) const {
+  if (deeper.part != other.part && deeper.normal.dot(middle_ - deeper.surface_point) >= 0) return false;
+  const Vector3 to_other = other.feature_point - deeper.feature_point;
+  const double other_before = deeper.normal.dot(to_other);
+  const double deeper_before = -other.normal.dot(to_other);
+  if (std::max(other_before, deeper_before) > kOnPlane * length_unit_) return false;
   // Two normals of one edge separate the same part, because both planes contain the edge. This does not hold for two faces of a
   // corner, which may have the same point.
-  const bool is_at_crease = a.crease >= 0 || b.crease >= 0;
-  return (is_at_crease && a.normal.dot(b.normal) < kNearlyParallel) ||
-         std::min(b_before_a, a_before_b) < -kBehindPlane * length_unit_;
+  const bool is_at_crease = deeper.crease >= 0 || other.crease >= 0;
+  return (is_at_crease && deeper.normal.dot(other.normal) < kNearlyParallel) ||
+         std::min(other_before, deeper_before) < -kBehindPlane * length_unit_;
 }
 
 void DistinctContacts::keep_shortest_separations() {

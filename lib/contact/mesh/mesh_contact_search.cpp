@@ -78,8 +78,9 @@ void MeshContactSearch::prepare(const Shape& shape, const Pose& pose, std::span<
   supports_.clear();
   near_edges_.clear();
   settled_.assign(at(surface_.corner_count()), 0);
-  found_.clear(length_unit_);
-  beyond_rim_.clear(length_unit_);
+  const Vector3 middle = pose.rotation * box_.centre;
+  found_.clear(length_unit_, middle);
+  beyond_rim_.clear(length_unit_, middle);
 }
 
 void MeshContactSearch::look_at_patches(SupportProbe& probe) {

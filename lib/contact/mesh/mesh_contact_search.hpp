@@ -35,8 +35,8 @@ struct SurfaceContact {
 /// Collects contacts. Keep an instance to reuse its memory.
 class DistinctContacts {
  public:
-  /// `length_unit`: the size of the body, m.
-  void clear(double length_unit);
+  /// `length_unit`: the size of the body, m. `middle`: the middle of the body, in the frame of the surface, m.
+  void clear(double length_unit, const Vector3& middle);
 
   /// Adds the contact. Of two contacts with the same normal and place, the deeper one is kept. Of contacts at one vertex or edge,
   /// the contact with the minimum translation distance (MTD) is kept.
@@ -50,7 +50,8 @@ class DistinctContacts {
 
   /// Keeps only the shortest translation that separates the body from each convex part of the solid. Two contacts belong to one
   /// convex part if neither feature is in front of the other's tangent plane. By convexity they then overlap by more than the
-  /// body's radius of curvature. So contacts of a body that rests on or against several parts are never merged.
+  /// body's radius of curvature. So contacts of a body that rests on or against several parts are never merged. A body whose middle
+  /// is behind the deeper plane does not rest there: it has come through a plate or a ridge from the other side.
   void keep_shortest_separations();
 
   /// Sorts by depth, deepest first.
@@ -59,10 +60,11 @@ class DistinctContacts {
   const std::vector<SurfaceContact>& contacts() const { return contacts_; }
 
  private:
-  bool are_of_one_part(const SurfaceContact& a, const SurfaceContact& b) const;
+  bool are_of_one_part(const SurfaceContact& deeper, const SurfaceContact& other) const;
 
   std::vector<SurfaceContact> contacts_;
   double length_unit_ = 1;
+  Vector3 middle_ = Vector3::Zero();
 };
 
 /// Implements MeshContacts; see there for the contract (supernormal/contact/mesh_contacts.hpp).

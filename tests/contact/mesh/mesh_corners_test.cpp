@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <random>
 #include <vector>
 
@@ -131,29 +133,42 @@ TEST_CASE("a body in a finely divided bowl gets a few contacts") {
   }
 }
 
-TEST_CASE("a ball above a valley that ends at a vertex is as deep as its centre is near") {
-  // A valley between two edges that meet at the vertex (4, 1.5, 5). Their hull bridges it. y is up, as on a heightfield.
-  const auto height = [](int i, int j) { return i < 4 || i > 5 || j < 4 || j > 5 ? 0 : i == 4 && j == 5 ? 1.5 : 2.0; };
-  const auto vertex = [&](int i, int j) { return Vector3(i, height(i, j), j); };
-  std::vector<MeshTriangle> terrain;
-  for (int i = 0; i < 7; ++i) {
-    for (int j = 0; j < 7; ++j) {
-      terrain.push_back({{vertex(i, j), vertex(i, j + 1), vertex(i + 1, j)}, 2 * (7 * i + j)});
-      terrain.push_back({{vertex(i + 1, j + 1), vertex(i + 1, j), vertex(i, j + 1)}, 2 * (7 * i + j) + 1});
+// y is up, as on a heightfield.
+TEST_CASE("a ball is as deep in a terrain as its centre is near: over a valley that ends at a vertex, and through a thin ridge") {
+  struct Place {
+    std::array<std::array<double, 3>, 3> heights;  // m; of the vertices (3, y, 4) to (5, y, 6), by their third coordinate
+    Vector3 centre;                                // m; of a cube of centres
+    double half_side;                              // m; of the cube
+    double radius;                                 // m
+  };
+  // The valley is between two edges that meet at the vertex (4, 1.5, 5). Their hull bridges it. The ball behind the ridge shows on
+  // its other side. It must come out where it came in.
+  const Place over_valley{{{{0, 2, 2}, {0, 1.5, 2}, {0, 0, 0}}}, {4.04, 2.17, 4.94}, 0.15, 0.75};
+  const Place through_ridge{{{{0, 0, 2.36}, {2.36, 1.43, 0.05}, {0, 0, 0.05}}}, {3.97, 1.14, 4.55}, 0.05, 0.586};
+  for (const Place& place : {over_valley, through_ridge}) {
+    const auto vertex = [&](int i, int j) {
+      const bool is_flat = i < 3 || i > 5 || j < 4 || j > 6;
+      return Vector3(i, is_flat ? 0 : place.heights[static_cast<std::size_t>(j - 4)][static_cast<std::size_t>(i - 3)], j);
+    };
+    std::vector<MeshTriangle> terrain;
+    for (int i = 0; i < 8; ++i) {
+      for (int j = 0; j < 8; ++j) {
+        terrain.push_back({{vertex(i, j), vertex(i, j + 1), vertex(i + 1, j)}, 2 * (8 * i + j)});
+        terrain.push_back({{vertex(i + 1, j + 1), vertex(i + 1, j), vertex(i, j + 1)}, 2 * (8 * i + j) + 1});
+      }
     }
-  }
-  Draw draw(9);
-  for (int i = 0; i < 2000; ++i) {
-    CAPTURE(i);
-    const double radius = draw.uniform(0.6, 0.9);
-    const Ellipsoid ball(Vector3::Constant(radius));
-    const Vector3 centre = Vector3(4.04, 2.17, 4.94) + draw.in_box({0.2, 0.15, 0.2});
-    const Pose pose{centre, Matrix3::Identity()};
-    const std::vector<MeshContact> contacts = contacts_of(ball, pose, terrain);
-    const double nearest = find_nearest_triangle(Ellipsoid(Vector3::Constant(1e-3)), pose, terrain).proximity.gap + 1e-3;
-    if (nearest > radius) continue;
-    REQUIRE(!contacts.empty());
-    CHECK(contacts[0].proximity.gap == doctest::Approx(nearest - radius).epsilon(1e-6));
+    Draw draw(9);
+    for (int i = 0; i < 1000; ++i) {
+      CAPTURE(i);
+      const double radius = place.radius * draw.uniform(0.8, 1.2);
+      const Ellipsoid ball(Vector3::Constant(radius));
+      const Pose pose{place.centre + draw.in_box(Vector3::Constant(place.half_side)), Matrix3::Identity()};
+      const std::vector<MeshContact> contacts = contacts_of(ball, pose, terrain);
+      const double nearest = find_nearest_triangle(Ellipsoid(Vector3::Constant(1e-3)), pose, terrain).proximity.gap + 1e-3;
+      if (nearest > radius) continue;
+      REQUIRE(!contacts.empty());
+      CHECK(contacts[0].proximity.gap == doctest::Approx(nearest - radius).epsilon(1e-6));
+    }
   }
 }
 
