@@ -193,7 +193,7 @@ struct MeshContactsAhead::SurfaceFrame {
   void take_back(double share, ContactManifold& contacts) const {
     const auto to_end = [&](Vector3& place) { place = end.rotation * place + end.position; };
     contacts.deepest.normal = end.rotation * contacts.deepest.normal;
-    for (Vector3* place : {&contacts.deepest.point1, &contacts.deepest.point2, &contacts.deepest.contact}) to_end(*place);
+    to_end(contacts.deepest.contact);
     for (ManifoldCorner& corner : contacts.corners) to_end(corner.point);
     if (contacts.placed_on) contacts.placed_on = {contacts.placed_on->shape, free.end1(), contacts.deepest.normal};
     free.take_back(share, contacts);
@@ -466,8 +466,8 @@ ContactManifold MeshContactsAhead::manifold_of(const Search& search, const Pose&
 void MeshContactsAhead::add(const Search& search, Proximity there, int triangle, const Vector3& way) {
   if (search.slid == nullptr) there.gap += approach_in_excess(search, there);
   const MotionAhead& motion = search.now.motion;
-  const double overlap = approach_of(motion, search.surface, search.time, there.normal, there.gap + there.normal.dot(way)) +
-                         growth_by_rotation(search.body, there.normal, there.point1, search.time);
+  double overlap = approach_of(motion, search.surface, search.time, there.normal, there.gap + there.normal.dot(way));
+  if (search.slid == nullptr) overlap += growth_by_rotation(search.body, there.normal, there.point1, search.time);
   ContactManifold manifold = manifold_of(search, search.body.pose, there, overlap);
   if (search.slid != nullptr) {
     search.slid->take_back(search.share, manifold);

@@ -19,15 +19,11 @@ constexpr double kMet = 0.9;
 // Newton's method takes two or three steps. If it reaches this limit, the last position counts as the impact.
 constexpr int kMostSteps = 30;
 
-/// Moves contacts back by the displacements of the bodies, m, and their places by the mean. `closed_at(place)`: how much of the gap
-/// at a place, where it is now, the motion closes, m.
+/// Moves contacts back by the mean displacement of the bodies, m. `closed_at(place)`: how much of the gap at a place, where it is
+/// now, the motion closes, m.
 template <class Closed>
-void move_back(ContactManifold& contacts, const Vector3& displacement1, const Vector3& displacement2, double share,
-               const Closed& closed_at) {
-  const Vector3 displacement = share * displacement1 + (1 - share) * displacement2;
+void move_back(ContactManifold& contacts, const Vector3& displacement, double share, const Closed& closed_at) {
   Proximity& deepest = contacts.deepest;
-  deepest.point1 -= displacement1;
-  deepest.point2 -= displacement2;
   deepest.contact -= displacement;
   deepest.gap += closed_at(deepest.contact);
   if (contacts.placed_on) contacts.placed_on->pose.position -= displacement;
@@ -42,6 +38,8 @@ void move_back(ContactManifold& contacts, const Vector3& displacement1, const Ve
     deepest.gap = -corner.depth;
     deepest.contact = corner.point;
   }
+  deepest.point1 = deepest.contact - (1 - share) * deepest.gap * deepest.normal;
+  deepest.point2 = deepest.contact + share * deepest.gap * deepest.normal;
 }
 
 }  // namespace
@@ -59,7 +57,8 @@ BodyAhead moved(const BodyAhead& body, double time) {
 
 void take_back(ContactManifold& manifold, const Vector3& displacement1, const Vector3& displacement2, double share, double gap) {
   const double closed = manifold.deepest.normal.dot(displacement1 - displacement2);
-  move_back(manifold, displacement1, displacement2, share, [&](const Vector3& /*place*/) { return closed; });
+  const Vector3 displacement = share * displacement1 + (1 - share) * displacement2;
+  move_back(manifold, displacement, share, [&](const Vector3& /*place*/) { return closed; });
   limit_overlaps(manifold, std::max(0.0, -gap));
 }
 
@@ -138,7 +137,7 @@ void FreeMotion::stop_at(const ContactManifold& contacts) {
 
 void FreeMotion::take_back(double share, ContactManifold& contacts) const {
   const auto closed = [&](const Vector3& place) { return closed_at(place, contacts.deepest.normal); };
-  move_back(contacts, time_ * motion1_.velocity, time_ * motion2_.velocity, share, closed);
+  move_back(contacts, time_ * (share * motion1_.velocity + (1 - share) * motion2_.velocity), share, closed);
 }
 
 BodyAhead without_forces(BodyAhead body) {

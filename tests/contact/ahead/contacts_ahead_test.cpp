@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
@@ -356,6 +357,33 @@ TEST_CASE("the faster a body rotates, the farther apart are its manifold points 
       before = now;
     }
   }
+}
+
+TEST_CASE("the deepest contact of a brick that rocks is at its witness points") {
+  const Superellipsoid brick({0.1, 0.07, 0.05}, 20, 20);
+  const Box block(Vector3(1, 1, 0.1));
+  const BodyAhead floor = standing(block, {Vector3(0, 0, -0.1), Matrix3::Identity()});
+  test::Draw draw(62);
+  int apart = 0;
+  for (int i = 0; i < test::draws(300); ++i) {
+    CAPTURE(i);
+    const Matrix3 rotation = Eigen::AngleAxisd(draw.log_uniform(0.01, 1), draw.direction()).toRotationMatrix();
+    const double low = brick.support(rotation.transpose() * -Vector3::UnitZ());
+    BodyAhead body = standing(brick, {Vector3(0, 0, low + draw.log_uniform(1e-5, 0.03)), rotation});
+    body.motion.mobility = 1;
+    body.motion.velocity = Vector3(0, 0, draw.uniform(-2, 2));
+    body.motion.angular_velocity = draw.in_box({60, 60, 60});
+    body.motion.acceleration = Vector3(0, 0, -9.81);
+    body.motion.arm = 0.14;
+    for (const auto& [deepest, share] : {std::pair(find_on_plane(body).deepest, 1.0), std::pair(find(body, floor).deepest, 1.0),
+                                         std::pair(find(floor, body).deepest, 0.0)}) {
+      if (deepest.status == Status::Apart || !(deepest.gap > 0)) continue;  // an overlap of tangent planes is no gap
+      ++apart;
+      CHECK((deepest.contact - share * deepest.point1 - (1 - share) * deepest.point2).norm() < 1e-9);
+      CHECK((deepest.point2 - deepest.point1 - deepest.gap * deepest.normal).norm() < 1e-9);
+    }
+  }
+  CHECK(apart > test::draws(300));
 }
 
 TEST_CASE("with a velocity that is not finite a body keeps its present contact") {
