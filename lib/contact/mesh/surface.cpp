@@ -2,9 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace supernormal {
 namespace {
@@ -22,19 +22,8 @@ constexpr double kDigits = 4 * std::numeric_limits<double>::epsilon();
 // Upper limit of a triangle's size in body sizes, so that cracks which the body might notice remain.
 constexpr double kLargestFace = 1e3;
 
-// Cell size of the hash table of vertices, in the largest seam. Few vertices are close enough to the border of a cell for a second
-// lookup.
-constexpr double kCell = 16;
-
-// Hashes a point. -0 and 0 have the same hash because they are equal.
-std::size_t hash(const Vector3& v) {
-  std::uint64_t h = 0;
-  for (int i = 0; i < 3; ++i) {
-    h = (h ^ std::bit_cast<std::uint64_t>(v[i] + 0.0)) * 0x9e3779b97f4a7c15U;
-    h ^= h >> 29U;
-  }
-  return static_cast<std::size_t>(h);  // of 32 bits on some machines
-}
+// Vertices are sorted along a direction, of a length below 1, across which a grid has no two of them.
+const Vector3 kSorted(0.754, 0.569, 0.324);
 
 // Whether the rounding of the vertices explains the angle between two faces. It tilts a face by twice the rounding over the height.
 bool may_be_flat(const Face& one, const Face& other) {
@@ -141,57 +130,25 @@ void Surface::append(const MeshTriangle& triangle, const Vector3& origin, double
 }
 
 void Surface::number_corners() {
-  corner_table_.assign(std::bit_ceil(6 * faces_.size() + 1), -1);
-  corner_count_ = 0;
-  double cell = std::numeric_limits<double>::min();
-  for (const Face& face : faces_) cell = std::max(cell, kCell * face.seam);
+  places_.clear();
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      int& corner = faces_[f].corner[k];
-      const Vector3 in_cells = faces_[f].vertices[k] / cell;
-      const Vector3 own = in_cells.array().floor();
-      corner = find_corner_in(own, f, k);
-      if (corner < 0) corner = find_corner_beside(in_cells - own, own, faces_[f].seam / cell, f, k);
-      if (corner >= 0) continue;
-      corner = corner_count_++;
-      enter_corner(own, f, k);
+    for (int k = 0; k < 3; ++k) places_.push_back({kSorted.dot(faces_[f].vertices[at(k)]), static_cast<int>(f), k});
+  }
+  std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
+    return a.along != b.along ? a.along < b.along : std::pair(a.face, a.k) < std::pair(b.face, b.k);
+  });
+  corner_count_ = 0;
+  for (auto place = places_.begin(); place != places_.end(); ++place) {
+    Face& face = faces_[at(place->face)];
+    int& corner = face.corner[at(place->k)];
+    for (auto before = place; corner < 0 && before != places_.begin() && (--before)->along >= place->along - face.seam;) {
+      const Face& other = faces_[at(before->face)];
+      const double seam = std::min(face.seam, other.seam);
+      const double squared = (other.vertices[at(before->k)] - face.vertices[at(place->k)]).squaredNorm();
+      if (squared <= seam * seam) corner = other.corner[at(before->k)];
     }
+    if (corner < 0) corner = corner_count_++;
   }
-}
-
-// Looks for the vertex in the other cells within a seam, of which there are usually none. Returns -1 if it is new.
-int Surface::find_corner_beside(const Vector3& in_cell, const Vector3& own, double seam, std::size_t f, std::size_t k) const {
-  Vector3 step;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double beyond = in_cell[axis] > 1 - seam ? 1 : 0;
-    step[axis] = in_cell[axis] < seam ? -1 : beyond;
-  }
-  if (step == Vector3::Zero()) return -1;
-  int corner = -1;
-  for (unsigned i = 1; corner < 0 && i < 8; ++i) {
-    const Vector3 taken{(i & 1U) != 0 ? step.x() : 0, (i & 2U) != 0 ? step.y() : 0, (i & 4U) != 0 ? step.z() : 0};
-    corner = find_corner_in(own + taken, f, k);
-  }
-  return corner;
-}
-
-int Surface::find_corner_in(const Vector3& cell, std::size_t f, std::size_t k) const {
-  const Face& face = faces_[f];
-  const std::size_t slots = corner_table_.size();
-  for (std::size_t slot = hash(cell) & (slots - 1); corner_table_[slot] >= 0; slot = (slot + 1) & (slots - 1)) {
-    const int entry = corner_table_[slot];
-    const Face& other = faces_[at(entry / 3)];
-    const double seam = std::min(face.seam, other.seam);
-    if ((other.vertices[at(entry % 3)] - face.vertices[k]).squaredNorm() <= seam * seam) return other.corner[at(entry % 3)];
-  }
-  return -1;
-}
-
-void Surface::enter_corner(const Vector3& cell, std::size_t f, std::size_t k) {
-  const std::size_t slots = corner_table_.size();
-  std::size_t slot = hash(cell) & (slots - 1);
-  while (corner_table_[slot] >= 0) slot = (slot + 1) & (slots - 1);
-  corner_table_[slot] = static_cast<int>(3 * f + k);
 }
 
 void Surface::match_edges() {

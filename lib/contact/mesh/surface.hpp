@@ -85,6 +85,11 @@ class Surface {
   bool exits_solid(const Vector3& start, const Vector3& end) const;
 
  private:
+  struct Place {
+    double along;  // m; by which vertices are sorted
+    int face;
+    int k;  // index of the vertex in the face
+  };
   struct EdgeUse {
     std::uint64_t edge;  // its two vertices
     int face;
@@ -93,9 +98,6 @@ class Surface {
 
   void append(const MeshTriangle& triangle, const Vector3& origin, double length_unit);
   void number_corners();
-  int find_corner_beside(const Vector3& in_cell, const Vector3& own, double seam, std::size_t face, std::size_t k) const;
-  int find_corner_in(const Vector3& cell, std::size_t face, std::size_t k) const;
-  void enter_corner(const Vector3& cell, std::size_t face, std::size_t k);
   void match_edges();
   void match_uses(std::span<EdgeUse> uses);
   EdgeConvexity convexity_between(const Face& face, int side, const Face& neighbour) const;
@@ -110,7 +112,7 @@ class Surface {
 
   std::vector<Face> faces_;
   std::vector<CoplanarPatch> patches_;
-  std::vector<int> corner_table_;  // hash table of 3 * face + k; -1: empty
+  std::vector<Place> places_;
   std::vector<EdgeUse> uses_;
   int corner_count_ = 0;
   double largest_ = 0;
