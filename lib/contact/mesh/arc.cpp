@@ -44,29 +44,10 @@ void narrow(const ArcSample& middle, ArcSample& low, ArcSample& high, double tol
 
 bool is_bracket(const ArcSample& low, const ArcSample& high) { return low.slope >= 0 && high.slope <= 0; }
 
-/// Chooses the next angle by the ITP method (Oliveira, Takahashi: An enhancement of the bisection method average performance
-/// preserving minmax optimality, ACM TOMS 47, 2020). It needs at most one step more than bisection, and converges superlinearly on
-/// a smooth slope.
-class Interpolation {
- public:
-  explicit Interpolation(double width) : first_width_(width), reach_(width) {}
-
-  double next(const ArcSample& low, const ArcSample& high) {
-    const double width = high.angle - low.angle;
-    const double middle = low.angle + 0.5 * width;
-    const double secant = low.angle + width * (low.slope / (low.slope - high.slope));
-    const double towards_middle = std::copysign(1.0, middle - secant);
-    const double truncation = std::min(0.2 * width * width / first_width_, std::abs(middle - secant));
-    const double truncated = secant + towards_middle * truncation;
-    const double allowed = std::max(reach_ - 0.5 * width, 0.0);
-    reach_ *= 0.5;
-    return std::abs(truncated - middle) <= allowed ? truncated : middle - towards_middle * allowed;
-  }
-
- private:
-  double first_width_;
-  double reach_;  // half of bisection's width one step later
-};
+/// Where the slope would be 0 if it were linear. It converges superlinearly on a smooth slope.
+double secant_angle(const ArcSample& low, const ArcSample& high) {
+  return low.angle + (high.angle - low.angle) * (low.slope / (low.slope - high.slope));
+}
 
 /// Bounds the maximum above the samples: where s is concave, it lies below its tangents at both ends.
 double bound_above(const ArcSample& low, const ArcSample& high) {
@@ -135,19 +116,17 @@ ArcMaximum maximize_between(SupportProbe& probe, const Arc& arc, ArcSample low, 
   const int last_evaluation = probe.evaluations() + max_evaluations;
   ArcMaximum best;
   if (!bracket(probe, arc, low, high, last_evaluation)) return best;
-  Interpolation interpolation(high.angle - low.angle);
   const auto is_inside = [&](double angle) { return low.angle < angle && angle < high.angle; };
   const auto is_settled = [&] { return !is_bracket(low, high) || bound_above(low, high) <= tolerance; };
   for (int step = 0; !is_settled() && probe.evaluations() < last_evaluation; ++step) {
-    double angle = step % 2 == 0 ? equal_depth_angle(arc, low, high) : interpolation.next(low, high);
-    if (!is_inside(angle)) angle = interpolation.next(low, high);
+    // In turn, since each alone may stay at one end.
+    double angle = step % 2 == 0 ? equal_depth_angle(arc, low, high) : secant_angle(low, high);
+    if (!is_inside(angle)) angle = 0.5 * (low.angle + high.angle);
     if (!is_inside(angle)) break;  // `low` and `high` are adjacent numbers
     const ArcSample middle = arc.sample(angle, probe);
     if (middle.gap > 0) return best;
     narrow(middle, low, high, tolerance);
-    if (is_bracket(low, high)) continue;
-    if (!bracket(probe, arc, low, high, last_evaluation)) return best;
-    interpolation = Interpolation(high.angle - low.angle);
+    if (!is_bracket(low, high) && !bracket(probe, arc, low, high, last_evaluation)) return best;
   }
   const bool is_bracketed = is_bracket(low, high);
   best.error =
