@@ -22,9 +22,6 @@ constexpr double kDigits = 4 * std::numeric_limits<double>::epsilon();
 // Upper limit of a triangle's size in body sizes, so that cracks which the body might notice remain.
 constexpr double kLargestFace = 1e3;
 
-// Vertices are sorted along a direction, of a length below 1, across which a grid has no two of them.
-const Vector3 kSorted(0.754, 0.569, 0.324);
-
 // Whether the rounding of the vertices explains the angle between two faces. It tilts a face by twice the rounding over the height.
 bool may_be_flat(const Face& one, const Face& other) {
   const auto tilt_of = [](const Face& face) { return face.rounding * face.longest / face.area; };
@@ -130,9 +127,11 @@ void Surface::append(const MeshTriangle& triangle, const Vector3& origin, double
 }
 
 void Surface::number_corners() {
+  // A grid has few vertices at one height along it. Its length is below 1, so that no distance along it exceeds the true one.
+  const Vector3 direction(0.754, 0.569, 0.324);
   places_.clear();
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    for (int k = 0; k < 3; ++k) places_.push_back({kSorted.dot(faces_[f].vertices[at(k)]), static_cast<int>(f), k});
+    for (int k = 0; k < 3; ++k) places_.push_back({direction.dot(faces_[f].vertices[at(k)]), static_cast<int>(f), k});
   }
   std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
     return a.along != b.along ? a.along < b.along : std::pair(a.face, a.k) < std::pair(b.face, b.k);
