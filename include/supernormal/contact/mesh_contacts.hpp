@@ -66,6 +66,10 @@ class SUPERNORMAL_API MeshContacts {
   std::span<const MeshContact> find(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
                                     const Settings& settings = {});
 
+  /// The contacts with faces that continue behind a wall, where find() left them out: a contact with a similar normal is as deep.
+  /// A body that moves along that one is held back by these. Valid until the next query.
+  std::span<const MeshContact> continued() const;
+
   /// Whether a unit normal out of the surface is in the normal cone at a point of the surface (m), which the last query knows: no
   /// triangle that touches the point rises from the tangent plane. The edge of a triangle in a plane or a valley has no such
   /// normal.

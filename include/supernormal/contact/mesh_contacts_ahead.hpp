@@ -68,6 +68,7 @@ class SUPERNORMAL_API MeshContactsAhead {
   SUPERNORMAL_LOCAL void add_contacts(const Search& search, const Vector3& way);
   SUPERNORMAL_LOCAL bool slides(const Search& search) const;
   SUPERNORMAL_LOCAL void find_at_end(const Search& search, BodyAhead& there, const Vector3& way);
+  SUPERNORMAL_LOCAL void add_continued(const Search& search, const Vector3& way);
   SUPERNORMAL_LOCAL bool is_apart_now(const Search& search, std::span<const MeshContact> contacts);
   SUPERNORMAL_LOCAL double approach_in_excess(const Search& search, const Proximity& there);
   SUPERNORMAL_LOCAL ContactManifold manifold_of(const Search& search, const Pose& pose, const Proximity& there, double approach);

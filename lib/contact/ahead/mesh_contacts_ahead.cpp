@@ -242,6 +242,7 @@ std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, con
       if (slides(search)) find_at_end(search, there, way);
       break;
     }
+    if (!holds_back(there.motion.velocity)) add_continued(search, way);
     if (!holds_back(there.motion.velocity) && is_of_surface(first.there, contacts_)) {
       add(search, first.there, first.triangle, way);
     }
@@ -406,6 +407,15 @@ void MeshContactsAhead::find_at_end(const Search& search, BodyAhead& there, cons
   there.pose = frame.pose_at_end();
   found_.clear();
   add_contacts(at_end, way);
+}
+
+/// In a valley the body overlaps one side, but the face at the other side holds it back.
+void MeshContactsAhead::add_continued(const Search& search, const Vector3& way) {
+  const Vector3& velocity = search.body.motion.velocity;
+  for (const MeshContact& contact : contacts_.continued()) {
+    const Proximity& there = contact.proximity;
+    if (there.gap <= 0 && there.normal.dot(velocity) > kAlong * velocity.norm()) add(search, there, contact.triangle, way);
+  }
 }
 
 /// Whether the body, at its position on the path, overlaps no triangle although the contacts of its sweep say so.

@@ -30,6 +30,7 @@ constexpr double kBoxMargin = 1e-9;  // of the length unit
 std::span<const MeshContact> MeshContactSearch::find(const Shape& body, const Pose& pose, std::span<const MeshTriangle> triangles,
                                                      const Settings& settings, double near) {
   contacts_.clear();
+  continued_.clear();
   evaluations_ = 0;
   if (triangles.empty() || !is_usable(pose)) return contacts_;
   settings_ = settings;
@@ -229,7 +230,11 @@ void MeshContactSearch::find_beyond_rim(SupportProbe& probe, std::size_t p) {
 void MeshContactSearch::add_beyond_rim() {
   beyond_rim_.sort();
   for (const SurfaceContact& contact : beyond_rim_.contacts()) {
-    if (!found_.has_similar(contact.normal, contact.body_point)) found_.add(contact);
+    if (found_.has_similar(contact.normal, contact.body_point)) {
+      continued_.push_back(to_world(contact));
+    } else {
+      found_.add(contact);
+    }
   }
 }
 
@@ -390,6 +395,8 @@ std::span<const MeshContact> MeshContacts::find_within(double distance, const Sh
                                                        std::span<const MeshTriangle> triangles, const Settings& settings) {
   return search_->find(shape, pose, triangles, settings, distance);
 }
+
+std::span<const MeshContact> MeshContacts::continued() const { return search_->continued(); }
 
 bool MeshContacts::has_normal(const Vector3& normal, const Vector3& point) const { return search_->has_normal(normal, point); }
 

@@ -75,6 +75,7 @@ class MeshContactSearch {
   std::span<const MeshContact> find(const Shape& body, const Pose& pose, std::span<const MeshTriangle> triangles,
                                     const Settings& settings, double near);
 
+  std::span<const MeshContact> continued() const { return continued_; }
   bool has_normal(const Vector3& normal, const Vector3& point) const;
   int evaluations() const { return evaluations_; }
 
@@ -146,6 +147,7 @@ class MeshContactSearch {
   DistinctContacts found_;
   DistinctContacts beyond_rim_;  // candidates for contacts beyond the rim of a patch
   std::vector<MeshContact> contacts_;
+  std::vector<MeshContact> continued_;  // contacts beyond a rim that a similar one makes redundant
   int evaluations_ = 0;
 };
 
