@@ -288,7 +288,7 @@ TEST_CASE("a brick rides on a kinematic plate that turns") {
     scene.run(2);
     const double tangents = 3 * 3 * step / 8 / 2 * 2;  // of eight sub-steps a step would lead outwards
     CHECK(std::abs(std::hypot(place_of(brick)[0], place_of(brick)[1]) / 0.3 - 1) < 0.1 * tangents);
-    CHECK(spin_of(brick)[2] == doctest::Approx(3).epsilon(3e-4));
+    CHECK(spin_of(brick)[2] == doctest::Approx(3).epsilon(1e-4));
   }
 }
 
