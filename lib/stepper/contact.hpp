@@ -99,6 +99,7 @@ struct Contact : Link {
   double first_gap = 0;      ///< m; when the step began
   double gap = 0;            ///< m; when the bodies last moved
   double size = 0;           ///< m; System::size
+  double layer = 0;          ///< m; an overlap that is not corrected
   double tangent_mass = 0;   ///< kg; for both directions across the normal
   bool will_bounce = false;  ///< in a later sub-step, by the velocities that the bodies had before this one's sweeps
   const Given* given = nullptr;

@@ -11,7 +11,7 @@ constexpr double kChange = 1.2;
 
 // Sub-steps, times the root of `heaviest_`, in which it changes by a factor of e at most. A heavy body on light ones swings on
 // their springs within a quarter of them; springs that stiffen and soften as fast make it hop higher and higher (README).
-constexpr double kSwing = 20;
+constexpr double kSwing = 40;
 
 // Within these factors it stays as it is, because the sag goes with its square: one that flickers shakes what rests.
 constexpr double kLittleLess = 0.95;
@@ -44,22 +44,21 @@ void SubSteps::learn(const System& system, double time) {
   double stiffness = 0;  // 1/s^2; the square of the frequency that the sag needs
   double spin = 0;       // rad/s
   heaviest_ = 1;
-  const auto feels = [&](const Link& link, double mobility) {
-    for (const Body* const body : {&system.body1(link), &system.body2(link)}) {
-      if (body->is_dynamic()) heaviest_ = std::max(heaviest_, mobility / body->inverse_mass);
-    }
+  const auto weigh = [&](const Link& link) {
+    const auto [heavy, light] = std::minmax({system.body1(link).inverse_mass, system.body2(link).inverse_mass});
+    if (heavy > 0) heaviest_ = std::max(heaviest_, light / heavy);
   };
   for (const Contact& contact : system.contacts) {
     stiffness = std::max(stiffness, contact.normal().total / time * contact.normal().mobility / (accuracy.sag * contact.size));
-    feels(contact, contact.normal().mobility);
+    weigh(contact);
     if (contact.moving < 0 || contact.normal().total == 0) continue;
     spin = std::max(spin, (system.body1(contact).angular_velocity - system.body2(contact).angular_velocity).norm());
   }
   for (const Joint* const joint : system.joints) {
     const double size = system.size(*joint);
+    weigh(*joint);
     for (int i = 0; i < joint->held(); ++i) {
       const Row& row = joint->rows()[std::size_t(i)];
-      if (joint->is_linear(i)) feels(*joint, row.mobility);
       stiffness =
           std::max(stiffness, std::abs(row.total) / time * row.mobility / (accuracy.sag * (joint->is_linear(i) ? size : 1)));
     }

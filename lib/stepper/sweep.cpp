@@ -74,7 +74,7 @@ class Sweeper {
       velocity += gap / settings_.time;
     } else if (settings_.is_biased || surface.cfm > 0) {
       softness = *contact.softness;
-      const double overlap = std::min(std::max(0.0, -gap - settings_.layer), softness.deepest * contact.size);
+      const double overlap = std::min(std::max(0.0, -gap - contact.layer), softness.deepest * contact.size);
       velocity -= std::min(softness.rate * overlap, settings_.fastest_out);
     }
     if (gap <= 0 || row.impulse > 0) velocity -= centring(contact).dot(row.direction);

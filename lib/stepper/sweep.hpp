@@ -16,7 +16,6 @@ struct SweepSettings {
   double time = 0;         ///< s, of the sub-step
   double elapsed = 0;      ///< s, since the step began
   double fastest_out = 0;  ///< m/s; overlaps are corrected no faster
-  double layer = 0;        ///< m; an overlap that is not corrected
   Softness softness;       ///< of joints
 };
 

@@ -24,8 +24,9 @@ class StepperWorld {
   StepperWorld& operator=(const StepperWorld&) = delete;
   StepperWorld& operator=(StepperWorld&&) = delete;
 
-  dBodyID add(dGeomID geom, double density, const Vec& at) {
-    const dBodyID body = world.add(geom, density);
+  template <typename Mass>  // a density or a dMass
+  dBodyID add(dGeomID geom, const Mass& mass, const Vec& at) {
+    const dBodyID body = world.add(geom, mass);
     dBodySetPosition(body, dReal(at[0]), dReal(at[1]), dReal(at[2]));
     REQUIRE(snStepperAddBody(stepper, body) == 1);
     return body;
@@ -37,6 +38,12 @@ class StepperWorld {
   dBodyID add_brick(double exponent, double density, const Vec& at) {
     const auto e = dReal(exponent);
     return add(snCreateSuperellipsoid(world.space(), dReal(0.1), dReal(0.07), dReal(0.05), e, e), density, at);
+  }
+  /// ODE's own, as long; its contacts are found once it overlaps.
+  dBodyID add_box(double density, const Vec& at) {
+    dMass mass;
+    dMassSetBox(&mass, dReal(density), dReal(0.2), dReal(0.14), dReal(0.1));
+    return add(dCreateBox(world.space(), dReal(0.2), dReal(0.14), dReal(0.1)), mass, at);
   }
 
   /// Bricks of exponent 8, one on another.
