@@ -95,7 +95,7 @@ void Body::read_mass() {
   inverse_mass = 1 / double{mass.mass};
   inertia_ = ode::to_rotation(mass.I);
   inverse_inertia_ = inertia_.inverse();
-  world_inverse_inertia = rotation * inverse_inertia_ * rotation.transpose();
+  turn_inertia();
   size = std::sqrt(least_moment(inertia_) * inverse_mass);
 }
 
@@ -136,7 +136,7 @@ void Body::advance(double time) {
   if (keeps_momentum_) angular_velocity = spin_of(rotation, momentum);
   moved += time * velocity;
   rotated += time * spin;
-  if (is_followed) world_inverse_inertia = rotation * inverse_inertia_ * rotation.transpose();
+  if (is_followed) turn_inertia();
 }
 
 bool Body::has_left_path(double time, double left) const {

@@ -31,6 +31,11 @@ struct Body {
   /// Moves the body on by `time` (s). The angular momentum stays as it is in the world, so no gyroscopic torque is needed.
   void advance(double time);
 
+  /// Turns the inertia with the body, if it moves.
+  void turn_inertia() {
+    if (is_dynamic()) world_inverse_inertia = rotation * inverse_inertia_ * rotation.transpose();
+  }
+
   /// Gives place, orientation and velocities to ODE and removes the forces, as a step of ODE does. `fraction` of ODE's damping of a
   /// step is applied.
   void write(double fraction);
@@ -63,11 +68,11 @@ struct Body {
   Vector3 moved = Vector3::Zero();             ///< m, since the step began
   Vector3 rotated = Vector3::Zero();           ///< rad, since the step began
 
-  dBodyID id = nullptr;                                   ///< null: what does not move
-  Vector3 start = Vector3::Zero();                        ///< m; the centre of mass when the step began
-  Eigen::Quaterniond orientation{1, 0, 0, 0};             ///< now
-  Matrix3 rotation = Matrix3::Identity();                 ///< now
-  Matrix3 world_inverse_inertia = Matrix3::Zero();        ///< 1/(kg m^2), when the step began; now, if is_followed
+  dBodyID id = nullptr;                             ///< null: what does not move
+  Vector3 start = Vector3::Zero();                  ///< m; the centre of mass when the step began
+  Eigen::Quaterniond orientation{1, 0, 0, 0};       ///< now
+  Matrix3 rotation = Matrix3::Identity();           ///< now
+  Matrix3 world_inverse_inertia = Matrix3::Zero();  ///< 1/(kg m^2), when the step began or it last bounced; now, if is_followed
   double size = std::numeric_limits<double>::infinity();  ///< m; the smallest radius of gyration; infinite for what no force moves
   bool is_touched = false;                                ///< whether it has a contact
   bool is_borne = false;                                  ///< whether it touches what it has a contact with

@@ -56,19 +56,25 @@ Surface surface_of(const dContact& contact) {
 }
 
 void set_rows(System& system, Contact& contact, const Vector3& place, const Vector3& normal, const Vector3& along) {
+  contact.arm1 = place - system.body1(contact).centre();
+  contact.arm2 = place - system.body2(contact).centre();
+  const Vector3 first = (along - along.dot(normal) * normal).normalized();
+  contact.rows[0].direction = normal;
+  contact.rows[1].direction = first;
+  contact.rows[2].direction = normal.cross(first);
+  set_responses(system, contact);
+}
+
+void set_responses(System& system, Contact& contact) {
   const Body& one = system.body1(contact);
   const Body& two = system.body2(contact);
-  contact.arm1 = place - one.centre();
-  contact.arm2 = place - two.centre();
-  const Vector3 first = (along - along.dot(normal) * normal).normalized();
-  const std::array<Vector3, 3> directions = {normal, first, normal.cross(first)};
-  for (std::size_t k = 0; k < 3; ++k) {
-    contact.rows[k].set(directions[k], one, contact.arm1.cross(directions[k]), two, contact.arm2.cross(directions[k]));
-    contact.rows[k].mobility += one.inverse_mass + two.inverse_mass;
+  for (Row& row : contact.rows) {
+    row.set(row.direction, one, contact.arm1.cross(row.direction), two, contact.arm2.cross(row.direction));
+    row.mobility += one.inverse_mass + two.inverse_mass;
   }
   if (Rolling* const torques = system.rolling_of(contact)) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vector3& axis = directions[(k + 1) % 3];
+      const Vector3& axis = contact.rows[(k + 1) % 3].direction;
       (*torques)[k].set(axis, one, axis, two, axis);
     }
   }
@@ -80,7 +86,7 @@ void set_rows(System& system, Contact& contact, const Vector3& place, const Vect
   contact.tangent_mass = 1 / ((u.mobility + v.mobility) / 2 + std::hypot((u.mobility - v.mobility) / 2, mixed));
 }
 
-Contact contact_of(System& system, const Given& given) {
+Contact contact_of(System& system, const Given& given, double time) {
   using ode::to_vector;
   const dContactGeom& geometry = given.contact.geom;
   Contact contact;
@@ -105,6 +111,16 @@ Contact contact_of(System& system, const Given& given) {
   ode::from_vector((given.body1 == 0 ? -1 : 1) * normal, facing);
   dPlaneSpace(facing, along, across);
   set_rows(system, contact, to_vector(geometry.pos), normal, to_vector(given.surface.has_direction ? given.contact.fdir1 : along));
+  // dCollide moves the place of a meeting back with the mean of both bodies, but each of them has its own way to it.
+  const Body& one = system.body1(contact);
+  const Body& two = system.body2(contact);
+  const Vector3 velocity = one.velocity - two.velocity;
+  const double approach = -normal.dot(velocity);
+  if (contact.gap <= 0 || contact.gap > time * approach) return contact;
+  const Vector3 way = contact.gap / approach / (one.inverse_mass + two.inverse_mass) * velocity;
+  contact.arm1 -= two.inverse_mass * way;
+  contact.arm2 += one.inverse_mass * way;
+  set_responses(system, contact);
   return contact;
 }
 

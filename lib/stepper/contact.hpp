@@ -256,7 +256,10 @@ struct System {
 /// the normal is `along`, projected.
 void set_rows(System& system, Contact& contact, const Vector3& place, const Vector3& normal, const Vector3& along);
 
-/// Sets up the contact that a program has given.
-Contact contact_of(System& system, const Given& given);
+/// Sets the responses of the rows of a contact as its bodies are turned now.
+void set_responses(System& system, Contact& contact);
+
+/// Sets up the contact that a program has given for a step of `time` (s).
+Contact contact_of(System& system, const Given& given, double time);
 
 }  // namespace supernormal::stepper

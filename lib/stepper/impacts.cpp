@@ -45,6 +45,8 @@ struct Striker {
       has_bounced = has_bounced || system.impacts.back().speed > 0;
     }
     if (!has_bounced) return false;
+    for (Body* const body : {&system.body1(contacts.front()), &system.body2(contacts.front())}) body->turn_inertia();
+    for (Contact& contact : contacts) set_responses(system, contact);
     const int sweeps = pair.count > 1 ? kSweepsOfManifold : 1;
     for (int i = 0; i < sweeps; ++i) {
       for (std::size_t k = 0; k < contacts.size(); ++k) solve(contacts[k], system.impacts[k]);

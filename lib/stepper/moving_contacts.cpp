@@ -25,6 +25,9 @@ constexpr double kRestsFlat = 0.002;
 // rad; a manifold of which one point touches follows if the body turns more in a step, as the rim of a coin that spins.
 constexpr double kSpins = 0.02;
 
+// rad; a step of Newton's method that turns a normal by more is not right: it finds overlaps of many sizes (README).
+constexpr double kLongTurn = 0.2;
+
 // Relative to the size: contacts whose gaps differ by less touch together.
 constexpr double kTogether = 1e-4;
 
@@ -46,7 +49,7 @@ struct Answer {
 };
 
 /// The common normal of round bodies, one step of Newton's method from `first`, the last one (body 1's frame). The gap is then
-/// right to the fourth order of the change.
+/// right to the fourth order of the change. False, if the step is too long for that.
 bool step_to_normal(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Vector3& first,
                     Answer& answer) {
   GapFunction function(shape1, pose1, shape2, pose2);
@@ -57,7 +60,7 @@ bool step_to_normal(const Shape& shape1, const Pose& pose1, const Shape& shape2,
   const Vector3 slope = jet.d - jet.s * first;
   // Regular in three dimensions, with the same solution in the tangent plane.
   const Vector3 dn = (curvature + curvature.trace() * first * first.transpose()).inverse() * slope;
-  if (!dn.allFinite()) return false;
+  if (!(dn.norm() < kLongTurn)) return false;
   const Vector3 point1 = jet.jet1.r + jet.jet1.H * dn;
   const Vector3 point2 = function.offset() + function.rotation() * jet.jet2.r - H2 * dn;
   answer.place = pose1.position + pose1.rotation * (0.5 * (point1 + point2));
@@ -162,9 +165,8 @@ void MovingContacts::Moving::follow(System& system) const {
   const Pose pose2 = pose_of(two, side2.in_body);
   const Vector3 first = (pose1.rotation.transpose() * -at.normal().direction).normalized();
   Answer answer;
-  if (is_round(side1.shape) && is_round(side2.shape)) {
-    if (!step_to_normal(*side1.shape, pose1, *side2.shape, pose2, first, answer)) return;
-  } else {
+  if (!(is_round(side1.shape) && is_round(side2.shape) &&
+        step_to_normal(*side1.shape, pose1, *side2.shape, pose2, first, answer))) {
     const Proximity found = find_proximity(*side1.shape, pose1, *side2.shape, pose2, {}, &first);
     if (found.status == Status::InvalidInput) return;
     answer = {found.contact, -found.normal, found.gap};

@@ -58,7 +58,7 @@ double Stepper::step(double time) {
   ode::require_positive("step", time, "s");
   const bool is_rest = left_ > 0 && std::abs(time - left_) <= 1e-6 * whole_;
   read_bodies(is_rest);
-  set_up_contacts();
+  set_up_contacts(time);
   if (!is_rest) whole_ = time;
   const int count = sub_steps_.choose(time, whole_);
   const double sub_step_time = time / count;
@@ -225,7 +225,7 @@ void Stepper::let_sleep(double time) {
   }
 }
 
-void Stepper::set_up_contacts() {
+void Stepper::set_up_contacts(double time) {
   system_.contacts.clear();
   system_.pairs.clear();
   system_.rolling.clear();
@@ -242,7 +242,7 @@ void Stepper::set_up_contacts() {
                               last->body2 == given.body2;
     if (!is_same_pair) system_.pairs.push_back({static_cast<int>(system_.contacts.size()), 0});
     ++system_.pairs.back().count;
-    system_.contacts.push_back(contact_of(system_, given));
+    system_.contacts.push_back(contact_of(system_, given, time));
   }
 }
 

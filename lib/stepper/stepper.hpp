@@ -49,7 +49,7 @@ class Stepper {
   void read_bodies(bool is_rest);
   enum class Along { Joints, All };
   void spread(bool Body::*property, bool Body::*source, Along along = Along::All);
-  void set_up_contacts();
+  void set_up_contacts(double time);
   void soften(double sub_step);
   void centre();
   void sub_step(int number, SweepSettings settings);

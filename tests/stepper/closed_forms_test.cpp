@@ -261,6 +261,53 @@ TEST_CASE("an ellipsoid that rocks keeps its energy") {
   }
 }
 
+TEST_CASE("frictionless balls that meet off centre hardly begin to spin, however far they move in a step") {
+  for (const double step : {0.005, 0.02, 0.04}) {
+    StepperWorld scene(step);
+    dWorldSetGravity(scene.world.id(), 0, 0, 0);
+    scene.surface.mode |= dContactBounce;
+    scene.surface.bounce = 1;
+    const dBodyID one = scene.add_ball(0.05, {0, 0, 0});
+    const dBodyID other =
+        scene.add(snCreateEllipsoid(scene.world.space(), dReal(0.04), dReal(0.04), dReal(0.04)), 300, {0.2, 0.12, 0});
+    set_velocity(one, {2, 0, 0});
+    set_velocity(other, {0, -1, 0});
+    scene.run(0.2);
+    CHECK(velocity_of(other)[0] > 0.1);
+    CHECK(norm(spin_of(one)) < 0.1);
+    CHECK(norm(spin_of(other)) < 0.1);
+  }
+}
+
+TEST_CASE("a gas of pebbles, which differ a hundred times in mass, keeps its energy") {
+  for (const double step : {0.005, 0.02}) {
+    StepperWorld scene(step);
+    dWorldSetGravity(scene.world.id(), 0, 0, 0);
+    scene.surface.mode |= dContactBounce;
+    scene.surface.bounce = 1;
+    for (int wall = 0; wall < 6; ++wall) {
+      const dReal sign = wall % 2 == 0 ? 1 : -1;
+      dCreatePlane(scene.world.space(), wall / 2 == 0 ? sign : 0, wall / 2 == 1 ? sign : 0, wall / 2 == 2 ? sign : 0, dReal(-0.3));
+    }
+    Random random(4);
+    std::vector<dBodyID> gas;
+    const auto of_all = [&] {
+      double sum = 0;
+      for (const dBodyID body : gas) sum += kinetic_energy(body);
+      return sum;
+    };
+    for (int i = 0; i < 27; ++i) {
+      const Vec at = {0.18 * (i % 3 - 1), 0.18 * (i / 3 % 3 - 1), 0.18 * (i / 9 - 1)};
+      const dGeomID pebble = snCreateEllipsoid(scene.world.space(), dReal(0.05), dReal(0.05), dReal(0.025));
+      gas.push_back(scene.add(pebble, 100 * std::pow(100, random.uniform(0, 1)), at));
+      set_velocity(gas.back(), {random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)});
+    }
+    const double before = of_all();
+    scene.run(2);
+    CHECK(of_all() == relative(before).epsilon(0.02));
+  }
+}
+
 TEST_CASE("a body that balances on another keeps its energy") {
   StepperWorld scene(0.005);
   scene.surface.mu = dReal(0.8);
