@@ -166,9 +166,9 @@ struct System {
   /// A kinematic body turns below the place of the other body: what rides on it takes the velocity that it has where the other one
   /// will be in `time` (s). In a biased sweep that is half a sub-step, so that it follows the arc and not the tangent.
   void ride(Contact& contact, double time) const {
-    if (contact.moving >= 0) return;
     const Body& one = body1(contact);
     const Body& two = body2(contact);
+    if (contact.moving >= 0 || (one.is_dynamic() && two.is_dynamic())) return;
     const Vector3 apart = one.centre() - two.centre() + time * (one.velocity - two.velocity);
     if (!two.is_dynamic()) contact.arm2 = contact.arm1 + apart;
     if (!one.is_dynamic()) contact.arm1 = contact.arm2 - apart;
