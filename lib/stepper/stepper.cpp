@@ -250,8 +250,10 @@ void Stepper::soften(double sub_step) {
   softness_ = softness_in(sub_step, sub_steps_.spring());
   for (Contact& contact : system_.contacts) {
     const Surface& surface = contact.surface();
-    contact.layer = std::max(double{dWorldGetContactSurfaceLayer(world_.get())},
-                             is_late(contact.given->contact.geom) ? kLateLayer * sub_steps_.accuracy.sag * contact.size : 0);
+    const bool is_stacked = system_.body1(contact).is_dynamic() && system_.body2(contact).is_dynamic();
+    contact.layer =
+        std::max(double{dWorldGetContactSurfaceLayer(world_.get())},
+                 is_stacked && is_late(contact.given->contact.geom) ? kLateLayer * sub_steps_.accuracy.sag * contact.size : 0);
     contact.softness = &softness_;
     if (surface.erp < 0 && !(surface.cfm > 0)) continue;
     const double erp = surface.erp < 0 ? double{dWorldGetERP(world_.get())} : surface.erp;
