@@ -34,7 +34,7 @@ struct MovingBody {
   Vector3 gain = Vector3::Zero();              ///< m/s, by forces on this way
   double time = 0;                             ///< s, of its last impact, from the start of the step
   int impacts = 0;
-  bool is_thrown_back = false;  ///< by a wall, once a step: between two walls there would be no end
+  bool is_thrown_back = false;  ///< by a wall that has no contact for it
   int impacts_searched = 0;     ///< the impacts after which walls were searched
   bool is_attached = false;     ///< whether a joint holds it in place: moved alone, it would violate the joint
 };
@@ -91,8 +91,12 @@ struct Meeting {
   /// Whether one of the bodies is a wall, which nothing moves.
   bool is_at_wall() const { return !(body1.inverse_mass > 0 && body2.inverse_mass > 0); }
 
-  /// Adds what keeps the middle of the free body outside of the wall in this step, or what throws it back (`bounces`).
-  void add_stops(bool bounces, std::vector<Push>& pushes) const;
+  /// A contact under the middle of the free body, at which it bounces before its middle passes the wall within the step. Empty if
+  /// it does not pass.
+  std::optional<MeetingContact> middle() const;
+
+  /// Adds what keeps the middle of the free body outside of the wall in this step.
+  void add_stops(std::vector<Push>& pushes) const;
 
   /// The contact for ODE, so that the step ends with the velocities after the impacts so far.
   dContact row_of(const MeetingContact& at) const;
@@ -101,8 +105,12 @@ struct Meeting {
   dContact stop_of(const MeetingContact& at) const;
 
  private:
-  const MovingBody& free_body() const { return body1.inverse_mass > 0 ? body1 : body2; }
+  bool is_first_free() const { return body1.inverse_mass > 0; }
+  const MovingBody& free_body() const { return is_first_free() ? body1 : body2; }
+  Vector3 inwards_at(const MeetingContact& at) const { return is_first_free() ? at.normal : Vector3(-at.normal); }
+  static dContact under(const Vector3& centre, const MeetingContact& at);
   double room_at(const MeetingContact& at) const;
+  double lacking_at(const MeetingContact& at) const;
   void bring_to_touch(const Impact& impact) const;
   struct Parting {
     double before, after;  // m/s

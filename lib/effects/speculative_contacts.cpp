@@ -122,6 +122,7 @@ void SpeculativeSetup::run_impacts() {
     if (impacts != bodies_[record.body1].impacts + bodies_[record.body2].impacts) continue;
     meeting(record).strike(*meeting(record).next_impact(), pushes_);
     ++record.impacts;
+    if (record.attached == 0) record.may_bounce = is_struck(bodies_[record.body1].inverse_mass > 0 ? record.body1 : record.body2);
     for (const std::size_t body : {record.body1, record.body2}) {
       std::ranges::for_each(records_of_[body], [&](std::size_t k) { expect(k); });
     }
@@ -138,7 +139,7 @@ void SpeculativeSetup::exchange(std::size_t index) {
   rows_.clear();
   for (const MeetingContact& c : now.contacts) {
     const bool is_attached = record.attached > 0, was_hit = c.total > 0;
-    if (is_attached) rows_.push_back(c.is_stop && !was_hit ? now.stop_of(c) : now.row_of(c));
+    if (is_attached) rows_.push_back(now.row_of(c));
     if (!is_attached && was_hit) exchanges_.push_back({nullptr, now.row_of(c), one, other});
     if (c.is_stop && (was_hit || !is_attached)) exchanges_.push_back({nullptr, now.stop_of(c), one, other});
   }
@@ -215,13 +216,17 @@ void SpeculativeSetup::add_wall(void* data, dGeomID geom1, dGeomID geom2) {
   setup.list_record(setup.records_.size() - 1);
 }
 
+/// Whether another free body has struck the body. Otherwise it bounces once a step at a wall without a contact: between two walls
+/// there would be no end of impacts.
+bool SpeculativeSetup::is_struck(std::size_t index) {
+  return std::ranges::any_of(records_of_[index],
+                             [&](std::size_t k) { return records_[k].impacts > 0 && !meeting(records_[k]).is_at_wall(); });
+}
+
 /// Finds walls on the way of a body after its impacts, and other places of known walls. A program has no contacts there: its are of
 /// the motion before. Without this, of 480 heaps that a heavy body hits 29 lose a body through a thin floor; with it 1.
 void SpeculativeSetup::find_walls(std::size_t index) {
   const MovingBody body = bodies_[index];
-  // Between two walls there would be no end of impacts.
-  const bool bounces = std::ranges::any_of(
-      records_of_[index], [&](std::size_t k) { return records_[k].impacts > 0 && !meeting(records_[k]).is_at_wall(); });
   const Vector3 velocity = ode::to_vector(dBodyGetLinearVel(body.id)), spin = ode::to_vector(dBodyGetAngularVel(body.id));
   set_velocities(body.id, body.velocity, body.angular_velocity);
   for (dGeomID geom = dBodyGetFirstGeom(body.id); geom != nullptr; geom = dBodyGetNextGeom(geom)) {
@@ -230,29 +235,43 @@ void SpeculativeSetup::find_walls(std::size_t index) {
     ode::set_moved(geom);  // the bounding box covers the motion
     dGeomID all = geom;
     while (dGeomGetSpace(all) != nullptr) all = reinterpret_cast<dGeomID>(dGeomGetSpace(all));
-    Search search{this, index, bounces};
+    Search search{this, index, is_struck(index)};
     if (all != geom) dSpaceCollide2(geom, all, &search, add_wall);
   }
   set_velocities(body.id, velocity, spin);
 }
 
-/// Stops a body after its impacts at all walls together, those that the program has listed and those that were found. `bounces`:
-/// throws it back instead, once a step. Returns whether it has done so.
-bool SpeculativeSetup::hold_at_walls(std::size_t index, bool bounces) {
+/// Lists the impact of the middle of a body at a wall that its contacts do not keep it from. Returns whether there is one.
+bool SpeculativeSetup::bounce_middle(std::size_t index) {
+  if (bodies_[index].impacts == 0 || (bodies_[index].is_thrown_back && !is_struck(index))) return false;
+  for (const std::size_t k : records_of_[index]) {
+    const Record wall = records_[k];
+    const auto middle = meeting(wall).middle();
+    if (!middle) continue;
+    records_.push_back({wall.pair, wall.body1, wall.body2, contacts_.size(), 1, 0, true, true});
+    contacts_.push_back(*middle);
+    bodies_[index].is_thrown_back = true;
+    list_record(records_.size() - 1);
+    return true;
+  }
+  return false;
+}
+
+/// Stops a body after its impacts at all walls together, those that the program has listed and those that were found. Returns
+/// whether this has changed its velocity.
+bool SpeculativeSetup::stop_at_walls(std::size_t index) {
   MovingBody& body = bodies_[index];
-  if (body.impacts == 0 || (bounces && body.is_thrown_back)) return false;
+  if (body.impacts == 0 || body.impacts >= 2 * kMostImpacts) return false;
   pushes_.clear();
   for (const std::size_t k : records_of_[index]) {
-    if (const Meeting at = meeting(records_[k]); at.is_at_wall()) at.add_stops(bounces, pushes_);
+    if (const Meeting at = meeting(records_[k]); at.is_at_wall()) at.add_stops(pushes_);
   }
-  const OfBoth change = solve_impulses(pushes_);
-  if (change.isZero(0)) return false;
-  for (const Push& push : pushes_) push.at->is_stop |= push.total > 0 || push.lacking > 0;
-  body.velocity += change.head<3>();
+  const Vector3 velocity = body.velocity + solve_impulses(pushes_).head<3>();
+  if (velocity.isApprox(body.velocity)) return false;
+  for (const Push& push : pushes_) push.at->is_stop = true;
+  body.velocity = velocity;
   ++body.impacts;
-  body.is_thrown_back |= bounces;
-  if (bounces) std::ranges::for_each(records_of_[index], [&](std::size_t k) { expect(k); });
-  return bounces;
+  return true;
 }
 
 void SpeculativeSetup::resolve() {
@@ -269,9 +288,9 @@ void SpeculativeSetup::resolve() {
         if (is_new) find_walls(k);
         is_changed |= is_new;
       }
-      for (std::size_t k = 0; !is_changed && k < bodies_.size(); ++k) is_changed = hold_at_walls(k, true);
+      for (std::size_t k = 0; !is_changed && k < bodies_.size(); ++k) is_changed = bounce_middle(k);
+      for (std::size_t k = 0; !is_changed && k < bodies_.size(); ++k) is_changed = stop_at_walls(k);
     }
-    for (std::size_t k = 0; k < bodies_.size(); ++k) hold_at_walls(k, false);
     for (std::size_t k = 0; k < records_.size(); ++k) exchange(k);
     make_joints();
     move_bodies();

@@ -66,7 +66,9 @@ class SpeculativeSetup {
   Side side_of(dGeomID geom) const;
   void find_walls(std::size_t index);
   static void add_wall(void* data, dGeomID geom1, dGeomID geom2);
-  bool hold_at_walls(std::size_t index, bool bounces);
+  bool is_struck(std::size_t index);
+  bool bounce_middle(std::size_t index);
+  bool stop_at_walls(std::size_t index);
   void exchange(std::size_t index);
   void make_joints();
   void move_bodies() const;

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <span>
 
@@ -585,6 +586,33 @@ TEST_CASE("speculative contacts: a body that an impact throws at a wall behind d
           }
         }
       }
+    }
+  }
+}
+
+TEST_CASE("speculative contacts: a ball that bounces among slanted walls passes none") {
+  using supernormal::Vector3;
+  Random random(3);
+  const Vector3 slant(std::cos(0.5), 0, -std::sin(0.5));
+  for (int draw = 0; draw < 30; ++draw) {
+    CAPTURE(draw);
+    EffectsWorld scene({fx::Restitution{1, 0, {}}, fx::SpeculativeContacts{}}, 0.01);
+    const double end = 3 * kRadius;
+    const std::array<Vector3, 5> outwards = {slant, Vector3(-slant.x(), 0, slant.z()), Vector3::UnitZ(), Vector3::UnitY(),
+                                             Vector3(-Vector3::UnitY())};
+    const auto distance = [&](const Vector3& out) { return (std::abs(out.x()) > 0 ? slant.x() : 1) * end; };
+    for (const Vector3& out : outwards) {
+      dCreatePlane(scene.world.space(), dReal(-out.x()), dReal(-out.y()), dReal(-out.z()), dReal(-distance(out)));
+    }
+    const dBodyID ball = scene.add_body({kRadius, kRadius, kRadius}, 2, kDensity, {random.uniform(-1, 1) * kRadius, 0, 0});
+    constexpr double kSpeed = 8 * kRadius / 0.01;
+    throw_body(ball, {kSpeed, random.uniform(-0.3, 0.3) * kSpeed, random.uniform(-0.3, 0.3) * kSpeed});
+    const double start = kinetic_energy(ball);
+    for (int step = 0; step < 40; ++step) {
+      scene.step();
+      const dReal* const place = dBodyGetPosition(ball);
+      for (const Vector3& out : outwards) CHECK(out.dot(Vector3(place[0], place[1], place[2])) < distance(out));
+      CHECK(kinetic_energy(ball) < 1.01 * start);
     }
   }
 }
