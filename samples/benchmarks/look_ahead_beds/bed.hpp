@@ -1,14 +1,9 @@
-// A bed of grains of one kind: the common start of all simulations, the common measure of overlaps, and its simulation in an
-// engine.
+// A bed of grains of one kind, the common start of all simulations, and its simulation in an engine.
 #pragma once
-
-#include <ode/ode.h>
 
 #include <array>
 #include <cstddef>
-#include <ctime>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace look_ahead_beds {
@@ -35,40 +30,9 @@ struct Bed {
   std::vector<Grain> grains;
 
   /// The five walls, (normal, distance) as in dCreatePlane.
-  std::array<std::array<double, 4>, 5> walls() const;
-};
-
-/// Layers of grains with half-axes in the ratio 4 : 3 : 2, sizes that vary by up to 20 %, and random orientations.
-Bed make_bed(int count, double exponent, unsigned seed);
-
-/// The geom of a grain in its initial pose.
-dGeomID create_geom(dSpaceID space, const Bed& bed, const Grain& grain);
-
-void set_pose(dGeomID geom, const Pose& pose);
-
-/// Measures overlaps by snGeomProximity with its own geoms. It neither uses nor changes the warm starts of a simulation.
-class Ruler {
- public:
-  explicit Ruler(const Bed& bed);
-  ~Ruler();
-  Ruler(const Ruler&) = delete;
-  Ruler& operator=(const Ruler&) = delete;
-
-  /// Measures one instant.
-  void measure(const std::vector<Pose>& poses);
-
-  double deepest() const { return deepest_; }                                                ///< of all instants, half-axes
-  double mean() const { return overlaps_ > 0 ? sum_ / static_cast<double>(overlaps_) : 0; }  ///< over all overlaps, half-axes
-
- private:
-  static void near_callback(void* self, dGeomID o1, dGeomID o2);
-
-  dSpaceID grains_ = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
-  dSpaceID walls_ = dSimpleSpaceCreate(nullptr);
-  std::vector<dGeomID> geoms_;
-  double deepest_ = 0;
-  double sum_ = 0;
-  std::size_t overlaps_ = 0;
+  std::array<std::array<double, 4>, 5> walls() const {
+    return {{{0, 0, 1, 0}, {1, 0, 0, -half_width}, {-1, 0, 0, -half_width}, {0, 1, 0, -half_width}, {0, -1, 0, -half_width}}};
+  }
 };
 
 struct Settings {
@@ -87,20 +51,7 @@ class Simulation {
   virtual Pose pose(std::size_t grain) const = 0;
 };
 
-/// A method: its name in tables, and how it simulates a bed. The bed must outlive the simulation.
-struct Method {
-  std::string name;
-  std::unique_ptr<Simulation> (*start)(const Bed& bed, const Settings& settings);
-};
-
-/// dWorldQuickStep with contacts of overlaps, or with contacts before overlap.
-std::unique_ptr<Simulation> start_plain(const Bed& bed, const Settings& settings);
-std::unique_ptr<Simulation> start_ahead(const Bed& bed, const Settings& settings);
-
 /// Sequential impulses of Bullet, with ellipsoids by their support function. The exponent must be 2.
 std::unique_ptr<Simulation> start_bullet(const Bed& bed, const Settings& settings);
-
-/// The processor time of this program, s.
-inline double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace look_ahead_beds
