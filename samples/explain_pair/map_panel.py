@@ -258,7 +258,7 @@ def style_of(path):
     # The methods of the literature have their numbers in their names. Each number has a colour; dashes distinguish the variants.
     colour = {"(1)": BLUE, "(2)": GREEN, "(3)": ORANGE, "(4)": BROWN}[path.name[-3:]]
     is_dashed = path.name.startswith("normal") or path.name.endswith("distance (4)")
-    is_dotted = "quadtree" in path.name or path.name.endswith("common normal (4)")
+    is_dotted = path.name.endswith("common normal (4)")
     return colour, (5, 4) if is_dashed else (2, 4) if is_dotted else None, "diamond"
 
 

@@ -32,7 +32,6 @@ def test_queries_and_their_ratios(tmp_path):
         query("hybrid", "1e-09", 2e-6, "1e-13"),
         query("hybrid (warm)", "1e-09", 5e-7, 0),
         query("libccd GJK+EPA", "1e-06", 11e-6, "2e-05", 7),
-        query("h and r and H", "", 4e-7, "nan"),
     ]
     write(tmp_path / "query.csv", QUERY, *rows)
     text = report_of(tmp_path)
@@ -42,7 +41,6 @@ def test_queries_and_their_ratios(tmp_path):
     )
     assert "| exponents 1.3…5 | 1 % overlap | 5.5 | – | – | 4.00 |\n" in text
     assert "| exponents 1.3…5 | cold | – | 1.00 | – | – | – | 2.00 | – | – | 0.2 |\n" in text
-    assert "| exponents 1.3…5 | – | – | – | 400 | 4 | 25 % |\n" in text
     assert "## Colliders" not in text
 
 

@@ -15,10 +15,9 @@ common::MeasuredTable query_costs(std::size_t pairs, std::uint64_t seed, const E
 /// The same for the literature methods and our solvers.
 common::MeasuredTable literature_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort);
 
-/// Places every body at every collider `poses` times, overlapping by 2 % and apart by 2 %, and measures dCollide. Writes Markdown
-/// tables of the medians, their ratios and the numbers of contacts. The bodies take turns on each pose, so that a disturbance of
-/// the machine affects all of them. Consecutive queries differ by 1e-3 (m and rad), as in a simulation, so a warm start has its
-/// usual effect.
+/// Places every body at every collider `poses` times, overlapping by 2 %, and measures dCollide. Writes a Markdown table of the
+/// medians. The bodies take turns on each pose, so that a disturbance of the machine affects all of them. Consecutive queries
+/// differ by 1e-3 (m and rad), as in a simulation, so a warm start has its usual effect.
 void write_collider_costs(std::size_t poses, std::uint64_t seed, const Effort& effort, std::ostream& out);
 
 /// Writes a Markdown table: dCollide without a warm start and with room for one contact, beside libccd GJK+EPA with the same

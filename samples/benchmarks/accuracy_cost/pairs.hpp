@@ -35,19 +35,16 @@ inline constexpr std::array kAllSituations = {Situation::Touching, Situation::Sh
 char letter(BodyClass body_class);
 char letter(Situation situation);
 
-inline constexpr std::size_t kNormalsPerPair = 16;
-
 struct Pair {
   BodyClass body_class;
   Situation situation;
   std::shared_ptr<const supernormal::Shape> shape1, shape2;
   supernormal::Pose pose1, pose2;
-  double size = 0;                                            ///< m; smallest half-axis
-  double gap = 0;                                             ///< m; reference: the highest known maximum of the gap function
-  supernormal::Vector3 normal;                                ///< of this maximum, world frame
-  supernormal::Vector3 contact;                               ///< m; of this maximum
-  supernormal::Vector3 warm_normal;                           ///< body 1's frame; the result for a pose 1e-3 (m and rad) away
-  std::array<supernormal::Vector3, kNormalsPerPair> normals;  ///< body 1's frame; within 0.1 rad of the result, to time evaluations
+  double size = 0;                   ///< m; smallest half-axis
+  double gap = 0;                    ///< m; reference: the highest known maximum of the gap function
+  supernormal::Vector3 normal;       ///< of this maximum, world frame
+  supernormal::Vector3 contact;      ///< m; of this maximum
+  supernormal::Vector3 warm_normal;  ///< body 1's frame; the result for a pose 1e-3 (m and rad) away
 };
 
 /// A random body of one class.

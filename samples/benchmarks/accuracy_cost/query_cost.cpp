@@ -45,9 +45,6 @@ Methods all_methods() {
   add_sweep(methods, kEpaTightest, [](double tolerance) { return ccd_epa("libccd GJK+EPA", tolerance); });
   add_sweep(methods, kMprTightest, [](double tolerance) { return ccd_mpr("libccd MPR", tolerance); });
   add(methods, bullet_methods());
-  methods.push_back(evaluation_cost(supernormal::Order::Point));
-  methods.push_back(evaluation_cost(supernormal::Order::Hessian));
-  methods.push_back(floor_cost());
   return methods;
 }
 
@@ -71,13 +68,7 @@ Methods compared_with_literature() {
   return methods;
 }
 
-std::string line(const Method& method, BodyClass body_class, Situation situation, Statistics s) {
-  if (is_unit_of_cost(method)) {  // the method measures a time and solves no query
-    s.time /= static_cast<double>(kNormalsPerPair);
-    s.slow_time /= static_cast<double>(kNormalsPerPair);
-    s.evaluations = 1;
-    s.no_answer = s.wrong_verdict = s.wrong_gap = 0;
-  }
+std::string line(const Method& method, BodyClass body_class, Situation situation, const Statistics& s) {
   std::array<char, 512> text{};
   std::snprintf(text.data(), text.size(), "%c,%c,\"%s\",%s,%zu,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%zu,%zu,%zu,%zu,%zu",
                 letter(body_class), letter(situation), method.name().c_str(), method.accuracy().c_str(), s.queries, s.time,

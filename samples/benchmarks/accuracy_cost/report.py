@@ -115,38 +115,6 @@ def ratios(tables):
     return markdown(about, head, 2, rows)
 
 
-def floor(tables):
-    rows = []
-    for body_class, name in CLASSES.items():
-        hybrid = tables["query"].method(body_class, "S", HYBRID)
-        if not hybrid:
-            continue
-        lowest, point, hessian = (
-            tables["query"].method(body_class, "S", (method, "")).number("time_s")
-            for method in ("logarithms and exponentials", "h and r", "h and r and H")
-        )
-        evaluations = hybrid.number("evaluations")
-        overhead = 100 * (ratio(hybrid.number("time_s"), evaluations * hessian) - 1)
-        rows.append(
-            [
-                name,
-                "–" if body_class == "E" else text("%.0f", 1e9 * lowest),
-                text("%.0f", 1e9 * point),
-                "–" if body_class == "E" else text("%.2f", ratio(point, lowest)),
-                text("%.0f", 1e9 * hessian),
-                text("%.3g", evaluations),
-                text("%.0f %%", overhead),
-            ]
-        )
-    about = (
-        "## One evaluation and its floor\n\n"
-        "Both bodies, at 1 % overlap, in ns. The floor are the eight logarithms and eight exponentials of the C library that two\n"
-        "superellipsoids cannot do without (none of ellipsoids); the overhead is what the hybrid, cold, takes beyond its evaluations of "
-        "h, r and H.\n"
-    )
-    return markdown(about, ["class", "floor", "h and r", "over the floor", "h, r and H", "evaluations", "overhead"], 1, rows)
-
-
 def _precise_enough(rows):
     """The loosest accuracy with a median gap error below 1e-9. If there is none, the tightest."""
     return next((row for row in rows if row.number("gap_error") < 1e-9), rows[-1] if rows else Row())
@@ -239,7 +207,6 @@ def queries(tables):
 SECTIONS = [
     (digits, "query"),
     (ratios, "query"),
-    (floor, "query"),
     (literature, "literature"),
     (queries, "query"),
 ]

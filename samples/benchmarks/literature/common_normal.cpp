@@ -1,6 +1,4 @@
 #include <array>
-#include <limits>
-#include <numbers>
 
 #include "method.hpp"
 #include "newton_step.hpp"
@@ -8,50 +6,13 @@
 namespace literature {
 namespace {
 
-constexpr int kLevels = 6;
-
-constexpr std::array<std::array<double, 2>, 4> kQuarters = {{{-0.5, -0.5}, {-0.5, 0.5}, {0.5, -0.5}, {0.5, 0.5}}};
-
-Vector2 middle(const Vector2& angles, const Vector2& reach, std::size_t quarter) {
-  return angles + reach.cwiseProduct(Vector2(kQuarters[quarter][0], kQuarters[quarter][1]));
-}
-
 std::array<Vector2, 2> angles_of(const Bodies& bodies, const Vector3& normal) {
   return {bodies.body1.angles_of(normal), bodies.body2.angles_of(-(bodies.rotation.transpose() * normal))};
 }
 
-/// Quarters the angles of both surfaces six times. Keeps the pair of quarters whose centres are nearest.
-std::array<Vector2, 2> quadtree(const Bodies& bodies, int& evaluations) {
-  std::array<Vector2, 2> best = {Vector2::Zero(), Vector2::Zero()};
-  Vector2 reach(std::numbers::pi / 2, std::numbers::pi);
-  for (int level = 0; level < kLevels; ++level) {
-    std::array<Vector3, 4> points1, points2;
-    for (std::size_t k = 0; k < kQuarters.size(); ++k) {
-      points1[k] = bodies.body1.point(middle(best[0], reach, k));
-      points2[k] = bodies.rotation * bodies.body2.point(middle(best[1], reach, k)) + bodies.offset;
-    }
-    evaluations += static_cast<int>(kQuarters.size());
-    double least = std::numeric_limits<double>::infinity();
-    std::array<std::size_t, 2> nearest = {0, 0};
-    for (std::size_t i = 0; i < kQuarters.size(); ++i) {
-      for (std::size_t j = 0; j < kQuarters.size(); ++j) {
-        const double squared = (points1[i] - points2[j]).squaredNorm();
-        if (squared >= least) continue;
-        least = squared;
-        nearest = {i, j};
-      }
-    }
-    best = {middle(best[0], reach, nearest[0]), middle(best[1], reach, nearest[1])};
-    reach /= 2;
-  }
-  return best;
-}
-
-/// The angles of two starting points: from Options::first_normal if given, otherwise by `start`. Adds its evaluations to
-/// `evaluations`.
-std::array<Vector2, 2> start_angles(const Bodies& bodies, const Options& options, Start start, int& evaluations) {
-  if (options.first_normal == nullptr && start == Start::Quadtree) return quadtree(bodies, evaluations);
-  ++evaluations;
+/// The angles of two starting points, in one evaluation: those with normals along Options::first_normal if given, otherwise along
+/// the line of the centres.
+std::array<Vector2, 2> start_angles(const Bodies& bodies, const Options& options) {
   if (options.first_normal != nullptr) return angles_of(bodies, *options.first_normal);
   const double distance = bodies.offset.norm();
   return angles_of(bodies, distance > 0 ? Vector3(bodies.offset / distance) : Vector3::UnitX());
@@ -59,9 +20,9 @@ std::array<Vector2, 2> start_angles(const Bodies& bodies, const Options& options
 
 }  // namespace
 
-CommonNormal common_normal_points(const Bodies& bodies, const Options& options, Start start) {
-  int evaluations = 0;
-  const std::array<Vector2, 2> angles = start_angles(bodies, options, start, evaluations);
+CommonNormal common_normal_points(const Bodies& bodies, const Options& options) {
+  int evaluations = 1;
+  const std::array<Vector2, 2> angles = start_angles(bodies, options);
   Vector3 p = bodies.body1.point(angles[0]);  // each in its body's frame
   Vector3 q = bodies.body2.point(angles[1]);
   Eigen::Matrix<double, 6, 1> residual;
@@ -101,9 +62,9 @@ CommonNormal common_normal_points(const Bodies& bodies, const Options& options, 
   return {.evaluations = evaluations};
 }
 
-CommonNormal common_normal_angles(const Bodies& bodies, const Options& options, Start start) {
-  int evaluations = 0;
-  std::array<Vector2, 2> angles = start_angles(bodies, options, start, evaluations);
+CommonNormal common_normal_angles(const Bodies& bodies, const Options& options) {
+  int evaluations = 1;
+  std::array<Vector2, 2> angles = start_angles(bodies, options);
   Eigen::Vector4d residual;
   Eigen::Matrix4d jacobian;
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {

@@ -13,12 +13,6 @@ Superquadric superquadric_of(const supernormal::Shape& shape) {
   return *body;
 }
 
-/// A method with this start.
-template <auto kSolve, Start kStart>
-CommonNormal from(const Bodies& bodies, const Options& options) {
-  return kSolve(bodies, options, kStart);
-}
-
 }  // namespace
 
 Bodies::Bodies(const supernormal::Shape& first, const supernormal::Pose& pose1, const supernormal::Shape& second,
@@ -33,10 +27,8 @@ Bodies::Bodies(const supernormal::Shape& first, const supernormal::Pose& pose1, 
 double Bodies::size() const { return std::min(body1.half_axes.minCoeff(), body2.half_axes.minCoeff()); }
 
 const std::vector<NamedMethod>& methods() {
-  static const std::vector<NamedMethod> all = {{"implicit points (1)", from<common_normal_points, Start::CentreLine>},
-                                               {"implicit points: quadtree (1)", from<common_normal_points, Start::Quadtree>},
-                                               {"surface angles (2)", from<common_normal_angles, Start::CentreLine>},
-                                               {"surface angles: quadtree (2)", from<common_normal_angles, Start::Quadtree>},
+  static const std::vector<NamedMethod> all = {{"implicit points (1)", common_normal_points},
+                                               {"surface angles (2)", common_normal_angles},
                                                {"normal angles (2)", normal_angles},
                                                {"midway point (3)", midway_point},
                                                {"contact space: fixed point (4)", contact_space_fixed_point},

@@ -65,24 +65,18 @@ const std::vector<NamedMethod>& methods();
 CommonNormal judged(const Bodies& bodies, const Vector3& point1, const Vector3& normal1, const Vector3& point2,
                     const Vector3& normal2, double accuracy, int evaluations);
 
-/// The start of a method without the normal of an earlier pose.
-enum class Start {
-  CentreLine,  ///< the points with normals along the line of centres, in closed form: fails least, costs least
-  Quadtree,    ///< the search of Goncalves et al. (2017)
-};
-
 // Method 1: the common normal of two implicit functions.
 
 /// Newton's method for the six coordinates of two points. Both are on their surfaces. The normal of body 1 and the line between the
 /// points are perpendicular to both tangents of body 2 (Lopes, Silva, Ambrosio, Flores 2010; Goncalves, Bernardino, Jorge, Lopes
 /// 2017). The Jacobian is analytic, as in the first of the two papers.
-CommonNormal common_normal_points(const Bodies& bodies, const Options& options, Start start);
+CommonNormal common_normal_points(const Bodies& bodies, const Options& options);
 
 // Method 2: the common normal in the angles of both surfaces.
 
 /// Newton's method for the latitude and longitude of both points, with an analytic Jacobian. The normal of body 1 and the line
 /// between the points are perpendicular to both tangents of body 2 (the parametric form of Goncalves et al. 2017).
-CommonNormal common_normal_angles(const Bodies& bodies, const Options& options, Start start);
+CommonNormal common_normal_angles(const Bodies& bodies, const Options& options);
 
 // Method 3: the midway point of discrete element codes.
 

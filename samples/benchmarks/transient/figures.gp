@@ -17,7 +17,7 @@ set logscale xy
 set format y "10^{%T}"
 set xrange [0.01:100]
 set yrange [0.5:2e6]
-failures(n) = 1e6 * (column(11) + column(12) + column(13) + column(14)) / column(7) + 1
+failures(n) = 1e6 * (column(10) + column(11) + column(12) + column(13)) / column(7) + 1
 families = "'hybrid' 'Newton (Algorithm I)' 'fixed point (Algorithm II)' '(1)' '(2)' '(3)' '(4)' 'libccd GJK+EPA 1e-6' 'Bullet' 'dTriMesh' 'hulls'"
 names = "'hybrid' 'Newton (Algorithm I)' 'fixed point (Algorithm II)' 'implicit points (1)' 'normal angles (2)' 'midway point (3)' 'contact space (4)' 'libccd GJK+EPA 1e-6' 'Bullet' 'dTriMesh' 'hulls'"
 colours = "#000000 #cc0000 #e69f00 #56b4e9 #0072b2 #009e73 #cc79a7 #8f6b32 #999999 #b0b000 #6a3d9a"
@@ -28,9 +28,9 @@ do for [c = 1:4] {
   set ylabel (c % 2 == 1 ? "failures of a million queries, and one" : "")
   set xlabel (c > 2 ? "queries of a simulated second, s of the processor" : "")
   if (c == 1) { set key top right font ",10" samplen 1 } else { unset key }
-  plot for [k = 1:words(families)] cost skip 1 using (is_shown(word(classes, c)) && is_of(word(families, k), "cold") ? column(9) / column(24) : NaN):(failures(0)) \
+  plot for [k = 1:words(families)] cost skip 1 using (is_shown(word(classes, c)) && is_of(word(families, k), "cold") ? column(8) / column(18) : NaN):(failures(0)) \
          with points pointtype 6 pointsize 0.7 linewidth 1.5 linecolor rgb word(colours, k) title word(names, k), \
-       for [k = 1:words(families)] cost skip 1 using (is_shown(word(classes, c)) && is_of(word(families, k), "warm") ? column(9) / column(24) : NaN):(failures(0)) \
+       for [k = 1:words(families)] cost skip 1 using (is_shown(word(classes, c)) && is_of(word(families, k), "warm") ? column(8) / column(18) : NaN):(failures(0)) \
          with points pointtype 7 pointsize 0.7 linecolor rgb word(colours, k) notitle
 }
 unset multiplot

@@ -49,11 +49,6 @@ Throw::Throw(const Setup& setup, bool is_disturbed) : setup_(setup) {
   if (setup.has_friction) dWorldSetGravity(world_.id(), 0, 0, -kGravity);
   dRandSetSeed(1);
   place_bodies(is_disturbed);
-  for (std::size_t body = 0; body < bodies(); ++body) {
-    dMass mass;
-    dBodyGetMass(bodies_[body], &mass);
-    momentum_scale_ += mass.mass * vector_of(dBodyGetLinearVel(bodies_[body])).norm();
-  }
 }
 
 Throw::~Throw() { dSpaceDestroy(walls_); }
@@ -120,11 +115,9 @@ void Throw::place_bodies(bool is_disturbed) {
 const std::vector<Neighbours>& Throw::neighbours() {
   neighbours_.clear();
   const auto number = [](dGeomID geom) { return *static_cast<std::size_t*>(dGeomGetData(geom)); };
-  world_.collide([&](dGeomID geom1, dGeomID geom2) {
-    neighbours_.push_back({std::min(number(geom1), number(geom2)), std::max(number(geom1), number(geom2))});
-  });
+  world_.collide([&](dGeomID geom1, dGeomID geom2) { neighbours_.push_back(std::minmax({number(geom1), number(geom2)})); });
   // In an order that does not depend on the broad phase.
-  std::ranges::sort(neighbours_, {}, [](const Neighbours& pair) { return std::pair(pair.body1, pair.body2); });
+  std::ranges::sort(neighbours_);
   return neighbours_;
 }
 
@@ -139,12 +132,10 @@ void Throw::add_contact(dContact& contact, dBodyID body1, dBodyID body2) {
 void Throw::add_wall_contact(dGeomID geom1, dGeomID geom2) {
   dContact contact{};
   if (dCollide(geom1, geom2, 1, &contact.geom, sizeof contact) == 0) return;
-  touches_wall_ = true;
   add_contact(contact, dGeomGetBody(geom1), dGeomGetBody(geom2));
 }
 
 void Throw::step(const std::vector<Touch>& touches) {
-  const Vector3 before = momentum();
   for (std::size_t k = 0; k < touches.size(); ++k) {
     if (!touches[k].overlaps) continue;
     dContact contact{};
@@ -153,12 +144,10 @@ void Throw::step(const std::vector<Touch>& touches) {
       contact.geom.normal[axis] = -dReal(touches[k].normal[axis]);  // ODE's normal points into the first body
     }
     contact.geom.depth = dReal(touches[k].depth);
-    add_contact(contact, bodies_[neighbours_[k].body1], bodies_[neighbours_[k].body2]);
+    add_contact(contact, bodies_[neighbours_[k].first], bodies_[neighbours_[k].second]);
   }
-  touches_wall_ = false;
   world_.collide_with(walls_, [this](dGeomID geom1, dGeomID geom2) { add_wall_contact(geom1, geom2); });
   world_.step(setup_.step);
-  if (!touches_wall_ && !setup_.has_friction) momentum_drift_ = std::max(momentum_drift_, (momentum() - before).norm());
 }
 
 Pose Throw::pose(std::size_t body) const {
@@ -170,31 +159,5 @@ Pose Throw::pose(std::size_t body) const {
 }
 
 Vector3 Throw::position(std::size_t body) const { return vector_of(dBodyGetPosition(bodies_[body])); }
-
-double Throw::kinetic_energy() const {
-  double energy = 0;
-  for (const dBodyID body : bodies_) {
-    dMass mass;
-    dBodyGetMass(body, &mass);
-    const Vector3 v = vector_of(dBodyGetLinearVel(body));
-    dVector3 spin;
-    dBodyVectorFromWorld(body, dBodyGetAngularVel(body)[0], dBodyGetAngularVel(body)[1], dBodyGetAngularVel(body)[2], spin);
-    energy += 0.5 * mass.mass * v.squaredNorm();
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) energy += 0.5 * spin[i] * mass.I[4 * i + j] * spin[j];
-    }
-  }
-  return energy;
-}
-
-Vector3 Throw::momentum() const {
-  Vector3 sum = Vector3::Zero();
-  for (const dBodyID body : bodies_) {
-    dMass mass;
-    dBodyGetMass(body, &mass);
-    sum += mass.mass * vector_of(dBodyGetLinearVel(body));
-  }
-  return sum;
-}
 
 }  // namespace transient

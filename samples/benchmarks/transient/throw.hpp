@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "common/ode_world.hpp"
@@ -21,10 +22,8 @@ struct Setup {
   std::uint64_t seed = 1;
 };
 
-/// The numbers of two bodies whose bounding boxes meet.
-struct Neighbours {
-  std::size_t body1, body2;
-};
+/// The numbers of two bodies whose bounding boxes meet, the smaller first.
+using Neighbours = std::pair<std::size_t, std::size_t>;
 
 /// A method's answer for the two bodies: the contact, if they overlap.
 struct Touch {
@@ -52,16 +51,11 @@ class Throw {
   const std::shared_ptr<const supernormal::Shape>& shape(std::size_t body) const { return shapes_[body]; }
   supernormal::Pose pose(std::size_t body) const;
   Vector3 position(std::size_t body) const;
-  double kinetic_energy() const;  ///< J
-  /// kg m/s; the largest change of the total momentum by a step in which no body touched a wall
-  double momentum_drift() const { return momentum_drift_; }
-  double momentum_scale() const { return momentum_scale_; }  ///< kg m/s; the sum over all bodies at the start
 
  private:
   void add_wall_contact(dGeomID geom1, dGeomID geom2);
   void place_bodies(bool is_disturbed);
   void add_contact(dContact& contact, dBodyID body1, dBodyID body2);
-  Vector3 momentum() const;
 
   Setup setup_;
   common::OdeWorld world_{dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ)};
@@ -70,8 +64,6 @@ class Throw {
   std::vector<dBodyID> bodies_;
   std::deque<std::size_t> numbers_;  // numbers of the bodies; geoms refer to them
   std::vector<Neighbours> neighbours_;
-  bool touches_wall_ = false;
-  double momentum_drift_ = 0, momentum_scale_ = 0;
 };
 
 }  // namespace transient

@@ -53,10 +53,8 @@ void add_cold(std::vector<Contestant>& all, Methods methods, bool has_sizes) {
 constexpr double kWrong = 1e-6;   // of the smallest half-axis of the pair
 constexpr double kParted = 0.01;  // smallest half-axes
 
-using Key = std::pair<std::size_t, std::size_t>;
-
 /// The last answer's normal of each pair whose bounding boxes meet, in the frame of body 1.
-using Memory = std::map<Key, std::optional<Vector3>>;
+using Memory = std::map<Neighbours, std::optional<Vector3>>;
 
 double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -89,8 +87,8 @@ class Step {
  public:
   Step(Throw& world, const Contestant& contestant, Memory& memory, Outcome& outcome) : contestant_(contestant), outcome_(outcome) {
     Memory current;
-    for (const auto& [body1, body2] : world.neighbours()) {
-      const Key key(body1, body2);
+    for (const Neighbours& key : world.neighbours()) {
+      const auto& [body1, body2] = key;
       const auto known = memory.find(key);
       Pair pair{accuracy_cost::BodyClass::Ellipsoid,
                 accuracy_cost::Situation::Touching,
@@ -100,7 +98,6 @@ class Step {
                 world.pose(body2),
                 0,
                 0,
-                {},
                 {},
                 {},
                 {}};
@@ -125,7 +122,6 @@ class Step {
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       const Answer& answer = answers_[k];
       ++outcome_.queries;
-      if (is_warm_[k]) ++outcome_.warm_queries;
       if (answer.kind == Answer::Kind::None) ++outcome_.failed;
       outcome_.evaluations += answer.evaluations;
       std::optional<Vector3>& normal = memory[keys_[k]];
@@ -159,7 +155,7 @@ class Step {
   const Contestant& contestant_;
   Outcome& outcome_;
   std::vector<Pair> pairs_;
-  std::vector<Key> keys_;
+  std::vector<Neighbours> keys_;
   std::vector<bool> is_warm_;
   std::vector<Answer> answers_;
 };
@@ -218,13 +214,9 @@ Outcome run(const Trial& trial, const Contestant& contestant, bool is_disturbed,
   Outcome outcome;
   Memory memory;
   const int steps = static_cast<int>(std::lround(trial.duration / trial.setup.step));
-  const double energy = world.kinetic_energy();
   for (int k = 0; k < steps; ++k) {
     const Step step(world, contestant, memory, outcome);
     world.step(step.touches());
-    if (!trial.setup.has_friction) {
-      outcome.energy_drift = std::max(outcome.energy_drift, std::abs(world.kinetic_energy() / energy - 1));
-    }
     const auto index = static_cast<std::size_t>(k);
     if (certified != nullptr) {
       outcome.distances.push_back(distance(world, (*certified)[index]));
@@ -235,7 +227,6 @@ Outcome run(const Trial& trial, const Contestant& contestant, bool is_disturbed,
     for (std::size_t body = 0; body < world.bodies(); ++body) positions[body] = world.position(body);
     path->push_back(std::move(positions));
   }
-  outcome.momentum_drift = world.momentum_drift() / world.momentum_scale();
   return outcome;
 }
 

@@ -31,7 +31,7 @@ std::vector<Contestant> contestants();
 using Path = std::vector<std::vector<Vector3>>;
 
 struct Outcome {
-  unsigned long long queries = 0, warm_queries = 0;
+  unsigned long long queries = 0;
   unsigned long long failed = 0;  ///< queries without an answer
   double evaluations = 0;         ///< of both bodies; 0 if the method does not count them
   double seconds = 0;             ///< s; processor time of the queries
@@ -40,8 +40,6 @@ struct Outcome {
   unsigned long long missed = 0;     ///< overlaps that the method reports as apart
   unsigned long long invented = 0;   ///< contacts of bodies that are apart
   unsigned long long undecided = 0;  ///< the certified search ran out of evaluations
-  double energy_drift = 0;           ///< largest change of the kinetic energy, relative to the start; only elastic bodies
-  double momentum_drift = 0;         ///< largest change in a step without walls, relative to the sum of all at the start; likewise
   /// s; when a body is first farther than 1 % of its smallest half-axis from its position in the certified world; infinite: never
   double parted = std::numeric_limits<double>::infinity();
   /// After each step: the largest distance of a body from its position in the certified world, in its smallest half-axes.

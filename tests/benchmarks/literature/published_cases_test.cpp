@@ -116,9 +116,7 @@ TEST_CASE("the 1000 pairs of Goncalves et al. are solved with few failures and n
     int cold, warm;
   };
   const std::map<std::string, Most> most = {{"implicit points (1)", {1, 0}},
-                                            {"implicit points: quadtree (1)", {3, 0}},
                                             {"surface angles (2)", {45, 1}},
-                                            {"surface angles: quadtree (2)", {43, 1}},
                                             {"normal angles (2)", {4, 2}},
                                             {"midway point (3)", {0, 0}},
                                             {"contact space: fixed point (4)", {36, 18}},

@@ -49,14 +49,6 @@ inline std::string power_of_ten(double tolerance) { return common::text("%.0e", 
 
 inline constexpr const char* kCcdEpa = "libccd GJK+EPA 1e-6";
 inline constexpr const char* kCcdMpr = "libccd MPR 1e-4";
-inline constexpr const char* kPointCost = "h and r";
-inline constexpr const char* kCurvatureCost = "h and r and H";  // no commas: names are CSV cells
-inline constexpr const char* kFloorCost = "logarithms and exponentials";
-
-/// Whether the method measures the unit of cost instead of solving a query.
-inline bool is_unit_of_cost(const Method& method) {
-  return method.name() == kPointCost || method.name() == kCurvatureCost || method.name() == kFloorCost;
-}
 
 /// The methods of libccd, with our shapes as support functions.
 Methods libccd_methods();
@@ -89,12 +81,5 @@ Methods literature_methods(Start start, double tolerance);
 /// Trimeshes of ODE with 160, 960 and 3840 triangles, whose vertices are on the bodies. A query without contacts means that the
 /// bodies are apart.
 Methods literature_mesh_methods(Motion motion = Motion::None);
-
-/// The unit of cost: evaluates the gap function up to this order at Pair::normals.
-std::unique_ptr<Method> evaluation_cost(supernormal::Order order);
-
-/// The floor of the cost: the eight logarithms and eight exponentials of the C library in an evaluation of two superellipsoids.
-/// Each power needs one of each.
-std::unique_ptr<Method> floor_cost();
 
 }  // namespace accuracy_cost

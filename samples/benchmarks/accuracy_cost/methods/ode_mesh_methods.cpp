@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "common/ode_geom.hpp"
 #include "method.hpp"
 #include "ode/colliders.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"

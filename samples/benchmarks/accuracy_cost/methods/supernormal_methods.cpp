@@ -1,7 +1,4 @@
-#include <cmath>
-
 #include "method.hpp"
-#include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
 
 namespace accuracy_cost {
@@ -34,45 +31,6 @@ class OurSolver final : public Method {
   Start start_;
 };
 
-class Evaluations final : public Method {
- public:
-  explicit Evaluations(supernormal::Order order)
-      : Method(order == supernormal::Order::Point ? kPointCost : kCurvatureCost), order_(order) {}
-
-  Answer query(const Pair& pair) const override {
-    supernormal::GapFunction gap(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2);
-    supernormal::GapJet jet;
-    Answer answer;
-    for (const supernormal::Vector3& n : pair.normals) {
-      gap.evaluate(n, order_, jet);
-      answer.gap += jet.s;
-    }
-    answer.evaluations = gap.evaluations();
-    return answer;
-  }
-
- private:
-  supernormal::Order order_;
-};
-
-class Floor final : public Method {
- public:
-  Floor() : Method(kFloorCost) {}
-
-  Answer query(const Pair& pair) const override {
-    Answer answer;
-    for (const supernormal::Vector3& n : pair.normals) {
-      const double x = std::abs(n.x()) + 0.01;
-      for (int k = 0; k < kPowers; ++k) answer.gap += std::exp(1.5 * std::log(x + 0.1 * k));
-    }
-    answer.evaluations = kNormalsPerPair;
-    return answer;
-  }
-
- private:
-  static constexpr int kPowers = 8;  // two bodies have two norms each
-};
-
 }  // namespace
 
 std::unique_ptr<Method> supernormal_method(std::string name, Solver solver, Start start, double tolerance) {
@@ -87,9 +45,5 @@ std::unique_ptr<Method> early_out(std::string name, Start start) {
   settings.stop_when_apart = true;
   return std::make_unique<OurSolver>(std::move(name), settings, start);
 }
-
-std::unique_ptr<Method> floor_cost() { return std::make_unique<Floor>(); }
-
-std::unique_ptr<Method> evaluation_cost(supernormal::Order order) { return std::make_unique<Evaluations>(order); }
 
 }  // namespace accuracy_cost
