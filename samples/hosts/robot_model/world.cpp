@@ -92,26 +92,11 @@ void check_direction(const Eigen::Vector3d& vector, const std::string& where) {
 
 }  // namespace
 
-Ode::Ode() {
-  dInitODE2(0);
-  world = dWorldCreate();
-  space = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);  // a hash space ends the program at a geom 3e8 m away
-  contacts = dJointGroupCreate(0);
-}
-
-Ode::~Ode() {
-  dJointGroupDestroy(contacts);
-  dSpaceDestroy(space);
-  dWorldDestroy(world);
-  snClose();
-  dCloseODE();
-}
-
 World::World(const Scene& scene, double density) : scene_(scene) {
   check_number("density", density, scene_.file);
   check_joints();
-  dWorldSetGravity(ode_.world, scene.gravity.x(), scene.gravity.y(), scene.gravity.z());
-  dWorldSetQuickStepNumIterations(ode_.world, 50);  // Gazebo's default
+  dWorldSetGravity(ode_.id(), scene.gravity.x(), scene.gravity.y(), scene.gravity.z());
+  dWorldSetQuickStepNumIterations(ode_.id(), 50);  // Gazebo's default
   weld();
   make_bodies(density);
   place_geoms();
@@ -164,7 +149,7 @@ void World::make_bodies(double density) {
         pieces_.push_back({nullptr, &collision, group_[i]});
         continue;
       }
-      dGeomID geom = create(collision.shape, ode_.space, of_collision);
+      dGeomID geom = create(collision.shape, ode_.space(), of_collision);
       pieces_.push_back({geom, &collision, group_[i]});
       if (link.inertial || !has_body) continue;
       parts[group_[i]].push_back(part_of(mass_of(collision.shape, geom, density), collision.pose));
@@ -186,7 +171,7 @@ void World::make_bodies(double density) {
     }
     require(!parts[group].empty(), where + " has no mass: no <inertial> and no <collision>");
     const dMass mass = sum_of(parts[group], centres_[group], where);
-    dBodyID body = bodies_[group] = dBodyCreate(ode_.world);
+    dBodyID body = bodies_[group] = dBodyCreate(ode_.id());
     dBodySetMass(body, &mass);
     dBodySetGravityMode(body, link.has_gravity ? 1 : 0);
     dBodySetPosition(body, centres_[group].x(), centres_[group].y(), centres_[group].z());
@@ -205,7 +190,7 @@ void World::place_geoms() {
       const Eigen::Vector3d given(normal[0], normal[1], normal[2]);
       check_direction(given, scene_.file + ": collision " + piece.collision->name + ": the normal of <plane>");
       const Eigen::Vector3d n = (pose.linear() * given).normalized();
-      piece.geom = dCreatePlane(ode_.space, n.x(), n.y(), n.z(), n.dot(position));
+      piece.geom = dCreatePlane(ode_.space(), n.x(), n.y(), n.z(), n.dot(position));
       if (!has_plane) plane_ << n, n.dot(position);
       has_plane = true;
     } else if (bodies_[piece.group] == nullptr) {
@@ -218,7 +203,7 @@ void World::place_geoms() {
     }
     dGeomSetData(piece.geom, const_cast<Collision*>(piece.collision));
   }
-  if (!scene_.has_world && !has_plane) dCreatePlane(ode_.space, 0, 0, 1, 0);
+  if (!scene_.has_world && !has_plane) dCreatePlane(ode_.space(), 0, 0, 1, 0);
 }
 
 /// Puts a model without a world on the ground, unless it is fixed.
@@ -245,7 +230,7 @@ void World::connect() {
     if (joint.type == Joint::Type::Fixed || (parent == world && child == world)) continue;
     require(parent != child, scene_.file + ": joint " + joint.name + " connects two links that fixed joints connect");
     const bool is_revolute = joint.type == Joint::Type::Revolute;
-    dJointID id = is_revolute ? dJointCreateHinge(ode_.world, nullptr) : dJointCreateSlider(ode_.world, nullptr);
+    dJointID id = is_revolute ? dJointCreateHinge(ode_.id(), nullptr) : dJointCreateSlider(ode_.id(), nullptr);
     dJointAttach(id, bodies_[child], bodies_[parent]);  // so the position rises when the child moves along the axis
     const auto set = is_revolute ? dJointSetHingeParam : dJointSetSliderParam;
     if (is_revolute) dJointSetHingeAnchor(id, joint.position.x(), joint.position.y(), joint.position.z() + lift_);
@@ -272,18 +257,16 @@ void World::collide(dGeomID geom1, dGeomID geom2) {
     contact.surface = {};
     contact.surface.mode = dContactApprox1;
     contact.surface.mu = std::min(one == nullptr ? 1 : one->friction, two == nullptr ? 1 : two->friction);  // Gazebo's rule
-    dJointAttach(dJointCreateContact(ode_.world, ode_.contacts, &contact), body1, body2);
+    ode_.join(contact, body1, body2);
   }
 }
 
 void World::simulate(double seconds) {
   check_number("seconds", seconds, scene_.file);
-  const auto near = [](void* world, dGeomID geom1, dGeomID geom2) { static_cast<World*>(world)->collide(geom1, geom2); };
   const std::int64_t steps = std::llround(seconds / scene_.step);
   for (std::int64_t i = 0; i < steps; ++i) {
-    dSpaceCollide(ode_.space, this, near);
-    dWorldQuickStep(ode_.world, scene_.step);
-    dJointGroupEmpty(ode_.contacts);
+    ode_.collide([this](dGeomID geom1, dGeomID geom2) { collide(geom1, geom2); });
+    ode_.step(scene_.step);
     check_motion(static_cast<double>(i + 1) * scene_.step);
   }
 }

@@ -4,20 +4,20 @@
 #include <cstddef>
 #include <vector>
 
+#include "common/ode_world.hpp"
 #include "scene.hpp"
 
 namespace robot_model {
 
-/// ODE, with an empty world.
+/// ODE as long as there is a world.
 struct Ode {
-  Ode();
-  ~Ode();
+  Ode() { dInitODE2(0); }
+  ~Ode() {
+    snClose();
+    dCloseODE();
+  }
   Ode(const Ode&) = delete;
   Ode& operator=(const Ode&) = delete;
-
-  dWorldID world;
-  dSpaceID space;
-  dJointGroupID contacts;
 };
 
 /// Links that fixed joints connect are one body. So a fixed joint holds exactly, and a link without mass can be a frame.
@@ -57,9 +57,10 @@ class World {
   };
 
   Scene scene_;
-  Ode ode_;
-  std::vector<std::size_t> group_;  // of a link; the last group is the world
-  std::vector<dBodyID> bodies_;     // of a group; 0 for the world and for groups without links
+  Ode library_;
+  common::OdeWorld ode_{dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ)};  // a hash space ends the program at a geom 3e8 m away
+  std::vector<std::size_t> group_;                                           // of a link; the last group is the world
+  std::vector<dBodyID> bodies_;  // of a group; 0 for the world and for groups without links
   std::vector<Eigen::Vector3d> centres_;
   std::vector<Piece> pieces_;
   std::vector<dJointID> joints_;
