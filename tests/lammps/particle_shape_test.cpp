@@ -6,7 +6,6 @@
 #include <cmath>
 #include <random>
 
-#include "kernel/free_rotation.hpp"
 #include "support/relative.hpp"
 
 using namespace granular;
@@ -43,14 +42,6 @@ TEST_CASE("lammps: the ellipsoid of a shape has its inertia") {
   CHECK((ParticleShape(axes, 2, 2).equal_ellipsoid() - axes).norm() < 1e-12);
   const ParticleShape brick(axes, 12, 20);
   CHECK((ParticleShape(brick.equal_ellipsoid(), 2, 2).unit_inertia - brick.unit_inertia).norm() < 1e-12);
-}
-
-TEST_CASE("lammps: equal shapes are made once") {
-  ShapeCache cache;
-  const ParticleShape& shape = cache.find({1, 2, 3}, 2, 4);
-  CHECK(&cache.find({1, 2, 3}, 2, 4) == &shape);
-  CHECK(&cache.find({1, 2, 3}, 4, 2) != &shape);
-  CHECK(cache.size() == 2);
 }
 
 TEST_CASE("lammps: a symmetric top precesses with Euler's period") {

@@ -6,7 +6,6 @@
 #include <memory>
 #include <utility>
 
-#include "kernel/free_rotation.hpp"
 #include "kernel/pair_contact.hpp"
 #include "kernel/particle_shape.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace granular {
 
@@ -35,17 +34,21 @@ ParticleShape::ParticleShape(const Vector3& half_axes, double delta, double epsi
   }
 }
 
-std::size_t ShapeCache::Hash::operator()(const Key& key) const {
-  std::size_t hash = 0;
-  for (const double value : key) hash = 31 * hash + std::hash<double>()(value);
-  return hash;
-}
-
-const ParticleShape& ShapeCache::find(const Vector3& half_axes, double delta, double epsilon) {
-  const Key key = {half_axes.x(), half_axes.y(), half_axes.z(), delta, epsilon};
-  const auto known = shapes_.find(key);
-  if (known != shapes_.end()) return *known->second;
-  return *shapes_.emplace(key, std::make_unique<const ParticleShape>(half_axes, delta, epsilon)).first->second;
+Eigen::Quaterniond rotate_freely(const Eigen::Quaterniond& orientation, const Vector3& angular_momentum, const Vector3& inertia,
+                                 double step) {
+  Eigen::Quaterniond q = orientation;
+  Vector3 momentum = q.conjugate() * angular_momentum;  // in the body's frame
+  const auto turn = [&](int axis, double duration) {
+    const Eigen::Quaterniond part(Eigen::AngleAxisd(duration * momentum[axis] / inertia[axis], Vector3::Unit(axis)));
+    q = q * part;
+    momentum = part.conjugate() * momentum;
+  };
+  turn(0, 0.5 * step);
+  turn(1, 0.5 * step);
+  turn(2, step);
+  turn(1, 0.5 * step);
+  turn(0, 0.5 * step);
+  return q.normalized();
 }
 
 }  // namespace granular

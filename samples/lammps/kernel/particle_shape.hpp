@@ -1,10 +1,8 @@
-// A superellipsoid with the quantities that a particle simulation needs at every step, and a store of such shapes.
+// A superellipsoid with the quantities that a particle simulation needs at every step, and the rotation of a free one.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <memory>
-#include <unordered_map>
+#include <Eigen/Geometry>
+#include <vector>
 
 #include "kernel/face.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
@@ -33,22 +31,10 @@ struct ParticleShape {
 /// The largest distance of a point of a superellipsoid from its centre, m.
 double bounding_radius(const Vector3& half_axes, double delta, double epsilon);
 
-/// Owns shapes. Their addresses are valid until clear().
-class ShapeCache {
- public:
-  /// The shape with these half-axes (m) and exponents. Throws std::invalid_argument like Superellipsoid.
-  const ParticleShape& find(const Vector3& half_axes, double delta, double epsilon);
-
-  std::size_t size() const { return shapes_.size(); }
-  void clear() { shapes_.clear(); }
-
- private:
-  using Key = std::array<double, 5>;
-  struct Hash {
-    std::size_t operator()(const Key& key) const;
-  };
-
-  std::unordered_map<Key, std::unique_ptr<const ParticleShape>, Hash> shapes_;
-};
+/// The orientation (body to world) after `step` (s) of a body with constant angular momentum (kg m^2/s, world frame). `inertia`:
+/// principal moments (kg m^2) along the axes of its frame. The step consists of five rotations about these axes (Dullweber,
+/// Leimkuhler and McLachlan, J. Chem. Phys. 107, 5840 (1997)). It is symplectic and of second order, so the energy does not drift.
+Eigen::Quaterniond rotate_freely(const Eigen::Quaterniond& orientation, const Vector3& angular_momentum, const Vector3& inertia,
+                                 double step);
 
 }  // namespace granular

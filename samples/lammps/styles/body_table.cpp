@@ -50,7 +50,9 @@ const ParticleShape& BodyTable::find_shape(int i) {
   if (atom.ellipsoid[i] < 0) lammps_->error->one(FLERR, name + " is a point: set its shape");
   const Exponents exponents = delta_ < 0 ? exponents_[static_cast<std::size_t>(atom.type[i])] : Exponents{delta(i), epsilon(i)};
   try {
-    return cache_.find(Vector3::Map(ellipsoids_->bonus[atom.ellipsoid[i]].shape), exponents.delta, exponents.epsilon);
+    const double* const axes = half_axes(i);
+    const std::array key{axes[0], axes[1], axes[2], exponents.delta, exponents.epsilon};
+    return cache_.try_emplace(key, Vector3::Map(axes), exponents.delta, exponents.epsilon).first->second;
   } catch (const std::invalid_argument& refusal) {
     lammps_->error->one(FLERR, name + ": " + refusal.what());
     throw;  // not reached: LAMMPS ends the program or throws
@@ -113,11 +115,6 @@ void BodyTable::read_motion() {
     body.from_centre.setZero();
     if (!clusters_.empty() && !clusters_[i].is_none()) clusters_[i].apply(body);
   }
-}
-
-double BodyTable::bytes() const {
-  return static_cast<double>(bodies_.capacity() * (sizeof(Body) + sizeof(Turn)) + clusters_.capacity() * sizeof(Cluster) +
-                             shapes_.capacity() * sizeof(void*) + cache_.size() * (sizeof(ParticleShape) + 100));
 }
 
 }  // namespace granular

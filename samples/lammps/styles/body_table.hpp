@@ -1,7 +1,9 @@
 // The particles of a rank, owned and ghosts, as bodies of the kernel, and what moves rigid clusters of them.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <map>
 #include <vector>
 
 #include "kernel/body.hpp"
@@ -53,7 +55,6 @@ class BodyTable {
   const Body& body(int i) const { return bodies_[static_cast<std::size_t>(i)]; }
   /// An upper bound of the way (m) of any point of the particle by rotation, since assign_shapes(). It never decreases.
   double rotated(int i) const { return turns_[static_cast<std::size_t>(i)].way; }
-  double bytes() const;  ///< memory in use
 
   /// The quaternion (w, x, y, z; body to world) of particle i, in memory of LAMMPS.
   double* quaternion(int i) const;
@@ -68,8 +69,8 @@ class BodyTable {
   std::vector<Exponents> exponents_;  // per type
   int delta_ = -1, epsilon_ = -1;     // indices of the properties of particles; -1 without
   std::vector<double> largest_radii_;
-  ShapeCache cache_;
-  std::vector<const ParticleShape*> shapes_;  // per particle
+  std::map<std::array<double, 5>, ParticleShape> cache_;  // by half-axes (m) and exponents; addresses are valid until clear()
+  std::vector<const ParticleShape*> shapes_;              // per particle
   std::vector<Body> bodies_;
   std::vector<Cluster> clusters_;
   struct Turn {

@@ -5,7 +5,7 @@
 #include "atom.h"
 #include "domain.h"
 #include "error.h"
-#include "kernel/free_rotation.hpp"
+#include "kernel/particle_shape.hpp"
 #include "update.h"
 
 namespace granular {

@@ -34,7 +34,6 @@ class FixNveSupernormal : public LAMMPS_NS::Fix {
   void unpack_restart(int i, int set) override { forces_.unpack_restart(*atom, i, set); }
   int size_restart(int /*i*/) override { return StoredForces::kRestartSize; }
   int maxsize_restart() override { return StoredForces::kRestartSize; }
-  double memory_usage() override { return forces_.bytes(); }
 
  private:
   void kick(int i);

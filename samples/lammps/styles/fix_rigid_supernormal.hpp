@@ -88,7 +88,6 @@ class FixRigidSupernormal : public Base, public RigidClusters {
   void unpack_restart(int i, int set) override { forces_.unpack_restart(*this->atom, i, set); }
   int size_restart(int /*i*/) override { return StoredForces::kRestartSize; }
   int maxsize_restart() override { return StoredForces::kRestartSize; }
-  double memory_usage() override { return Base::memory_usage() + forces_.bytes(); }
 
   Cluster cluster(int i) const override {
     if constexpr (std::derived_from<Base, LAMMPS_NS::FixRigidSmall>) {

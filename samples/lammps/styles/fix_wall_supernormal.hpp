@@ -42,7 +42,6 @@ class FixWallSupernormal : public LAMMPS_NS::Fix {
   int maxsize_restart() override;
   void write_restart(FILE* file) override;
   void restart(char* buffer) override;
-  double memory_usage() override { return static_cast<double>(histories_.capacity() * sizeof(WallHistory)); }
 
  private:
   static constexpr int kSums = 8;         // energy, force, torque, contacts

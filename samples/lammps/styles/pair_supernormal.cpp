@@ -501,10 +501,6 @@ void PairSupernormal::unpack_forward_comm(int count, int first, double* buffer) 
   }
 }
 
-double PairSupernormal::memory_usage() {
-  return Pair::memory_usage() + bodies_->bytes() + static_cast<double>(proofs_.capacity() * sizeof(double));
-}
-
 void PairSupernormal::write_restart(FILE* file) { exchange_coefficients(file, true); }
 
 void PairSupernormal::read_restart(FILE* file) {

@@ -37,7 +37,6 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   /// Copies the exponents and the clusters of particles to their ghosts.
   int pack_forward_comm(int count, int* indices, double* buffer, int pbc_flag, int* pbc) override;
   void unpack_forward_comm(int count, int first, double* buffer) override;
-  double memory_usage() override;
 
   void write_restart(FILE* file) override;
   void read_restart(FILE* file) override;

@@ -56,8 +56,6 @@ class StoredForces {
     std::copy_n(at(i).begin() + 3, 3, atom.torque[i]);
   }
 
-  double bytes() const { return static_cast<double>(forces_.capacity() * sizeof(Forces)); }  ///< memory in use
-
  private:
   using Forces = std::array<double, kSize>;
   static constexpr Forces none() { return {std::numeric_limits<double>::quiet_NaN()}; }
