@@ -1,4 +1,4 @@
-// What the program measures: queries, and dCollide at every class of ODE and beside libccd.
+// What the program measures: queries, and dCollide at every class of ODE, at rest, and beside libccd.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,11 @@ common::MeasuredTable literature_costs(std::size_t pairs, std::uint64_t seed, co
 /// medians. The bodies take turns on each pose, so that a disturbance of the machine affects all of them. Consecutive queries
 /// differ by 1e-3 (m and rad), as in a simulation, so a warm start has its usual effect.
 void write_collider_costs(std::size_t poses, std::uint64_t seed, const Effort& effort, std::ostream& out);
+
+/// Lays superellipsoids of several exponents, and a dBox of the same size, on a plane, a dBox, a dTriMesh and bodies of their own
+/// kind. They overlap as deep as bodies at rest. Measures dCollide and writes Markdown tables of the medians and of the
+/// evaluations. The bodies take turns, and each query has another pose than the preceding one.
+void write_face_costs(const Effort& effort, std::ostream& out);
 
 /// Writes a Markdown table: dCollide without a warm start and with room for one contact, beside libccd GJK+EPA with the same
 /// support functions, on the same random pairs. `pairs`: of each class and situation.

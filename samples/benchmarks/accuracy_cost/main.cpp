@@ -29,6 +29,7 @@ struct Options {
   double batch_us = Effort{}.batch * 1e6;
   bool colliders = false;
   std::size_t poses = 200;
+  bool faces = false;
   bool dcollide = false;
   bool atlas = false;
   bool literature = false;
@@ -37,10 +38,11 @@ struct Options {
 
 void run(const Options& options) {
   const Effort effort{options.rounds, options.batch_us * 1e-6};
-  if (options.colliders || options.dcollide) {
+  if (options.colliders || options.faces || options.dcollide) {
     if (snInit() == 0) throw std::runtime_error(snLastError());
     for (const auto& [name, value] : environment()) std::cout << "* " << name << ": " << value << "\n";
     if (options.colliders) write_collider_costs(options.poses, options.seed, effort, std::cout);
+    if (options.faces) write_face_costs(effort, std::cout);
     if (options.dcollide) write_pair_costs(options.pairs / kPairRows, options.seed, effort, std::cout);
     return snClose();
   }
@@ -63,6 +65,7 @@ int main(int argc, char** argv) {
                    "queries at every accuracy, also of the literature; scene_cost measures scenes into the same folder");
     what->add_flag("--literature", options.literature, "our solvers beside the methods of the literature");
     what->add_flag("--colliders", options.colliders, "dCollide against every class of ODE");
+    what->add_flag("--faces", options.faces, "dCollide of bodies at rest, by their exponents");
     what->add_flag("--dcollide", options.dcollide, "dCollide of two of our bodies beside libccd");
     app.add_option("--seed", options.seed, "of the draw")->capture_default_str();
     app.add_option("--rounds", options.rounds, "timings of each pair and method")
