@@ -378,7 +378,6 @@ void CommonNormal::finish(const Place& place) {
   is_converged_ = place.step.norm() <= kLargestStep && all_finite(point1_) && all_finite(lever2_);
   const double size1 = gap_.shape1().half_extents().norm(), size2 = gap_.shape2().half_extents().norm(),
                size = std::min(size1, size2);
-
   is_sharp_ = kNearby * size * place.response.G.norm() > kSharp;
   const auto is_beside_face = [&](const ShapeTraits& traits, const BodyCurvature& body, double own_size) {
     const bool is_flat_rim = body.flat_count > 0 && !place.has_active_set;
