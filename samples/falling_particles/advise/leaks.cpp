@@ -72,13 +72,15 @@ class Sight {
 
 bool is_back_of(const Wall& wall, int triangle, const Vector3& direction) {
   const auto* const mesh = std::get_if<MeshShape>(&wall.shape);
-  if (mesh == nullptr || triangle < 0) return false;
+  if (mesh == nullptr || mesh->two_sided || triangle < 0) return false;
   const auto& [a, b, c] = mesh->triangles[static_cast<std::size_t>(triangle)];
   const auto corner = [&](unsigned int i) { return Eigen::Map<const Eigen::Vector3f>(mesh->vertices[i].data()).cast<double>(); };
   const Vector3 side = corner(b) - corner(a), other = corner(c) - corner(a);
   return (wall.start.rotation * side.cross(other)).dot(direction) > 0;
 }
 
+// For the closest hit only, ODE would test one of the two windings of a triangle of a two-sided mesh, possibly the one that the
+// mesh then rejects. So all hits are collected.
 Seen Sight::look(const Point& from, const Vector3& direction) const {
   constexpr int kMostHits = 64;
   dGeomRaySet(ray_.get(), from[0], from[1], from[2], direction.x(), direction.y(), direction.z());
@@ -169,7 +171,7 @@ void add_backs(const Sight& sight, const Scene& scene, const Lookout& origin, st
   for (const auto& [wall, count] : counts) {
     doubts.push_back(wall->called() + ": " + origin.some(count) +
                      " behind a triangle, which does not hold them: a triangle is solid behind, and holds what sees its corners "
-                     "anticlockwise; turn its corners around, or give a sheet a part.thickness, which holds grains on both sides");
+                     "anticlockwise; turn its corners around, or let part.two_sided = true hold grains on both sides");
   }
 }
 

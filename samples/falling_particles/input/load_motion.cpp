@@ -82,7 +82,7 @@ void read_solid(const TomlTable& table, const Wall& wall, Flight& flight) {
     flight.inertia = flight.mass / solid->volume * solid->inertia();
   } else if (!table.has("inertia")) {
     table.fail("", table.full_name("inertia") +
-                       " is missing, and the mesh has no volume: its triangles do not close, "
+                       " is missing, and the mesh has no volume: it is two-sided, or its triangles do not close, "
                        "with their fronts outside; allowed: three numbers, " +
                        kMoments.unit);
   }

@@ -10,6 +10,7 @@
 #include "common/mesh.hpp"
 #include "load_sections.hpp"
 #include "model/container.hpp"
+#include "model/two_sided_mesh.hpp"
 #include "model/wall.hpp"
 #include "supernormal/shapes/superovoid.hpp"
 
@@ -22,7 +23,7 @@ const std::vector<std::string> kShapes = {"plane", "box", "cylinder", "mesh", "e
 std::vector<std::string> keys_of_shape(const std::string& shape) {
   if (shape == "box") return {"size"};
   if (shape == "cylinder") return {"radius", "length"};
-  if (shape == "mesh") return {"file", "unit", "thickness"};
+  if (shape == "mesh") return {"file", "unit", "two_sided"};
   if (shape == "ellipsoid") return {"half_axes"};
   if (shape == "superellipsoid") return {"half_axes", "delta", "epsilon"};
   if (shape == "superovoid") return {"half_axes", "delta", "epsilon", "taper"};
@@ -68,7 +69,7 @@ SmoothShape read_smooth(const TomlTable& table, const std::string& shape) {
 
 /// The number of triangles that occur in both windings. In a single-sided mesh, each winding pushes grains behind it to its front.
 /// So grains sink in from both sides, up to the middle.
-std::size_t count_doubled(const Mesh& mesh) {
+std::size_t count_two_sided(const Mesh& mesh) {
   const auto from_lowest = [](std::array<unsigned int, 3> corners) {
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     return corners;
@@ -91,8 +92,10 @@ MeshShape read_mesh(const TomlTable& table, const std::string& scene_path) {
   }
   const auto* const found = std::ranges::find(kUnits, unit, [](const auto& entry) { return std::string(entry.first); });
   MeshShape mesh;
+  mesh.two_sided = table.has("two_sided") && table.boolean("two_sided");
   try {
-    mesh = load_mesh((std::filesystem::path(scene_path).parent_path() / name).string(), found->second);
+    static_cast<Mesh&>(mesh) = load_mesh((std::filesystem::path(scene_path).parent_path() / name).string(), found->second);
+    if (mesh.two_sided) mesh.triangles = sheets_of(mesh).triangles;
   } catch (const std::runtime_error& error) {
     table.refuse("file", std::string(": ") + error.what());
   }
@@ -100,21 +103,13 @@ MeshShape read_mesh(const TomlTable& table, const std::string& scene_path) {
     table.refuse("unit", " is \"" + unit + "\", with which the mesh reaches " + shortest(bounding_radius(mesh)) +
                              " m from its origin; allowed: up to " + shortest(kLargestLength) + " m");
   }
-  if (const std::size_t count = count_doubled(mesh); count > 0) {
+  if (const std::size_t count = count_two_sided(mesh); count > 0) {
     table.refuse("file", ": \"" + name + "\" has " + counted(count, "triangle") +
                              " with corners in both orders, between which grains would sink; allowed: each triangle "
-                             "once, solid behind, and " +
-                             table.full_name("thickness") + " for a sheet, which then holds grains on both sides");
+                             "once, solid behind, or " +
+                             table.full_name("two_sided") + " = true, which holds grains on both sides");
   }
-  if (!table.has("thickness")) return mesh;
-  const double thickness = table.number("thickness", Interval::positive(kLargestLength, "m"));
-  const std::optional<Mesh> shell = shell_of(mesh, thickness);
-  if (!shell) {
-    table.refuse("thickness", ": \"" + name +
-                                  "\" has two triangles that run along their common edge in the same direction; allowed: at most "
-                                  "two triangles at an edge, with the same side in front");
-  }
-  return *shell;
+  return mesh;
 }
 
 WallShape read_shape(const TomlTable& table, const std::string& scene_path) {

@@ -44,8 +44,8 @@ std::vector<Wall> walls_of(const Hopper& hopper) {
     walls.push_back(plane("lid", {0, 0, hopper.clearance}, Vector3::UnitZ()));
     walls.back().role = WallRole::Lid;
   }
-  walls.push_back(side("hopper", make_mesh(hopper)));
-  if (hopper.dish) walls.push_back(side("dish", make_mesh(*hopper.dish, hopper.segments)));
+  walls.push_back(side("hopper", MeshShape{make_mesh(hopper)}));
+  if (hopper.dish) walls.push_back(side("dish", MeshShape{make_mesh(*hopper.dish, hopper.segments)}));
   return walls;
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <optional>
-#include <set>
 #include <supernormal/shapes/box.hpp>
 #include <supernormal/shapes/cylinder.hpp>
 #include <supernormal/shapes/superovoid.hpp>
@@ -27,40 +27,28 @@ double radius_of(const MeshShape& mesh) {
   return radius;
 }
 
-Vector3 vertex_of(const Mesh& mesh, unsigned int index) {
-  const auto& [x, y, z] = mesh.vertices[index];
-  return {x, y, z};
-}
-
-using Edge = std::pair<unsigned int, unsigned int>;
-
-/// The edges that have no triangle on their other side, as their triangles run along them; empty if two triangles run along an
-/// edge in the same direction.
-std::optional<std::vector<Edge>> rim_of(const Mesh& mesh) {
-  std::set<Edge> edges;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    for (const Edge& edge : {Edge(a, b), Edge(b, c), Edge(c, a)}) {
-      if (!edges.insert(edge).second) return std::nullopt;
-    }
-  }
-  std::vector<Edge> rim;
-  std::ranges::copy_if(edges, std::back_inserter(rim), [&](const Edge& edge) {
-    return !edges.contains({edge.second, edge.first});
-  });
-  return rim;
-}
-
+/// Whether each edge of each triangle is the edge of one other triangle, in the other direction.
 bool is_closed(const Mesh& mesh) {
-  const std::optional<std::vector<Edge>> rim = rim_of(mesh);
-  return rim && rim->empty();
+  std::map<std::pair<unsigned int, unsigned int>, int> edges;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    for (const auto& edge : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) ++edges[edge];
+  }
+  return std::ranges::all_of(edges, [&](const auto& entry) {
+    const auto back = edges.find({entry.first.second, entry.first.first});
+    return entry.second == 1 && back != edges.end();
+  });
 }
 
 /// The sum over the tetrahedra from the origin to the triangles.
 supernormal::MassProperties sum_of(const Mesh& mesh) {
   supernormal::MassProperties sum;
+  const auto corner = [&](unsigned int index) {
+    const auto& [x, y, z] = mesh.vertices[index];
+    return Vector3(x, y, z);
+  };
   Vector3 first_moment = Vector3::Zero();
   for (const auto& [i, j, k] : mesh.triangles) {
-    const Vector3 a = vertex_of(mesh, i), b = vertex_of(mesh, j), c = vertex_of(mesh, k), s = a + b + c;
+    const Vector3 a = corner(i), b = corner(j), c = corner(k), s = a + b + c;
     const double volume = a.dot(b.cross(c)) / 6;
     sum.volume += volume;
     first_moment += volume / 4 * s;
@@ -142,32 +130,9 @@ std::optional<supernormal::MassProperties> solid_of(const WallShape& shape) {
     return supernormal::Superovoid(body->half_axes, body->delta, body->epsilon, body->taper_x, body->taper_y).mass_properties();
   }
   const auto* mesh = std::get_if<MeshShape>(&shape);
-  if (mesh == nullptr || !is_closed(*mesh)) return std::nullopt;
+  if (mesh == nullptr || mesh->two_sided || !is_closed(*mesh)) return std::nullopt;
   const supernormal::MassProperties solid = sum_of(*mesh);
   return solid.volume > 0 ? std::optional(solid) : std::nullopt;
-}
-
-std::optional<Mesh> shell_of(const Mesh& sheet, double thickness) {
-  const std::optional<std::vector<Edge>> rim = rim_of(sheet);
-  if (!rim) return std::nullopt;
-  std::vector<Vector3> normals(sheet.vertices.size(), Vector3::Zero());  // weighted by areas
-  for (const auto& [i, j, k] : sheet.triangles) {
-    const Vector3 a = vertex_of(sheet, i);
-    const Vector3 normal = (vertex_of(sheet, j) - a).cross(vertex_of(sheet, k) - a);
-    for (const unsigned int corner : {i, j, k}) normals[corner] += normal;
-  }
-  const auto count = static_cast<unsigned int>(normals.size());
-  Mesh shell;
-  for (const double side : {1.0, -1.0}) {
-    for (unsigned int i = 0; i < count; ++i) {
-      const Eigen::Vector3f place = (vertex_of(sheet, i) + side * thickness / 2 * normals[i].normalized()).cast<float>();
-      shell.vertices.push_back({place.x(), place.y(), place.z()});
-    }
-  }
-  shell.triangles = sheet.triangles;
-  for (const auto& [a, b, c] : sheet.triangles) shell.triangles.push_back({c + count, b + count, a + count});
-  for (const auto& [a, b] : *rim) shell.triangles.insert(shell.triangles.end(), {{b, a, a + count}, {b, a + count, b + count}});
-  return shell;
 }
 
 std::optional<FacingFaces> facing_faces(const WallShape& first, const WallPose& at_first, const WallShape& second,

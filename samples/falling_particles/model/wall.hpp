@@ -55,7 +55,9 @@ struct SmoothShape {
 };
 
 /// Triangles in the wall's frame.
-using MeshShape = Mesh;
+struct MeshShape : Mesh {
+  bool two_sided = false;  ///< whether grains meet it from the side of their centres, or only from the front
+};
 
 /// A ground over a rectangle around the wall's position, solid below. Its triangles join heights on a grid, as ODE lays them: each
 /// cell is divided by the diagonal from its lowest x and y to its highest.
@@ -107,12 +109,8 @@ double bounding_radius(const WallShape& shape);
 double thinnest(const WallShape& shape);
 
 /// The volume, centroid and moments of a wall's solid, in its frame; empty for walls without a finite volume: planes, grounds,
-/// and meshes whose triangles do not close with their fronts outside.
+/// two-sided meshes, and meshes whose triangles do not close with their fronts outside.
 std::optional<supernormal::MassProperties> solid_of(const WallShape& shape);
-
-/// A sheet with half of `thickness` (m) on each side, along the normals of its vertices, and a rim: grains meet it from both sides.
-/// Empty if two triangles run along their common edge in the same direction, as where three meet in one or on a Möbius strip.
-std::optional<Mesh> shell_of(const Mesh& sheet, double thickness);
 
 /// Two parallel faces that face each other, of planes or boxes.
 struct FacingFaces {

@@ -103,7 +103,7 @@ struct Mesher {
     for (const auto& [a, b, c] : found.triangles) mesh.triangles.push_back({a, b, c});
     return mesh;
   }
-  Mesh operator()(const MeshShape& mesh) const { return mesh; }
+  Mesh operator()(const MeshShape& mesh) const { return {mesh.vertices, mesh.triangles}; }
   Mesh operator()(const GroundShape& ground) const {
     const auto samples = static_cast<unsigned int>(ground.samples);
     const auto place = [&](unsigned int index, std::size_t axis) { return (index - (samples - 1) / 2.0) * ground.spacing[axis]; };
@@ -265,6 +265,8 @@ WallPicture picture_of(const Wall& wall, const Box3& region) {
                       {}};
   // Smooth bodies have no edges, however sharply their triangles bend.
   if (!std::holds_alternative<SmoothShape>(wall.shape)) picture.edges = sharp_edges(picture.mesh);
+  const auto* const mesh = std::get_if<MeshShape>(&wall.shape);
+  picture.two_sided = mesh != nullptr && mesh->two_sided;
   if (wall.moves()) return picture;
   for (auto& corner : picture.mesh.vertices) corner = vertex(wall.start(Vector3(corner[0], corner[1], corner[2])));
   return picture;

@@ -23,6 +23,7 @@ struct WallPicture {
   Role role;
   Mesh mesh;                                       ///< grains are on the side from which its triangles run anticlockwise
   std::vector<std::array<unsigned int, 2>> edges;  ///< vertices of the mesh, joined by lines that make the wall easier to see
+  bool two_sided = false;                          ///< whether grains are on the other side, too
 };
 
 /// The pictures of a container's walls. Walls of infinite height are shown up to z = top (m). A box has none across periodic axes.

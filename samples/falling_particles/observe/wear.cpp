@@ -75,7 +75,8 @@ Extent extent_of(const Polygon& polygon) {
   return extent;
 }
 
-/// The triangles of a mesh as contacts number them; empty for other shapes.
+/// The triangles of a mesh as contacts number them; empty for other shapes. Contacts with the other side of a two-sided mesh have
+/// higher numbers.
 std::vector<Extent> triangles_of(const Wall& wall, const PeriodicAxes& axes) {
   const auto* const mesh = std::get_if<MeshShape>(&wall.shape);
   if (mesh == nullptr) return {};

@@ -111,7 +111,7 @@ std::string container(const WallPicture& wall, const std::vector<Vector3>& verti
   const auto is_shown = [&](const std::array<unsigned int, 3>& corners) {
     const auto& [a, b, c] = corners;
     const Vector3 normal = (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]);
-    return is_solid || normal.dot(camera.eye - vertices[a]) > 0;
+    return is_solid || wall.two_sided || normal.dot(camera.eye - vertices[a]) > 0;
   };
   std::string text = "\n// " + wall.name + "\n", triangles;
   for (const auto& corners : wall.mesh.triangles) {

@@ -131,10 +131,15 @@ dGeomID WallBodies::create_geom(const GroundShape& ground) {
 }
 
 dGeomID WallBodies::create_geom(const MeshShape& mesh) {
+  const TwoSidedMesh* const sheets =
+      mesh.two_sided ? two_sided_.emplace_back(std::make_unique<const TwoSidedMesh>(mesh)).get() : nullptr;
+  const auto& triangles = sheets == nullptr ? mesh.triangles : sheets->triangles();
   const dTriMeshDataID data = mesh_data_.emplace_back(dGeomTriMeshDataCreate());
   dGeomTriMeshDataBuildSingle(data, mesh.vertices.data(), sizeof(mesh.vertices[0]), static_cast<int>(mesh.vertices.size()),
-                              mesh.triangles.data(), static_cast<int>(3 * mesh.triangles.size()), sizeof(mesh.triangles[0]));
-  return dCreateTriMesh(nullptr, data, nullptr, nullptr, nullptr);
+                              triangles.data(), static_cast<int>(3 * triangles.size()), sizeof(triangles[0]));
+  const dGeomID geom = dCreateTriMesh(nullptr, data, nullptr, nullptr, nullptr);
+  if (sheets != nullptr) sheets->attach(geom);
+  return geom;
 }
 
 const WallBodies::Entry& WallBodies::named(const std::string& name) const {

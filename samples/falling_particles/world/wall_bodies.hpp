@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "driven_body.hpp"
+#include "model/two_sided_mesh.hpp"
 #include "model/wall.hpp"
 
 namespace falling_particles {
@@ -146,6 +147,7 @@ class WallBodies {
   std::unordered_map<dGeomID, std::size_t> index_of_;
   std::vector<dTriMeshDataID> mesh_data_;
   std::vector<dHeightfieldDataID> ground_data_;
+  std::vector<std::unique_ptr<const TwoSidedMesh>> two_sided_;
 };
 
 }  // namespace falling_particles

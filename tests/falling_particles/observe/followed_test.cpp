@@ -202,7 +202,7 @@ TEST_CASE("wear: VTK and glTF files show the wear of each triangle of a mesh, an
                    "0\nf 1 2 5\nf 1 5 4\nf 2 3 6\nf 2 6 5\n");
   const std::string strip =
       "[[part]]\nname = \"block\"\nshape = \"box\"\nsize = [0.01, 0.01, 0.01]\nposition = [1, 1, 1]\n"
-      "[[part]]\nname = \"strip\"\nshape = \"mesh\"\nunit = \"m\"\nfile = \"" +
+      "[[part]]\nname = \"strip\"\nshape = \"mesh\"\nunit = \"m\"\ntwo_sided = true\nfile = \"" +
       mesh + "\"\n";
   Scene scene = with_grains(
       open_scene(strip + wear_every(0.1) + wear_every(0.1, "name = \"worn\"\nper = \"triangle\"\n"), 0.1, kGravity, kNoFriction),

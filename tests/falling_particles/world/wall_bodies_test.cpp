@@ -282,8 +282,8 @@ TEST_CASE("a brick that rides on a plate, a free box on a rotating wall or a gra
 }
 
 TEST_CASE("a ball rests on the surface of every shape, and rises with it") {
-  const MeshShape square{{{-0.1F, -0.1F, 0.02F}, {0.1F, -0.1F, 0.02F}, {0.1F, 0.1F, 0.02F}, {-0.1F, 0.1F, 0.02F}},
-                         {{0, 1, 2}, {0, 2, 3}}};
+  const MeshShape square{
+      {{{-0.1F, -0.1F, 0.02F}, {0.1F, -0.1F, 0.02F}, {0.1F, 0.1F, 0.02F}, {-0.1F, 0.1F, 0.02F}}, {{0, 1, 2}, {0, 2, 3}}}};
   const std::vector<std::pair<WallShape, double>> shapes = {
       {PlaneShape{}, 0},
       {BoxShape{{0.1, 0.1, 0.04}}, 0.02},
