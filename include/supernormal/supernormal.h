@@ -455,8 +455,9 @@ SUPERNORMAL_ODE_API dReal snStepperStep(snStepperID stepper, dReal step);
 SUPERNORMAL_ODE_API int snStepperMoves(snStepperID stepper, dBodyID body);
 
 /** sag: the largest overlap of a contact at rest, relative to the least radius of gyration of its bodies, in [1e-12, 1]; default
- * 2e-3. least and most: sub-steps of a step, in [1, 1000000]; default 8 and 64. The loads decide between them; loads that ask for
- * more than `most` overlap by more. Returns 1; 0 (and snLastError) if refused. */
+ * 2e-3. Two free bodies of which neither looks ahead keep up to five times as much. least and most: sub-steps of a step, in [1,
+ * 1000000]; default 8 and 64. The loads decide between them; loads that ask for more than `most` overlap by more. Returns 1; 0 (and
+ * snLastError) if refused. */
 SUPERNORMAL_ODE_API int snStepperSetAccuracy(snStepperID stepper, dReal sag, int least, int most);
 
 /** The force (N) on body 1 of a contact, its mean over the time that the last snStepperStep returned. The contacts have the numbers

@@ -59,7 +59,7 @@ says "warning: the root mean square distance of the data from the surface is"
 # tessellated DELTA EPSILON NOISE: 1600 vertices on a superellipsoid, and the triangles between them
 tessellated() {
   awk -v d="$1" -v e="$2" -v noise="$3" 'BEGIN {
-    srand(1); print "OFF\n1600 3120 0"
+    srand(1); print "OFF\n1600 3122 0"
     for (i = 0; i < 40; ++i) for (j = 0; j < 40; ++j) {
       u = (i + 0.5) * 3.14159265358979 / 40; v = j * 3.14159265358979 / 20; x = sin(u) * cos(v); y = sin(u) * sin(v); z = cos(u)
       r = ((((x / 3) ^ 2) ^ (d / 2) + ((y / 2) ^ 2) ^ (d / 2)) ^ (e / d) + (z ^ 2) ^ (e / 2)) ^ (-1 / e) + noise * (rand() - 0.5)
@@ -68,6 +68,11 @@ tessellated() {
     for (i = 0; i < 39; ++i) for (j = 0; j < 40; ++j) {
       a = i * 40 + j; b = i * 40 + (j + 1) % 40
       printf "3 %d %d %d\n3 %d %d %d\n", a, a + 40, b, b, a + 40, b + 40
+    }
+    for (end = 0; end < 2; ++end) {
+      printf "40"
+      for (j = 0; j < 40; ++j) printf " %d", end ? 1599 - j : j
+      print ""
     }
   }'
 }
@@ -82,6 +87,11 @@ done
 tessellated 4 6 0.05 >noise.off
 expect 0 "$fit" noise.off --quick
 silent "the vertices are fitted"
+
+# The volume of the facets says nothing of the body on which the vertices lie.
+tessellated 4 6 0.001 >noise.off
+expect 0 "$fit" noise.off --quick --vertices
+awk '$1 == "epsilon" && ($2 - 6) ^ 2 < 0.03 ^ 2 { found = 1 } END { exit !found }' log || fail "$(cat log)"
 
 # Units and what is open are in the JSON.
 expect 0 "$fit" egg.xyz --unit mm --density 2600 --out units

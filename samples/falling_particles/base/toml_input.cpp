@@ -122,8 +122,9 @@ std::vector<std::string> TomlTable::choices(std::string_view key, const std::vec
     const bool is_repeated = is_allowed && std::ranges::find(result, *word) != result.end();
     if (!is_allowed || is_repeated) {
       const std::string hint = is_repeated ? " for the second time" : word ? did_you_mean(*word, allowed) : "";
-      refuse_at(node_->file, element.source(),
-                full_name(key) + "[" + std::to_string(result.size()) + "] is " + describe(element) + hint + "; allowed: " + all);
+      std::ostringstream text;
+      text << full_name(key) << '[' << result.size() << "] is " << describe(element) << hint << "; allowed: " << all;
+      refuse_at(node_->file, element.source(), text.str());
     }
     result.push_back(*word);
   }
@@ -215,8 +216,8 @@ std::vector<std::string> TomlTable::names() const {
   std::vector<std::pair<unsigned, std::string>> by_line;
   for (const auto& [key, value] : *node_->table) by_line.emplace_back(key.source().begin.line, key.str());
   std::ranges::sort(by_line);
-  std::vector<std::string> result;
-  for (auto& [line, name] : by_line) result.push_back(std::move(name));
+  std::vector<std::string> result(by_line.size());
+  std::ranges::transform(by_line, result.begin(), [](auto& entry) { return std::move(entry.second); });
   return result;
 }
 

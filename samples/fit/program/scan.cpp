@@ -74,7 +74,8 @@ FitSettings settings_of(const Options& options, const Scan& scan) {
   settings.rejects_outliers = options.outliers == "auto" ? !is_mesh : options.outliers == "reject";
   if (is_mesh && options.noise == "auto") settings.noise = Noise::AlongNormal;
   settings.is_whole = scan.is_closed;
-  if (settings.is_whole) settings.volume = volume_target(scan.data);
+  // That of the facets is below the body's, on which the vertices are.
+  if (settings.is_whole && !options.uses_vertices) settings.volume = volume_target(scan.data);
   if (is_mesh) settings.mesh = scan.data;
   if (is_mesh) settings.surface = sample_triangles(scan.data.vertices.points, scan.data.triangles, kSurfacePoints, 4);
   const std::map<std::string, Sides> sides = {{"auto", Sides::Auto}, {"all", Sides::All}, {"some", Sides::Some}};
