@@ -88,6 +88,16 @@ tessellated 4 6 0.05 >noise.off
 expect 0 "$fit" noise.off --quick
 silent "the vertices are fitted"
 
+# All vertices of a cylinder lie on its two rims, and these on many bodies.
+awk 'BEGIN {
+  print "OFF\n120 62 0"
+  for (k = 0; k < 120; ++k) print cos(k * 3.14159265358979 / 30), sin(k * 3.14159265358979 / 30), k < 60 ? -1 : 1
+  for (j = 0; j < 60; ++j) print 4, j, (j + 1) % 60, 60 + (j + 1) % 60, 60 + j
+  for (end = 0; end < 2; ++end) { printf "60"; for (j = 0; j < 60; ++j) printf " %d", end ? 60 + j : 59 - j; print "" }
+}' >cylinder.off
+expect 0 "$fit" cylinder.off --quick
+silent "the vertices are fitted"
+
 # The volume of the facets says nothing of the body on which the vertices lie.
 tessellated 4 6 0.001 >noise.off
 expect 0 "$fit" noise.off --quick --vertices

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -29,14 +31,23 @@ Cloud points_of(const Data& data, bool uses_vertices) {
   return sample_triangles(data.vertices.points, data.triangles, count, 1);
 }
 
-/// Whether the vertices of a mesh lie on a body near the one that fits its facets. The facets then lie below, and exponents that
-/// are fitted to them are too small by many standard errors.
-bool is_tessellated(const Scan& scan, const FittedBody& to_facets, const FitSettings& settings) {
+/// The body near the one that fits the facets of a mesh, if its vertices lie on it. The facets then lie below, and exponents that
+/// are fitted to them are off by many standard errors. A body that is sought anew may be far from the facets: all vertices of a
+/// cylinder lie on ellipsoids.
+std::optional<FittedBody> body_of_vertices(const Scan& scan, const FittedBody& to_facets, const FitSettings& settings) {
   const Cloud& vertices = scan.data.vertices;
-  if (scan.data.triangles.empty() || vertices.points.size() < kFewestVertices) return false;
-  const FittedBody found = refine_body(to_facets.body, vertices, settings);
+  if (scan.data.triangles.empty() || vertices.points.size() < kFewestVertices) return std::nullopt;
+  FittedBody found = refine_body(to_facets.body, vertices, settings);
   const double sigma = to_facets.uncertainty.sigma;
-  return found.uncertainty.sigma <= kVertices * sigma && find_distances(scan, {found}).rms <= kFacets * sigma;
+  const FitError distances = find_distances(scan, {found});
+  // The vertices on the rims of a cylinder leave open what its facets say.
+  const auto &by_facets = to_facets.uncertainty.is_determined, &by_vertices = found.uncertainty.is_determined;
+  const bool leaves_open =
+      std::inner_product(by_facets.begin(), by_facets.end(), by_vertices.begin(), false, std::logical_or<>(), std::greater<>());
+  if (leaves_open || found.uncertainty.sigma > kVertices * sigma) return std::nullopt;
+  if (distances.rms > std::min(kFacets * sigma, kMostDistance * distances.radius)) return std::nullopt;
+  found.is_tessellated = true;
+  return found;
 }
 
 }  // namespace
@@ -93,11 +104,10 @@ std::vector<FittedBody> fit_scan(const Scan& scan, const Options& options) {
       say("looking for " + std::to_string(count) + " of at most " + std::to_string(largest) + " bodies");
     });
     settings.volume.reset();  // of the facets
-    if (fitted.size() > 1 || !is_tessellated(scan, fitted.front(), settings)) return fitted;
+    const auto of_vertices = fitted.size() > 1 ? std::nullopt : body_of_vertices(scan, fitted.front(), settings);
+    if (!of_vertices) return fitted;
     say("the vertices of the mesh lie on a body, and its facets below: the vertices are fitted");
-    fitted = {fit_body(scan.data.vertices, settings)};
-    fitted.front().is_tessellated = true;
-    return fitted;
+    return {*of_vertices};
   } catch (const std::invalid_argument& error) {
     throw InputError(scan.path + ": " + error.what());
   }
