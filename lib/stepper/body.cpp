@@ -41,12 +41,12 @@ double damping(const Vector3& velocity, double scale, double threshold, double f
   return scale > 0 && velocity.squaredNorm() > threshold * threshold ? std::pow(1 - scale, fraction) : 1;
 }
 
-/// kg m^2; the least principal moment of inertia.
-double least_moment(const Matrix3& inertia) {
-  if (inertia.isDiagonal(0)) return inertia.diagonal().minCoeff();
+/// kg m^2; the principal moments of inertia, in any order.
+Vector3 principal_moments(const Matrix3& inertia) {
+  if (inertia.isDiagonal(0)) return inertia.diagonal();
   Eigen::SelfAdjointEigenSolver<Matrix3> principal;
   principal.computeDirect(inertia, Eigen::EigenvaluesOnly);
-  return std::max(principal.eigenvalues()[0], std::numeric_limits<double>::min());
+  return principal.eigenvalues().cwiseMax(std::numeric_limits<double>::min());
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ void Body::read(const Vector3& gravity, bool is_rest) {
     torque_ = torque;
   }
   inverse_mass = 0;
-  size = std::numeric_limits<double>::infinity();
+  size = thickness = std::numeric_limits<double>::infinity();
   world_inverse_inertia.setZero();
   if (is_free) {
     read_mass();
@@ -96,7 +96,9 @@ void Body::read_mass() {
   inertia_ = ode::to_rotation(mass.I);
   inverse_inertia_ = inertia_.inverse();
   turn_inertia();
-  size = std::sqrt(least_moment(inertia_) * inverse_mass);
+  const Vector3 moments = principal_moments(inertia_);
+  size = std::sqrt(moments.minCoeff() * inverse_mass);
+  thickness = std::sqrt(std::max(0.0, moments.sum() - 2 * moments.maxCoeff()) * inverse_mass);
 }
 
 void Body::restore_forces() const {

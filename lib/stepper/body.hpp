@@ -74,15 +74,18 @@ struct Body {
   Matrix3 rotation = Matrix3::Identity();           ///< now
   Matrix3 world_inverse_inertia = Matrix3::Zero();  ///< 1/(kg m^2), when the step began or it last bounced; now, if is_followed
   double size = std::numeric_limits<double>::infinity();  ///< m; the smallest radius of gyration; infinite for what no force moves
-  bool is_touched = false;                                ///< whether it has a contact
-  bool is_borne = false;                                  ///< whether it touches what it has a contact with
-  bool is_followed = false;                               ///< whether a contact or a joint follows its motion within the step
-  bool is_free = false;                                   ///< whether it is not kinematic
-  bool stirs = false;                                     ///< whether it wakes what it touches: kinematic bodies at rest do not
-  bool is_awake = false;                                  ///< whether it moves; spreads by contacts
-  bool is_held = false;     ///< whether a joint holds it for which quickstep must move it; spreads by contacts and joints
-  bool is_centred = false;  ///< whether its sub-steps are centred in time; spreads by contacts
-  bool is_restless = true;  ///< whether it must not sleep; spreads by contacts
+  /// m; the least distance of its mass from a plane through the centre, root mean square times the root of 2: `size` for a cube,
+  /// and in proportion to the thickness of a plate. Infinite for what no force moves.
+  double thickness = std::numeric_limits<double>::infinity();
+  bool is_touched = false;   ///< whether it has a contact
+  bool is_borne = false;     ///< whether it touches what it has a contact with
+  bool is_followed = false;  ///< whether a contact or a joint follows its motion within the step
+  bool is_free = false;      ///< whether it is not kinematic
+  bool stirs = false;        ///< whether it wakes what it touches: kinematic bodies at rest do not
+  bool is_awake = false;     ///< whether it moves; spreads by contacts
+  bool is_held = false;      ///< whether a joint holds it for which quickstep must move it; spreads by contacts and joints
+  bool is_centred = false;   ///< whether its sub-steps are centred in time; spreads by contacts
+  bool is_restless = true;   ///< whether it must not sleep; spreads by contacts
 
  private:
   void read_mass();

@@ -341,6 +341,22 @@ TEST_CASE("towers of ten boxes of ODE come to rest, and four carry a hundred tim
   }
 }
 
+TEST_CASE("plates of ODE that are much wider than thick rest one on another") {
+  for (const double thickness : {0.05, 0.005}) {
+    OnFloor scene(0.005);
+    std::vector<dBodyID> plates;
+    for (int i = 0; i < 5; ++i) {
+      dMass mass;
+      dMassSetBox(&mass, 1000, 1, 1, dReal(thickness));
+      plates.push_back(
+          scene.add(dCreateBox(scene.world.space(), 1, 1, dReal(thickness)), mass, {0, 0, (0.5 + 1.01 * i) * thickness}));
+    }
+    scene.run(1.5);
+    for (std::size_t i = 0; i < plates.size(); ++i)
+      CHECK(place_of(plates[i])[2] / thickness == doctest::Approx(0.5 + double(i)).epsilon(0.02));
+  }
+}
+
 TEST_CASE("a brick carries a hundred times its mass") {
   Random random(6);
   for (const double step : {0.002, 0.01, 0.033}) {
